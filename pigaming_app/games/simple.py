@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import replace
 from math import atan2, sqrt
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pigaming_app.games.starts import clear_starts
 from pigaming_app.sim.angles import turn_to
@@ -24,6 +24,8 @@ class MatchRules:
     """The rules of any match."""
 
     ticks: int  # of the regular time
+    if TYPE_CHECKING:
+        turn_rate: float  # rad/s; each game has its own place for it
 
 
 @record

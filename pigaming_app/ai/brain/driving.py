@@ -8,6 +8,7 @@ from collections.abc import Callable
 from math import atan2, cos
 from typing import Any, Protocol
 
+from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.angles import turn_to
 
 TURN_GAIN = 6.0  # rad/s for each rad between heading and stick
@@ -34,12 +35,12 @@ Driving = Callable[[Any, int, Controller], tuple[float, float]]
 """(match state, seat, device) to (linear, angular)."""
 
 
-def turn_and_drive(state: Any, seat: int, stick: Controller) -> tuple[float, float]:
+def turn_and_drive(state: MatchState, seat: int, stick: Controller) -> tuple[float, float]:
     """The stick as it is."""
     return stick.linear, stick.angular
 
 
-def point_where_to_go(state: Any, seat: int, stick: Controller) -> tuple[float, float]:
+def point_where_to_go(state: MatchState, seat: int, stick: Controller) -> tuple[float, float]:
     """Drive in the direction of the stick on the screen, as fast as it is deflected."""
     robot = state.robots[seat]
     return pointed(stick.angular, -stick.linear, robot.heading, robot.angular, state.rules.turn_rate)

@@ -11,6 +11,7 @@ from typing import Any
 
 from pigaming_app.ai.brain.driving import Controller, Driving, turn_and_drive
 from pigaming_app.ai.brain.thoughts import Thoughts
+from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import packed, record
 
@@ -58,11 +59,11 @@ class BrainPlayer:
         self.weights = kind.weights(False)[0]
         kind.reset(self.mind, seed)
 
-    def think(self, state: Any, seat: int) -> None:
+    def think(self, state: MatchState, seat: int) -> None:
         """Set the seat's action for this tick."""
         self.kind.think(state, seat, self.mind, self.weights)
 
-    def explain(self, state: Any, seat: int) -> Thoughts | None:
+    def explain(self, state: MatchState, seat: int) -> Thoughts | None:
         """The brain's present reasoning; None if this kind has no `explain`."""
         return self.kind.explain(state, seat, self.mind, self.weights) if self.kind.explain else None
 
@@ -73,7 +74,7 @@ class HumanPlayer:
     def __init__(self, read: Callable[[], Controller], driving: Driving = turn_and_drive) -> None:
         self.read, self.driving = read, driving
 
-    def think(self, state: Any, seat: int) -> None:
+    def think(self, state: MatchState, seat: int) -> None:
         """Set the seat's action from the device's present state."""
         device = self.read()
         linear, angular = self.driving(state, seat, device)
@@ -90,7 +91,7 @@ class OneButtonPlayer:
         self.read, self.brain, self.boosts = read, brain, boosts
         self._buttons = 0, 0  # fire and turbo as the AI last set them: on most ticks it leaves its action as it was
 
-    def think(self, state: Any, seat: int) -> None:
+    def think(self, state: MatchState, seat: int) -> None:
         """Set the seat's action: the AI's stick, and the button's present state."""
         device, action = self.read(), state.actions[seat]
         action.fire, action.turbo = self._buttons

@@ -1,18 +1,27 @@
 """Steering towards points and along routes; frozen, because the results of `classic` depend on it."""
 
 from math import atan2, pi, sqrt
-from typing import Any
+from typing import Protocol
 
+from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.flow_field import update_route
+from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import LAG
 from pigaming_app.sim.world import DT
 
 
+class Posed(Protocol):
+    """A robot, or an observation of one's own: px, px, rad."""
+
+    x: float
+    y: float
+    heading: float
+
+
 @kernel
-def bearing(robot: Any, x: float, y: float) -> float:
+def bearing(robot: Posed, x: float, y: float) -> float:
     """Direction of a point (arena px) relative to the robot's heading, rad."""
     return turn_to(atan2(y - robot.y, x - robot.x) - robot.heading)
 
@@ -38,7 +47,7 @@ def approach(angle: float, distance: float) -> tuple[float, float]:
 
 
 @kernel
-def follow(match: Any, seat: int, route: Any, period: int) -> None:
+def follow(match: MatchState, seat: int, route: Route, period: int) -> None:
     """Set the action that follows `route` for the next `period` ticks."""
     robot = match.robots[seat]
     update_route(match, route, robot.x, robot.y)

@@ -1,8 +1,5 @@
 """Stuck detection and recovery, and a recovery reflex for learned brains, which have neither.
 
-Minds that use `ticks_stuck`, `choose_escape` and `escape` need the fields `anchor_x`, `anchor_y`, `stuck_ticks`,
-`escape`, `escape_turn`, `since` and a random generator.
-
 The reflex overrides a learned policy for a second when the robot pushes without moving. It is not part of the policy
 and is off during training and evaluation. It first drives towards the opponent round the walls; if that fails, it
 backs out with a random turn. A robot that stands still without seeing its opponent for long is sent off as well. By the
@@ -10,17 +7,18 @@ backs out with a random turn. A robot that stands still without seeing its oppon
 for ten ticks after 2.5 s, and never moves a waiting robot.
 """
 
-from typing import Any
+from typing import Protocol
 
 from pigaming_app.ai.brain.steering import follow
+from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.flow_field import Route
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import uniform
+from pigaming_app.sim.rng import Rng, uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import HZ, Action, Robot
 
 PROGRESS = 20.0  # px of displacement that reset the reflex
 PUSHING = round(1.5 * HZ)  # ticks of pushing in place until the reflex acts
@@ -32,8 +30,29 @@ STUCK_DISTANCE = 20.0  # px; a smaller displacement counts as stuck
 FREEING = 20  # ticks of one attempt to back out
 
 
+class Anchored(Protocol):
+    """A mind that `ticks_stuck` uses: the position at the last progress, px, and the ticks since then."""
+
+    anchor_x: float
+    anchor_y: float
+    stuck_ticks: int
+
+
+class Escaping(Rng, Protocol):
+    """A mind that `choose_escape` uses: forward and turn stick while backing out."""
+
+    escape: float
+    escape_turn: float
+
+
+class Stuck(Anchored, Escaping, Protocol):
+    """A mind that `escape` uses: in addition the ticks since its attempt began."""
+
+    since: int
+
+
 @kernel
-def ticks_stuck(mind: Any, x: float, y: float, idle: bool, near: float, period: int) -> int:
+def ticks_stuck(mind: Anchored, x: float, y: float, idle: bool, near: float, period: int) -> int:
     """Ticks since a robot, now at (x, y), was last idle or moved more than `near` px; call every `period` ticks."""
     dx, dy = x - mind.anchor_x, y - mind.anchor_y
     if idle or dx * dx + dy * dy > near * near:
@@ -44,18 +63,15 @@ def ticks_stuck(mind: Any, x: float, y: float, idle: bool, near: float, period: 
 
 
 @kernel
-def choose_escape(mind: Any, back: float, odds: float) -> None:
+def choose_escape(mind: Escaping, back: float, odds: float) -> None:
     """Choose the stick for backing out: `back` with probability `odds`, else `-back`, and a random turn."""
     mind.escape = back if uniform(mind) < odds else -back
     mind.escape_turn = 2.0 * uniform(mind) - 1.0
 
 
 @kernel
-def escape(mind: Any, x: float, y: float, action: Any) -> int:
-    """Back out with a turn, and reverse direction if still stuck after FREEING ticks. Returns 1 once free.
-
-    `mind.since` must count the ticks since the attempt began.
-    """
+def escape(mind: Stuck, x: float, y: float, action: Action) -> int:
+    """Back out with a turn, and reverse direction if still stuck after FREEING ticks. Returns 1 once free."""
     set_action(action, mind.escape, mind.escape_turn, 0, 0)
     if mind.since < FREEING:
         return 0
@@ -83,12 +99,15 @@ class Reflex:
     turn: float
 
 
-@kernel
-def act_on_reflex(match: Any, seat: int, opponent: int, mind: Any, period: int) -> int:
-    """Let the reflex set the action of the next `period` ticks if it has to; 1 if it did.
+class WithReflex(Rng, Protocol):
+    """A mind with a reflex."""
 
-    `mind` needs a field `reflex` and a random generator.
-    """
+    reflex: Reflex
+
+
+@kernel
+def act_on_reflex(match: PiTanks, seat: int, opponent: int, mind: WithReflex, period: int) -> int:
+    """Let the reflex set the action of the next `period` ticks if it has to; 1 if it did."""
     reflex = mind.reflex
     if not reflex.on:
         return 0
@@ -113,7 +132,7 @@ def act_on_reflex(match: Any, seat: int, opponent: int, mind: Any, period: int) 
 
 
 @kernel
-def update_reflex(match: Any, robot: Any, opponent: int, reflex: Any, action: Any, period: int) -> None:
+def update_reflex(match: PiTanks, robot: Robot, opponent: int, reflex: Reflex, action: Action, period: int) -> None:
     """Count the ticks of pushing against anything but the opponent, and of waiting without sight of the opponent."""
     dx, dy = robot.x - reflex.x, robot.y - reflex.y
     if dx * dx + dy * dy > PROGRESS * PROGRESS:

@@ -4,16 +4,15 @@ In every function `obs` is the Observation, `mind` a Mind and `action` the seat'
 """
 
 from math import cos, pi, sin, sqrt
-from typing import Any
 
 from pigaming_app.ai.brain.steering import turn_stick
-from pigaming_app.ai.factory.mind import FAR, PERIOD, keep_patience
-from pigaming_app.games.factory.observation import OTHERS
+from pigaming_app.ai.factory.mind import FAR, PERIOD, Mind, keep_patience
+from pigaming_app.games.factory.observation import OTHERS, Observation, SlotView
 from pigaming_app.games.factory.state import WORKERS
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.world import CELL
+from pigaming_app.sim.world import CELL, Action
 
 AT = 24.0  # px between fork and slot within which it presses fire
 TURN_IN = 30.0  # px short of the slot, measured at the fork, at which it turns towards the slot
@@ -29,7 +28,7 @@ PERSON_ROOM = 70.0  # px between the centres of a robot and a person it passes
 
 
 @kernel
-def drive_to(obs: Any, mind: Any, action: Any) -> None:
+def drive_to(obs: Observation, mind: Mind, action: Action) -> None:
     """Drive to the target slot; once there, turn to it and use the fork."""
     slot, route = obs.slots[mind.target], mind.senses.route
     moved = not route.active or route.goal_x != slot.x or route.goal_y != slot.y
@@ -47,7 +46,7 @@ def drive_to(obs: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def make_way(obs: Any, mind: Any, action: Any) -> None:
+def make_way(obs: Observation, mind: Mind, action: Action) -> None:
     """Wait clear of people and of the slot, driving to and fro in arcs."""
     speed, turn = LOITER if obs.seconds_left % (2.0 * TO_AND_FRO) < TO_AND_FRO else -LOITER, LOITER_TURN
     if obs.goal_distance < STAND_OFF - 40.0:
@@ -65,14 +64,14 @@ def make_way(obs: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def draw_back(obs: Any, action: Any) -> None:
+def draw_back(obs: Observation, action: Action) -> None:
     """Draw back slowly, unless a person or a robot is close behind."""
     behind = free_distance(obs, pi, ROBOT_ROOM)
     set_action(action, -DRAW_BACK if behind > 40.0 else 0.0, 0.3, 0, 0)
 
 
 @kernel
-def handle(obs: Any, mind: Any, action: Any, slot: Any) -> None:
+def handle(obs: Observation, mind: Mind, action: Action, slot: SlotView) -> None:
     """Turn to the slot, bring the fork over it and press fire."""
     dx, dy = obs.fork_x - slot.x, obs.fork_y - slot.y
     if dx * dx + dy * dy < AT * AT:
@@ -87,7 +86,7 @@ def handle(obs: Any, mind: Any, action: Any, slot: Any) -> None:
 
 
 @kernel
-def follow_route(obs: Any, mind: Any, action: Any) -> None:
+def follow_route(obs: Observation, mind: Mind, action: Action) -> None:
     """Follow the route, or the free direction nearest to it if people or robots block it."""
     bearing = obs.waypoint_bearing
     free = False
@@ -110,7 +109,7 @@ def follow_route(obs: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def free_distance(obs: Any, turn: float, robots: float) -> float:
+def free_distance(obs: Observation, turn: float, robots: float) -> float:
     """Free distance in direction `turn` (rad, relative to the heading), px; 1000 if nothing is in the way.
 
     It ends PERSON_ROOM px from a person or `robots` px from a robot.
@@ -138,7 +137,7 @@ def free_gap(distance: float, bearing: float, clearance: float) -> float:
 
 
 @kernel
-def update_patience(obs: Any, mind: Any) -> None:
+def update_patience(obs: Observation, mind: Mind) -> None:
     """`keep_patience`, with progress measured along the route."""
     left = obs.goal_distance
     if not obs.straight:
@@ -147,7 +146,7 @@ def update_patience(obs: Any, mind: Any) -> None:
 
 
 @kernel
-def make_detour(obs: Any, mind: Any, action: Any) -> None:
+def make_detour(obs: Observation, mind: Mind, action: Action) -> None:
     """Drive towards another slot for a while, so that the route to the target changes."""
     slot, route = obs.slots[mind.via], mind.senses.route
     moved = route.goal_x != slot.x or route.goal_y != slot.y

@@ -4,9 +4,9 @@ All times are in seconds from now, positions in px. In every function `obs` is t
 """
 
 from math import sqrt
-from typing import Annotated, Any
+from typing import Annotated
 
-from pigaming_app.games.factory.observation import OTHERS
+from pigaming_app.games.factory.observation import OTHERS, Observation
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, MACHINE_SLOTS, MACHINES, RAW, WORKERS, A
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -81,7 +81,7 @@ class Model:
 
 
 @kernel
-def survey(obs: Any, model: Any) -> None:
+def survey(obs: Observation, model: Model) -> None:
     """Fill in the model from the observation."""
     model.lot_count = 0
     survey_helpers(obs, model)
@@ -95,7 +95,7 @@ def survey(obs: Any, model: Any) -> None:
 
 
 @kernel
-def add_lot(model: Any, state: int, lies: int, ready: float, rush: float) -> int:
+def add_lot(model: Model, state: int, lies: int, ready: float, rush: float) -> int:
     """Add a pallet if there is room for it; returns 1 + its number, 0 if there is none."""
     if model.lot_count == LOTS:
         return 0
@@ -106,7 +106,7 @@ def add_lot(model: Any, state: int, lies: int, ready: float, rush: float) -> int
 
 
 @kernel
-def survey_helpers(obs: Any, model: Any) -> None:
+def survey_helpers(obs: Observation, model: Model) -> None:
     """Fill in the workers: those at a machine are busy until it is done."""
     for w in range(WORKERS):
         person, helper = obs.people[w], model.helpers[w]
@@ -119,7 +119,7 @@ def survey_helpers(obs: Any, model: Any) -> None:
 
 
 @kernel
-def survey_machine(obs: Any, model: Any, m: int) -> None:
+def survey_machine(obs: Observation, model: Model, m: int) -> None:
     """Fill in machine m, and add the pallets that it holds."""
     bench, s = model.benches[m], MACHINE_SLOTS + 2 * m + 1
     into, out = obs.slots[s - 1], obs.slots[s]
@@ -152,7 +152,7 @@ def survey_machine(obs: Any, model: Any, m: int) -> None:
 
 
 @kernel
-def survey_hands(obs: Any, model: Any) -> None:
+def survey_hands(obs: Observation, model: Model) -> None:
     """Fill in the robots of the team, and add what they carry."""
     hand = model.hands[0]
     hand.x, hand.y, hand.free, hand.lot, hand.first, hand.into = obs.x, obs.y, obs.frozen * DT, 0, 0, 0
@@ -175,11 +175,11 @@ def survey_hands(obs: Any, model: Any) -> None:
 
 
 @kernel
-def work(model: Any, bench: Any, at: float) -> float:
+def work(model: Model, bench: Bench, at: float) -> float:
     """Let a machine begin work with the worker who is there first, not before `at`; returns the time of its end."""
     if bench.fast:
         bench.free, bench.idle = at, at + FAST_PROCESS
-        return bench.idle  # type: ignore[no-any-return]
+        return bench.idle
     best, soonest = 0, NEVER
     for w in range(WORKERS):
         helper = model.helpers[w]
@@ -196,11 +196,11 @@ def work(model: Any, bench: Any, at: float) -> float:
     share = SPOT / (sqrt(dx * dx + dy * dy) + 1.0)
     bench.free, bench.idle = soonest, soonest + PROCESS
     helper.x, helper.y, helper.free = bench.x + share * dx, bench.y + share * dy, bench.idle
-    return bench.idle  # type: ignore[no-any-return]
+    return bench.idle
 
 
 @kernel
-def copy_model(to: Any, model: Any) -> None:
+def copy_model(to: Model, model: Model) -> None:
     """Copy a model."""
     to.lot_count, to.hand_count = model.lot_count, model.hand_count
     for k in range(model.lot_count):

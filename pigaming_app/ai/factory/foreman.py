@@ -12,30 +12,22 @@ In party it prefers rush orders and the fast machine, and takes whatever pallet 
 
 from typing import Any
 
-from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain.kind import BrainKind, NoWeights
 from pigaming_app.ai.factory.driving import draw_back, drive_to, make_detour, update_patience
-from pigaming_app.ai.factory.mind import PERIOD, PLAN, Mind, back_out, detect_stuck, perhaps_slip
-from pigaming_app.ai.factory.task_allocation import choose_job
-from pigaming_app.games.factory.observation import observe
+from pigaming_app.ai.factory.mind import PERIOD, PLAN, back_out, detect_stuck, perhaps_slip
+from pigaming_app.ai.factory.task_allocation import ForemanMind, choose_job
+from pigaming_app.games.factory.observation import Observation, observe
+from pigaming_app.games.factory.state import Factory
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import seeded, uniform
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import HZ, Action
 
 START = 150  # upper limit of the random delay before the first job, ticks; with 20, Ice won 70 % in yard
 
 
-@record
-class ForemanMind(Mind):
-    """Memory of the driver."""
-
-    pause: int  # ticks of pause after each job
-    joint: int  # 1: considers the job of its mate when it chooses its own
-
-
 @kernel
-def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
+def think(match: Factory, seat: int, mind: ForemanMind, weights: NoWeights) -> None:
     """Observe and decide every PERIOD ticks; the action holds in between."""
     if (match.tick + seat) % PERIOD:
         return
@@ -46,7 +38,7 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 
 
 @kernel
-def act(obs: Any, mind: Any, action: Any) -> None:
+def act(obs: Observation, mind: ForemanMind, action: Action) -> None:
     """Allocate a job when due, then work on it."""
     if obs.carries != mind.carried:  # a job has just ended
         mind.carried, mind.plan_in, mind.resting = obs.carries, 0, mind.pause

@@ -6,13 +6,14 @@ the allocation between mates.
 
 from collections.abc import Iterator
 from math import pi, tau
-from typing import Any
 
+from pigaming_app.ai.brain.kind import NoWeights
 from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, PERSON, PETALS, WAY, Percept, Thoughts, blend, clamp, towards
 from pigaming_app.ai.factory.driving import LOOK, ROBOT_ROOM, free_distance
 from pigaming_app.ai.factory.mind import STUCK_TICKS
-from pigaming_app.ai.factory.task_allocation import NO, QUEUE, cheapest_place, cost_of, distance_to
-from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, INPUT, OUTPUT, RAW, B
+from pigaming_app.ai.factory.task_allocation import NO, QUEUE, ForemanMind, cheapest_place, cost_of, distance_to
+from pigaming_app.games.factory.observation import Observation, SlotView
+from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, INPUT, OUTPUT, RAW, B, Factory
 
 DEAR = 2600.0  # cost of a job with utility 0, px
 FAR = 1600.0  # distance at which the utility of putting down falls to its minimum of 0.2, px
@@ -20,7 +21,7 @@ JOBS = {"raw": RAW, "half": HALF, "done": DONE}
 LOADS = {RAW: "raw", HALF: "half", DONE: "done", DAMAGED: "damaged"}
 
 
-def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
+def explain(match: Factory, seat: int, mind: ForemanMind, weights: NoWeights) -> Thoughts:
     """Thoughts of the factory brain on `seat`."""
     obs = mind.obs
     if not obs.turn_rate or mind.target < 0:
@@ -39,7 +40,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     )
 
 
-def _behaviour(obs: Any, mind: Any, slot: Any) -> tuple[str, str]:
+def _behaviour(obs: Observation, mind: ForemanMind, slot: SlotView) -> tuple[str, str]:
     """Text keys of the present behaviour and its reason."""
     if obs.frozen:
         return "frozen", "bumped"
@@ -61,7 +62,7 @@ def _behaviour(obs: Any, mind: Any, slot: Any) -> tuple[str, str]:
     return bring, "rush" if obs.rush else "fast" if slot.fast else LOADS[obs.carries - 1]
 
 
-def _chosen(obs: Any, mind: Any, slot: Any, behaviour: str) -> str:
+def _chosen(obs: Observation, mind: ForemanMind, slot: SlotView, behaviour: str) -> str:
     if behaviour == "free":
         return "free"
     if mind.near or behaviour in ("frozen", "ponder"):
@@ -69,7 +70,7 @@ def _chosen(obs: Any, mind: Any, slot: Any, behaviour: str) -> str:
     return "put" if obs.carries else LOADS.get(slot.holds - 1, "wait")
 
 
-def _utilities(obs: Any, mind: Any) -> dict[str, float]:
+def _utilities(obs: Observation, mind: ForemanMind) -> dict[str, float]:
     """Utilities: for each state of a pallet that of its best job; for putting down, higher the nearer the place."""
     utilities = dict.fromkeys(JOBS, 0.0)
     for s in range(obs.slot_count):
@@ -85,7 +86,7 @@ def _utilities(obs: Any, mind: Any) -> dict[str, float]:
     return utilities
 
 
-def _facts(obs: Any, mind: Any) -> dict[str, float]:
+def _facts(obs: Observation, mind: ForemanMind) -> dict[str, float]:
     return {
         "target": mind.target,
         "carries": obs.carries,
@@ -99,7 +100,7 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
     }
 
 
-def _percepts(obs: Any, mind: Any, behaviour: str) -> Iterator[Percept]:
+def _percepts(obs: Observation, mind: ForemanMind, behaviour: str) -> Iterator[Percept]:
     """Nearby people and robots, and the route to the slot."""
     for person in obs.people:
         if person.distance < 2.0 * LOOK:
@@ -113,7 +114,7 @@ def _percepts(obs: Any, mind: Any, behaviour: str) -> Iterator[Percept]:
         yield Percept(GOAL, obs.slots[mind.target].x, obs.slots[mind.target].y)
 
 
-def _rose(obs: Any, mind: Any, behaviour: str) -> list[float]:
+def _rose(obs: Observation, mind: ForemanMind, behaviour: str) -> list[float]:
     """Attraction along the route, repulsion from blocked directions."""
     blocked = [clamp(free_distance(obs, tau * k / PETALS, ROBOT_ROOM) / LOOK) - 1.0 for k in range(PETALS)]
     if behaviour in ("frozen", "ponder"):

@@ -3,16 +3,16 @@
 In every function `obs` is the Observation and `mind` a PlannerMind.
 """
 
-from typing import Any
-
 from pigaming_app.ai.factory.driving import STAND_OFF
 from pigaming_app.ai.factory.floor_model import NEVER
-from pigaming_app.ai.factory.mind import AVOID_TICKS
-from pigaming_app.ai.factory.schedule import cheapest_schedule, look, promised
+from pigaming_app.ai.factory.mind import AVOID_TICKS, Mind
+from pigaming_app.ai.factory.navigation import Ways
+from pigaming_app.ai.factory.schedule import Plan, cheapest_schedule, look, promised
 from pigaming_app.ai.factory.task_allocation import cheapest_place, distance_to, waiting_place
-from pigaming_app.games.factory.observation import OTHERS
+from pigaming_app.games.factory.observation import OTHERS, Observation
 from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, MACHINE_SLOTS, MACHINES
 from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import uniform
 
 BLUNDER = 4.0  # s, largest error of a cost at `mind.noise` 1
@@ -22,8 +22,21 @@ ROOM, CROWDED = 250.0, 800.0  # px from a mate within which it does not park, an
 PATIENT = 16  # plans, eight seconds, for which it waits with a pallet before it brings it back to the shelf
 
 
+@record
+class PlannerMind(Mind):
+    """Memory of the planner."""
+
+    plan: Plan
+    ways: Ways
+    best_speed: float  # share of full speed once it is warm
+    warm_up: float  # share of its speed that it lacks at the beginning of a match
+    hesitation: float  # s of pause after each job, on average
+    wait: float  # s until the fork can be used at the target
+    pressed: int  # 1: fire was pressed at the last decision
+
+
 @kernel
-def plan_job(obs: Any, mind: Any) -> None:
+def plan_job(obs: Observation, mind: PlannerMind) -> None:
     """Set `mind.target`, `mind.wait` and `mind.near`."""
     mind.near, mind.wait = 0, 0.0
     best = -1
@@ -46,7 +59,7 @@ def plan_job(obs: Any, mind: Any) -> None:
 
 
 @kernel
-def keep_exit(obs: Any, mind: Any) -> None:
+def keep_exit(obs: Observation, mind: PlannerMind) -> None:
     """Stay with the slot of the exit that it drives to, as long as it can be reached and used.
 
     The nearest one may change with every turn round an obstacle, and with it the way round.
@@ -59,7 +72,7 @@ def keep_exit(obs: Any, mind: Any) -> None:
 
 
 @kernel
-def parking_place(obs: Any) -> int:
+def parking_place(obs: Observation) -> int:
     """Slot to wait at when there is nothing to do: of the own entry, the nearest that is not near a mate."""
     best, least = 0, NEVER
     for s in range(MACHINE_SLOTS):
@@ -78,7 +91,7 @@ def parking_place(obs: Any) -> int:
 
 
 @kernel
-def cost_of_job(obs: Any, mind: Any, s: int) -> float:
+def cost_of_job(obs: Observation, mind: PlannerMind, s: int) -> float:
     """Cost of the cheapest schedule from `mind.plan.now` on, which begins at slot s, s."""
     cost = cheapest_schedule(obs, mind.plan)
     if mind.target == s:
@@ -91,7 +104,7 @@ def cost_of_job(obs: Any, mind: Any, s: int) -> float:
 
 
 @kernel
-def best_lot(obs: Any, mind: Any) -> int:
+def best_lot(obs: Observation, mind: PlannerMind) -> int:
     """Slot of the pallet to lift next; -1 if there is none."""
     model = mind.plan.now
     best, least = -1, NEVER
@@ -110,7 +123,7 @@ def best_lot(obs: Any, mind: Any) -> int:
 
 
 @kernel
-def best_place(obs: Any, mind: Any) -> int:
+def best_place(obs: Observation, mind: PlannerMind) -> int:
     """Slot for the carried pallet; -1 if there is none."""
     model, state = mind.plan.now, obs.carries - 1
     if state == DONE:

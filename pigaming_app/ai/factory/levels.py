@@ -6,7 +6,8 @@ better in one match than in another, as with people.
 """
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.factory.planner import PlannerMind, make_reset, think
+from pigaming_app.ai.factory.job_choice import PlannerMind
+from pigaming_app.ai.factory.planner import make_reset, think
 
 LEVELS: tuple[BrainKind, ...] = (
     BrainKind(

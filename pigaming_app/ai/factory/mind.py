@@ -3,8 +3,6 @@
 In every function `obs` is the Observation and `mind` a Mind.
 """
 
-from typing import Any
-
 from pigaming_app.ai.brain.unstick import choose_escape, ticks_stuck
 from pigaming_app.games.factory.observation import Observation, Senses
 from pigaming_app.games.factory.state import WORKERS
@@ -12,7 +10,7 @@ from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import uniform
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import HZ, Action
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 PLAN = 25  # ticks between two choices of a job
@@ -60,20 +58,20 @@ class Mind:
 
 
 @kernel
-def perhaps_slip(obs: Any, mind: Any) -> None:
+def perhaps_slip(obs: Observation, mind: Mind) -> None:
     """After a job: set out the wrong way, with the probability `mind.slip`."""
     if mind.slip > 0.0 and uniform(mind) < mind.slip:
         start_detour(obs, mind, SLIP)
 
 
 @kernel
-def start_detour(obs: Any, mind: Any, ticks: int) -> None:
+def start_detour(obs: Observation, mind: Mind, ticks: int) -> None:
     """Drive towards a slot at random for some ticks."""
     mind.detour, mind.via = ticks, int(uniform(mind) * obs.slot_count)
 
 
 @kernel
-def keep_patience(obs: Any, mind: Any, left: float) -> None:
+def keep_patience(obs: Observation, mind: Mind, left: float) -> None:
     """Avoid the target for AVOID_TICKS ticks after PATIENCE ticks without progress; `left`: remaining way, px.
 
     If that target fails again while it is avoided, for want of another, make a detour to approach from elsewhere.
@@ -93,7 +91,7 @@ def keep_patience(obs: Any, mind: Any, left: float) -> None:
 
 
 @kernel
-def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
+def detect_stuck(obs: Observation, mind: Mind, action: Action) -> None:
     """Start backing out if it has been stuck for STUCK_TICKS."""
     if ticks_stuck(mind, obs.x, obs.y, False, STUCK_DISTANCE, PERIOD) > STUCK_TICKS:
         mind.stuck_ticks, mind.freeing = 0, FREEING
@@ -101,7 +99,7 @@ def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def back_out(obs: Any, mind: Any, action: Any) -> None:
+def back_out(obs: Observation, mind: Mind, action: Action) -> None:
     """Back out with a turn, away from any person within STOP px."""
     mind.freeing -= PERIOD
     for w in range(WORKERS):

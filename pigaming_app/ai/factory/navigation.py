@@ -5,16 +5,17 @@ count. A side at which a person stands costs DETOUR px more.
 """
 
 from math import atan2, sqrt
-from typing import Annotated, Any
+from typing import Annotated
 
-from pigaming_app.games.factory.observation import OTHERS
-from pigaming_app.games.factory.state import MACHINE_SLOTS, MACHINES, WORKERS
+from pigaming_app.games.factory.observation import OTHERS, Observation
+from pigaming_app.games.factory.state import MACHINE_SLOTS, MACHINES, WORKERS, Factory
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
+from pigaming_app.sim.world import Robot
 
 CORNERS = 4 * MACHINES
 CORNER = 108.0  # px from the centre of a machine
@@ -44,7 +45,7 @@ class Ways:
 
 
 @kernel
-def build_ways(match: Any, obs: Any, ways: Any) -> None:
+def build_ways(match: Factory, obs: Observation, ways: Ways) -> None:
     """Build the graph."""
     ways.built, ways.goal_x = 1, -FAR
     for m in range(MACHINES):
@@ -63,7 +64,7 @@ def build_ways(match: Any, obs: Any, ways: Any) -> None:
 
 
 @kernel
-def side_cost(obs: Any, ways: Any, i: int, j: int) -> float:
+def side_cost(obs: Observation, ways: Ways, i: int, j: int) -> float:
     """DETOUR if a person stands at the side of a machine between two neighbouring corners, else 0."""
     x, y = 0.5 * (ways.x[i] + ways.x[j]), 0.5 * (ways.y[i] + ways.y[j])
     for w in range(WORKERS):
@@ -81,7 +82,7 @@ def side_cost(obs: Any, ways: Any, i: int, j: int) -> float:
 
 
 @kernel
-def measure_ways(match: Any, obs: Any, ways: Any, x: float, y: float) -> None:
+def measure_ways(match: Factory, obs: Observation, ways: Ways, x: float, y: float) -> None:
     """Update the ways from all corners to the goal (x, y)."""
     if ways.goal_x != x or ways.goal_y != y:
         ways.goal_x, ways.goal_y = x, y
@@ -108,13 +109,13 @@ def measure_ways(match: Any, obs: Any, ways: Any, x: float, y: float) -> None:
 
 
 @kernel
-def leads_on(ways: Any, i: int, j: int) -> bool:
+def leads_on(ways: Ways, i: int, j: int) -> bool:
     """True if the way from corner i to the goal leads over corner j."""
     return bool(i == j or ways.edges[i * CORNERS + j] + ways.left[j] <= ways.left[i] + 1.0)
 
 
 @kernel
-def choose_waypoint(match: Any, robot: Any, obs: Any, ways: Any, x: float, y: float) -> None:
+def choose_waypoint(match: Factory, robot: Robot, obs: Observation, ways: Ways, x: float, y: float) -> None:
     """Set the position of the waypoint on the shortest way to (x, y).
 
     A way on another side than before must be KEEP px shorter.
@@ -152,7 +153,7 @@ def choose_waypoint(match: Any, robot: Any, obs: Any, ways: Any, x: float, y: fl
 
 
 @kernel
-def find_way(match: Any, robot: Any, obs: Any, ways: Any, x: float, y: float) -> None:
+def find_way(match: Factory, robot: Robot, obs: Observation, ways: Ways, x: float, y: float) -> None:
     """Set goal and waypoint of the observation for the shortest way to (x, y)."""
     if not ways.built:
         build_ways(match, obs, ways)

@@ -7,38 +7,25 @@ announces nothing, take what is nearest to them. It goes to a machine before the
 
 from typing import Any
 
+from pigaming_app.ai.brain.kind import NoWeights
 from pigaming_app.ai.factory.driving import STAND_OFF, draw_back, make_way
-from pigaming_app.ai.factory.job_choice import plan_job
+from pigaming_app.ai.factory.job_choice import PlannerMind, plan_job
 from pigaming_app.ai.factory.maneuvers import cruise, reach
-from pigaming_app.ai.factory.mind import PERIOD, PLAN, Mind, back_out, detect_stuck, keep_patience, perhaps_slip
-from pigaming_app.ai.factory.navigation import Ways, find_way
-from pigaming_app.ai.factory.schedule import Plan
-from pigaming_app.games.factory.observation import observe
+from pigaming_app.ai.factory.mind import PERIOD, PLAN, back_out, detect_stuck, keep_patience, perhaps_slip
+from pigaming_app.ai.factory.navigation import find_way
+from pigaming_app.games.factory.observation import Observation, observe
+from pigaming_app.games.factory.state import Factory
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import seeded, uniform
-from pigaming_app.sim.world import DT, HZ
+from pigaming_app.sim.world import DT, HZ, Action
 
 WARM = 60 * HZ  # ticks from the beginning after which it is warm
 CLOSE = 120.0  # px from a slot that is not ready, within which waiting is not being stuck
 
 
-@record
-class PlannerMind(Mind):
-    """Memory of the planner."""
-
-    plan: Plan
-    ways: Ways
-    best_speed: float  # share of full speed once it is warm
-    warm_up: float  # share of its speed that it lacks at the beginning of a match
-    hesitation: float  # s of pause after each job, on average
-    wait: float  # s until the fork can be used at the target
-    pressed: int  # 1: fire was pressed at the last decision
-
-
 @kernel
-def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
+def think(match: Factory, seat: int, mind: PlannerMind, weights: NoWeights) -> None:
     """Observe and decide every PERIOD ticks, and on the tick after a press; the action holds in between."""
     elapsed = 0 if (match.tick + seat) % PERIOD else PERIOD
     if not elapsed and not mind.pressed:
@@ -57,7 +44,7 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 
 
 @kernel
-def choose_job(obs: Any, mind: Any, elapsed: int) -> None:
+def choose_job(obs: Observation, mind: PlannerMind, elapsed: int) -> None:
     """Plan when a job has ended, and every PLAN ticks."""
     if obs.carries != mind.carried:
         mind.carried, mind.plan_in, mind.waiting = obs.carries, 0, 0
@@ -73,7 +60,7 @@ def choose_job(obs: Any, mind: Any, elapsed: int) -> None:
 
 
 @kernel
-def act(obs: Any, mind: Any, action: Any) -> None:
+def act(obs: Observation, mind: PlannerMind, action: Action) -> None:
     """Work on the job."""
     if obs.frozen:
         mind.stuck_ticks = 0

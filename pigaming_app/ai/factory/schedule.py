@@ -8,9 +8,10 @@ In every function `obs` is the Observation and `plan` a Plan; all times are in s
 """
 
 from math import sqrt
-from typing import Annotated, Any
+from typing import Annotated
 
-from pigaming_app.ai.factory.floor_model import CLEARED, NEVER, PROCESS, Model, copy_model, survey, work
+from pigaming_app.ai.factory.floor_model import CLEARED, NEVER, PROCESS, Bench, Hand, Model, copy_model, survey, work
+from pigaming_app.games.factory.observation import Observation, SlotView
 from pigaming_app.games.factory.state import DONE, EXIT, INPUT, MACHINE_SLOTS, MACHINES, OUTPUT
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -46,7 +47,7 @@ class Plan:
 
 
 @kernel
-def look(obs: Any, plan: Any) -> None:
+def look(obs: Observation, plan: Plan) -> None:
     """Fill in the present, with the announced transports of laden mates carried out."""
     now = plan.now
     survey(obs, now)
@@ -58,7 +59,7 @@ def look(obs: Any, plan: Any) -> None:
 
 
 @kernel
-def nearest_exit(obs: Any) -> int:
+def nearest_exit(obs: Observation) -> int:
     """The nearest free slot of the own exit; a taken one if there is no other."""
     best, least = 0, 1e18
     for s in range(MACHINE_SLOTS):
@@ -72,14 +73,14 @@ def nearest_exit(obs: Any) -> int:
 
 
 @kernel
-def way(plan: Any, x: float, y: float, slot: Any) -> float:
+def way(plan: Plan, x: float, y: float, slot: SlotView) -> float:
     """Time of a way from (x, y) to a slot."""
     dx, dy = slot.x - x, slot.y - y
-    return plan.turn + max(0.0, sqrt(dx * dx + dy * dy) - REACHED) / PACE  # type: ignore[no-any-return]
+    return plan.turn + max(0.0, sqrt(dx * dx + dy * dy) - REACHED) / PACE
 
 
 @kernel
-def best_machine(obs: Any, plan: Any, model: Any, state: int, x: float, y: float, leave: float) -> int:
+def best_machine(obs: Observation, plan: Plan, model: Model, state: int, x: float, y: float, leave: float) -> int:
     """The machine that could start soonest on a pallet in `state` that leaves (x, y) at `leave`; -1 if all are full."""
     best, least = -1, NEVER
     for m in range(MACHINES):
@@ -95,7 +96,7 @@ def best_machine(obs: Any, plan: Any, model: Any, state: int, x: float, y: float
 
 
 @kernel
-def lift(obs: Any, plan: Any, model: Any, hand: Any, k: int) -> None:
+def lift(obs: Observation, plan: Plan, model: Model, hand: Hand, k: int) -> None:
     """Let a hand drive to lot k and lift it; a machine whose output this empties goes on."""
     lot = model.lots[k]
     slot = obs.slots[lot.lies]
@@ -113,14 +114,14 @@ def lift(obs: Any, plan: Any, model: Any, hand: Any, k: int) -> None:
 
 
 @kernel
-def begin_work(model: Any, bench: Any, k: int, at: float) -> None:
+def begin_work(model: Model, bench: Bench, k: int, at: float) -> None:
     """Let a machine begin work on lot k, not before `at`."""
     model.lots[k].ready = work(model, bench, max(at, bench.idle))
     bench.clear = NEVER
 
 
 @kernel
-def set_down(obs: Any, plan: Any, model: Any, hand: Any) -> bool:
+def set_down(obs: Observation, plan: Plan, model: Model, hand: Hand) -> bool:
     """Let a hand put down its lot, in the announced slot if it can; False if there is no place."""
     k, wish = hand.lot - 1, hand.into - 1
     lot = model.lots[k]
@@ -147,7 +148,7 @@ def set_down(obs: Any, plan: Any, model: Any, hand: Any) -> bool:
 
 
 @kernel
-def promised(model: Any, k: int, i: int) -> bool:
+def promised(model: Model, k: int, i: int) -> bool:
     """True if another hand than i has announced lot k."""
     found = False
     for j in range(model.hand_count):
@@ -157,7 +158,7 @@ def promised(model: Any, k: int, i: int) -> bool:
 
 
 @kernel
-def next_lot(obs: Any, plan: Any, i: int) -> int:
+def next_lot(obs: Observation, plan: Plan, i: int) -> int:
     """The lot with the lowest score for hand i; -1 if there is none."""
     model = plan.then
     hand = model.hands[i]
@@ -187,7 +188,7 @@ def next_lot(obs: Any, plan: Any, i: int) -> int:
 
 
 @kernel
-def cheapest_schedule(obs: Any, plan: Any) -> float:
+def cheapest_schedule(obs: Observation, plan: Plan) -> float:
     """The lowest cost of the schedules by all dispatch rules that are compared, from the present on."""
     least = NEVER
     for rule in range(plan.rules):
@@ -202,7 +203,7 @@ def cheapest_schedule(obs: Any, plan: Any) -> float:
 
 
 @kernel
-def play_out(obs: Any, plan: Any) -> None:
+def play_out(obs: Observation, plan: Plan) -> None:
     """Play the schedule out, until all lots are delivered or all hands have nothing more to do."""
     model = plan.then
     for _ in range(3 * model.lot_count + 4):
@@ -226,7 +227,7 @@ def play_out(obs: Any, plan: Any) -> None:
 
 
 @kernel
-def next_free(model: Any, at: float) -> float:
+def next_free(model: Model, at: float) -> float:
     """Time at which a hand without a transport looks again, when another one is free; NEVER if none is."""
     soonest = NEVER
     for j in range(model.hand_count):
@@ -237,7 +238,7 @@ def next_free(model: Any, at: float) -> float:
 
 
 @kernel
-def cost_of_schedule(plan: Any) -> float:
+def cost_of_schedule(plan: Plan) -> float:
     """Mean time of delivery of the lots, rush orders counting double, and `plan.last` times the latest, s."""
     model = plan.then
     total, latest, soonest, end = 0.0, 0.0, NEVER, 0.0
@@ -259,4 +260,4 @@ def cost_of_schedule(plan: Any) -> float:
         if at < lot.rush:
             total += at - plan.rush
         latest = max(latest, at)
-    return total / max(1, model.lot_count) + plan.last * latest  # type: ignore[no-any-return]
+    return total / max(1, model.lot_count) + plan.last * latest

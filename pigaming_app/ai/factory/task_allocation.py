@@ -7,11 +7,12 @@ In every function `obs` is the Observation and `mind` a ForemanMind.
 """
 
 from math import sqrt
-from typing import Any
 
-from pigaming_app.games.factory.observation import OTHERS
+from pigaming_app.ai.factory.mind import Mind
+from pigaming_app.games.factory.observation import OTHERS, Observation, Other, SlotView
 from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, HALF, INPUT, OUTPUT, RAW, A, B
 from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import uniform
 
 NO = 1e8  # cost of an impossible job
@@ -31,8 +32,16 @@ RUSH_TIMES = 26.0, 14.0, 4.0  # s that a raw, half-done or done pallet needs at 
 FAST = 350.0  # px, bonus of the fast machine
 
 
+@record
+class ForemanMind(Mind):
+    """Memory of the driver."""
+
+    pause: int  # ticks of pause after each job
+    joint: int  # 1: considers the job of its mate when it chooses its own
+
+
 @kernel
-def choose_job(obs: Any, mind: Any) -> None:
+def choose_job(obs: Observation, mind: ForemanMind) -> None:
     """Set `mind.target`, and `mind.near` if it is only a place to wait at."""
     mind.near = 0
     best = cheapest_place(obs, mind) if obs.carries else share_out(obs, mind)
@@ -47,7 +56,7 @@ def choose_job(obs: Any, mind: Any) -> None:
 
 
 @kernel
-def is_taken(obs: Any, s: int) -> bool:
+def is_taken(obs: Observation, s: int) -> bool:
     """True if a mate has announced slot s as its target."""
     taken = False
     for i in range(OTHERS):
@@ -58,21 +67,21 @@ def is_taken(obs: Any, s: int) -> bool:
 
 
 @kernel
-def distance_to(obs: Any, s: int) -> float:
+def distance_to(obs: Observation, s: int) -> float:
     """Distance from the robot to slot s, px."""
     dx, dy = obs.slots[s].x - obs.x, obs.slots[s].y - obs.y
     return sqrt(dx * dx + dy * dy)
 
 
 @kernel
-def distance_between(obs: Any, s: int, t: int) -> float:
+def distance_between(obs: Observation, s: int, t: int) -> float:
     """Distance from slot s to slot t, px."""
     dx, dy = obs.slots[s].x - obs.slots[t].x, obs.slots[s].y - obs.slots[t].y
     return sqrt(dx * dx + dy * dy)
 
 
 @kernel
-def input_cost(slot: Any) -> float:
+def input_cost(slot: SlotView) -> float:
     """Cost of an input whose machine cannot start at once, px; negative for the fast machine."""
     if slot.kind != INPUT:
         return 0.0
@@ -80,19 +89,19 @@ def input_cost(slot: Any) -> float:
 
 
 @kernel
-def delay(slot: Any) -> float:
+def delay(slot: SlotView) -> float:
     """Cost of the time for which an input's machine has had no worker, px."""
     return slot.stalled * SPEED if slot.stalled > SLOW else 0.0
 
 
 @kernel
-def avoid_cost(mind: Any, s: int) -> float:
+def avoid_cost(mind: Mind, s: int) -> float:
     """AVOID_COST for the avoided slot, else 0, px."""
     return AVOID_COST if mind.avoid_ticks > 0 and mind.avoided == s else 0.0
 
 
 @kernel
-def may_take(slot: Any, state: int) -> bool:
+def may_take(slot: SlotView, state: int) -> bool:
     """True if a pallet in `state` belongs into the slot."""
     if slot.kind == INPUT:
         return bool((slot.makes == A and state == RAW) or (slot.makes == B and state == HALF))
@@ -100,7 +109,7 @@ def may_take(slot: Any, state: int) -> bool:
 
 
 @kernel
-def cheapest_place(obs: Any, mind: Any) -> int:
+def cheapest_place(obs: Observation, mind: Mind) -> int:
     """Cheapest slot for the carried pallet; -1 if none is free."""
     state = obs.carries - 1
     best, least = -1, NO
@@ -125,7 +134,7 @@ def cheapest_place(obs: Any, mind: Any) -> int:
 
 
 @kernel
-def onward_cost(obs: Any, s: int, state: int) -> float:
+def onward_cost(obs: Observation, s: int, state: int) -> float:
     """Cost from slot s to the best free place for a pallet in `state`, px; NO if there is none."""
     least = NO
     for t in range(obs.slot_count):
@@ -138,7 +147,7 @@ def onward_cost(obs: Any, s: int, state: int) -> float:
 
 
 @kernel
-def cost_of(obs: Any, s: int, queue: float) -> float:
+def cost_of(obs: Observation, s: int, queue: float) -> float:
     """Cost of the job at slot s without the way there, px; NO if impossible.
 
     `queue`: cost of clearing an output while no place for its pallet is free.
@@ -160,7 +169,7 @@ def cost_of(obs: Any, s: int, queue: float) -> float:
 
 
 @kernel
-def share_out(obs: Any, mind: Any) -> int:
+def share_out(obs: Observation, mind: ForemanMind) -> int:
     """Slot to lift from next, minimising the joint cost of this job and the mate's best other one; -1 if none."""
     mate, mates = -1, 0
     for i in range(OTHERS):
@@ -184,7 +193,7 @@ def share_out(obs: Any, mind: Any) -> int:
 
 
 @kernel
-def best_other(obs: Any, mate: Any, without: int, queue: float) -> float:
+def best_other(obs: Observation, mate: Other, without: int, queue: float) -> float:
     """Cost of the mate's best job without slot `without`, px; 3000 if there is none."""
     least = 3000.0
     for s in range(obs.slot_count):
@@ -200,7 +209,7 @@ def best_other(obs: Any, mate: Any, without: int, queue: float) -> float:
 
 
 @kernel
-def waiting_place(obs: Any, mind: Any) -> int:
+def waiting_place(obs: Observation, mind: Mind) -> int:
     """Slot to wait at: a future place for the load, an output about to be ready, or home."""
     best, least = -1, NO
     state = obs.carries - 1

@@ -14,12 +14,12 @@ published results against it: see tests/bench/reproduce_table.py.
 
 from dataclasses import dataclass
 from math import sqrt
-from typing import Any
 
-from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain.kind import BrainKind, NoWeights
 from pigaming_app.ai.brain.steering import bearing, follow, turn_stick
 from pigaming_app.ai.qlearning.features import nearest_opponent
 from pigaming_app.games.pitanks.scoring import lead
+from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.flow_field import Route
 from pigaming_app.sim.grid import BLOCKED, node_at
@@ -28,7 +28,7 @@ from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, WIDTH, Action, Robot
 
 DEFEND, ATTACK, BREAK_FREE = range(3)
 STUCK_DISTANCE, STUCK_TICKS, FREEING = (
@@ -71,7 +71,7 @@ class ClassicMind:
 
 
 @kernel
-def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
+def think(match: PiTanks, seat: int, mind: ClassicMind, weights: NoWeights) -> None:
     """Observe and decide every `period` ticks; the action holds in between."""
     period = mind.numbers.period
     if (match.tick + seat) % period:
@@ -92,7 +92,7 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 
 
 @kernel
-def defend(match: Any, seat: int, other: Any, mind: Any) -> None:
+def defend(match: PiTanks, seat: int, other: Robot, mind: ClassicMind) -> None:
     """Go to the hiding place and wait there; fire at an opponent in sight."""
     robot, route = match.robots[seat], mind.route
     dx, dy = route.goal_x - robot.x, route.goal_y - robot.y
@@ -106,7 +106,7 @@ def defend(match: Any, seat: int, other: Any, mind: Any) -> None:
 
 
 @kernel
-def attack(match: Any, seat: int, other: Any, mind: Any) -> None:
+def attack(match: PiTanks, seat: int, other: Robot, mind: ClassicMind) -> None:
     """Close in on the opponent round the walls, aim and fire."""
     if shows(match, match.robots[seat], other, mind):
         shoot(match, seat, other, mind)
@@ -116,7 +116,7 @@ def attack(match: Any, seat: int, other: Any, mind: Any) -> None:
 
 
 @kernel
-def break_free(robot: Any, mind: Any, action: Any) -> None:
+def break_free(robot: Robot, mind: ClassicMind, action: Action) -> None:
     """Back out with a turn, alternating direction every FREEING ticks until the robot is free."""
     set_action(action, mind.escape, mind.escape_turn, 0, 0)
     if mind.since < FREEING:
@@ -133,7 +133,7 @@ def break_free(robot: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def detect_stuck(robot: Any, mind: Any, action: Any) -> None:
+def detect_stuck(robot: Robot, mind: ClassicMind, action: Action) -> None:
     """Enter BREAK_FREE if the robot drives without moving for STUCK_TICKS."""
     if mind.state == BREAK_FREE:
         return
@@ -149,7 +149,7 @@ def detect_stuck(robot: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def shows(match: Any, robot: Any, other: Any, mind: Any) -> int:
+def shows(match: PiTanks, robot: Robot, other: Robot, mind: ClassicMind) -> int:
     """1 if the opponent is in sight and within `engage` px."""
     reach = mind.numbers.engage
     dx, dy = other.x - robot.x, other.y - robot.y
@@ -159,7 +159,7 @@ def shows(match: Any, robot: Any, other: Any, mind: Any) -> int:
 
 
 @kernel
-def hide(match: Any, robot: Any, other: Any, mind: Any) -> int:
+def hide(match: PiTanks, robot: Robot, other: Robot, mind: ClassicMind) -> int:
     """Set the goal to the nearest hiding place behind an inner wall; 0 if there is none.
 
     A hiding place lies on the line from the opponent through the middle of a wall, `beside` px clear of the wall's far
@@ -192,12 +192,12 @@ def hide(match: Any, robot: Any, other: Any, mind: Any) -> int:
 
 
 @kernel
-def go_to(mind: Any, x: float, y: float) -> None:
+def go_to(mind: ClassicMind, x: float, y: float) -> None:
     mind.route.active, mind.route.goal_x, mind.route.goal_y = 1, x, y
 
 
 @kernel
-def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
+def shoot(match: PiTanks, seat: int, other: Robot, mind: ClassicMind) -> None:
     """Turn to the opponent and fire once the gun points at it."""
     robot = match.robots[seat]
     angle = bearing(robot, other.x, other.y)
@@ -209,7 +209,7 @@ def shoot(match: Any, seat: int, other: Any, mind: Any) -> None:
 def machine(name: str, parameters: Parameters) -> BrainKind:
     """The machine as a brain, with these parameters."""
 
-    def reset(mind: Any, seed: int) -> None:
+    def reset(mind: ClassicMind, seed: int) -> None:
         for key, number in vars(parameters).items():
             setattr(mind.numbers, key, number)
         mind.random = seeded(seed)

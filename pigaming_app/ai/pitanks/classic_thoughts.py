@@ -2,18 +2,21 @@
 
 from collections.abc import Iterator
 from math import atan2, pi
-from typing import Any
 
+from pigaming_app.ai.brain.kind import NoWeights
 from pigaming_app.ai.brain.steering import bearing
 from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, WAY, Percept, Thoughts, clamp, towards
 from pigaming_app.ai.pitanks import classic
+from pigaming_app.ai.pitanks.classic import ClassicMind
 from pigaming_app.ai.qlearning.features import nearest_opponent
 from pigaming_app.games.pitanks.scoring import lead
+from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
+from pigaming_app.sim.world import Robot
 
 
-def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
+def explain(match: PiTanks, seat: int, mind: ClassicMind, weights: NoWeights) -> Thoughts:
     """Thoughts of the machine on `seat`."""
     opponent = nearest_opponent(match, seat)
     if not mind.route.active or opponent < 0:
@@ -41,7 +44,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     )
 
 
-def _behaviour(robot: Any, mind: Any, shows: bool, ahead: int) -> tuple[str, str, str]:
+def _behaviour(robot: Robot, mind: ClassicMind, shows: bool, ahead: int) -> tuple[str, str, str]:
     """Text keys of the present behaviour and its reason, and the chosen wish."""
     if mind.state == classic.BREAK_FREE:
         return "free", "stuck", "free"
@@ -53,12 +56,12 @@ def _behaviour(robot: Any, mind: Any, shows: bool, ahead: int) -> tuple[str, str
     return "wait" if there else "cover", "ahead" if ahead > 0 else "level", "cover"
 
 
-def _away(robot: Any, x: float, y: float) -> float:
+def _away(robot: Robot, x: float, y: float) -> float:
     dx, dy = x - robot.x, y - robot.y
     return float((dx * dx + dy * dy) ** 0.5)
 
 
-def _percepts(match: Any, robot: Any, other: Any, mind: Any, behaviour: str) -> Iterator[Percept]:
+def _percepts(match: PiTanks, robot: Robot, other: Robot, mind: ClassicMind, behaviour: str) -> Iterator[Percept]:
     seen = bool(is_clear(match, robot.x, robot.y, other.x, other.y, match.rules.bullet_radius))
     yield Percept(OPPONENT, other.x, other.y, seen)
     route = mind.route
@@ -69,7 +72,7 @@ def _percepts(match: Any, robot: Any, other: Any, mind: Any, behaviour: str) -> 
             yield Percept(GOAL, route.goal_x, route.goal_y)
 
 
-def _rose(robot: Any, other: Any, mind: Any, behaviour: str) -> list[float]:
+def _rose(robot: Robot, other: Robot, mind: ClassicMind, behaviour: str) -> list[float]:
     """Direction in which it drives, or points the gun."""
     if behaviour == "free":
         return towards(0.0 if mind.escape > 0.0 else pi)

@@ -8,17 +8,18 @@ and it leaves cover after a long wait in a level match, since two of them would 
 from math import pi
 from typing import Any
 
-from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain.kind import BrainKind, NoWeights
 from pigaming_app.ai.brain.steering import approach, turn_stick
 from pigaming_app.ai.brain.unstick import STUCK_DISTANCE, choose_escape, escape, ticks_stuck
-from pigaming_app.games.pitanks.observation import OTHERS, Observation, Senses, observe
+from pigaming_app.games.pitanks.observation import OTHERS, Observation, Other, Senses, observe
+from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import bell, seeded, uniform
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, HZ
+from pigaming_app.sim.world import DT, HZ, Action
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 ENGAGE = 420.0  # px; within this range an attacker stops closing in
@@ -33,33 +34,39 @@ DEFEND, ATTACK, BREAK_FREE = range(3)
 
 
 @record
-class FsmMind:
-    """Memory of the machine."""
+class TankMind:
+    """What both tank brains remember."""
 
     senses: Senses
     obs: Observation
     spread: float  # standard deviation of the aiming error, rad
-    patience: int  # ticks without sight of an opponent in a level match after which it leaves cover
-    dodges: int  # 1: it dodges bullets
     random: int
     state: int
     since: int  # ticks in this state
     unseen: int  # ticks since the target was last in sight
     seen: int  # ticks for which the target has been in sight
     target: int  # index into `obs.others`; -1: none
-    on_target: int  # ticks for which the gun has pointed at the target
     bias: float  # present aiming error, rad
     bias_left: int  # ticks until the next draw
+    weave: float  # in a duel: forward stick, or side to which it swings; 1 or -1
     anchor_x: float  # position at the last progress, px
     anchor_y: float
     stuck_ticks: int  # ticks since then
     escape: float  # forward stick while backing out
     escape_turn: float
-    weave: float  # forward stick in a duel, 1 or -1
+
+
+@record
+class FsmMind(TankMind):
+    """Memory of the machine."""
+
+    patience: int  # ticks without sight of an opponent in a level match after which it leaves cover
+    dodges: int  # 1: it dodges bullets
+    on_target: int  # ticks for which the gun has pointed at the target
 
 
 @kernel
-def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
+def think(match: PiTanks, seat: int, mind: FsmMind, weights: NoWeights) -> None:
     """Observe and decide every PERIOD ticks; the action holds in between."""
     if (match.tick + seat) % PERIOD:
         return
@@ -68,7 +75,7 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 
 
 @kernel
-def act(obs: Any, mind: Any, action: Any) -> None:
+def act(obs: Observation, mind: FsmMind, action: Action) -> None:
     """One step of the machine: update memory, run the state, change state if it returns another one."""
     mind.since += PERIOD
     pick_target(obs, mind)
@@ -91,7 +98,7 @@ def act(obs: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def defend(obs: Any, mind: Any, action: Any) -> int:
+def defend(obs: Observation, mind: FsmMind, action: Action) -> int:
     """Take cover and wait; fire at an opponent in sight."""
     bored = obs.lead == 0 and mind.unseen > mind.patience
     if obs.lead < 0 or bored or not obs.cover or mind.target < 0:
@@ -111,7 +118,7 @@ def defend(obs: Any, mind: Any, action: Any) -> int:
 
 
 @kernel
-def attack(obs: Any, mind: Any, action: Any) -> int:
+def attack(obs: Observation, mind: FsmMind, action: Action) -> int:
     """Close in on the target round the walls, aim and fire."""
     if mind.target < 0:
         set_action(action, 0.0, 0.0, 0, 0)
@@ -131,7 +138,7 @@ def attack(obs: Any, mind: Any, action: Any) -> int:
 
 
 @kernel
-def break_free(obs: Any, mind: Any, action: Any) -> int:
+def break_free(obs: Observation, mind: FsmMind, action: Action) -> int:
     """Back out with a turn until the robot is free."""
     if not escape(mind, obs.x, obs.y, action):
         return BREAK_FREE
@@ -142,7 +149,7 @@ def break_free(obs: Any, mind: Any, action: Any) -> int:
 
 
 @kernel
-def pick_target(obs: Any, mind: Any) -> None:
+def pick_target(obs: Observation, mind: FsmMind) -> None:
     """Target the nearest opponent, with bonuses for one in sight and for the present target."""
     best, least = -1, 1e9
     for i in range(OTHERS):
@@ -170,7 +177,7 @@ def pick_target(obs: Any, mind: Any) -> None:
 
 
 @kernel
-def draw_error(mind: Any) -> None:
+def draw_error(mind: TankMind) -> None:
     """Draw a new aiming error and weave every NEW_AIM ticks."""
     mind.bias_left -= PERIOD
     if mind.bias_left <= 0:
@@ -180,7 +187,7 @@ def draw_error(mind: Any) -> None:
 
 
 @kernel
-def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
+def detect_stuck(obs: Observation, mind: TankMind, action: Action) -> None:
     """Enter BREAK_FREE if the robot drives without moving for STUCK_TICKS."""
     if mind.state == BREAK_FREE:
         return
@@ -191,14 +198,14 @@ def detect_stuck(obs: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def go_to(mind: Any, x: float, y: float) -> None:
+def go_to(mind: TankMind, x: float, y: float) -> None:
     """Set the goal of the route; the next observation brings the route itself."""
     route = mind.senses.route
     route.active, route.goal_x, route.goal_y = 1, x, y
 
 
 @kernel
-def follow(obs: Any, mind: Any, action: Any) -> None:
+def follow(obs: Observation, mind: FsmMind, action: Action) -> None:
     """Follow the route; fire if the gun happens to point at the target."""
     bearing, speed = approach(obs.waypoint_bearing, obs.waypoint_distance)
     near = obs.goal_distance / 70.0
@@ -209,14 +216,14 @@ def follow(obs: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def shoot(obs: Any, mind: Any, action: Any, speed: float) -> None:
+def shoot(obs: Observation, mind: FsmMind, action: Action, speed: float) -> None:
     """Turn the gun to the target's lead angle, driving at `speed`, and fire once it is on target."""
     aim = obs.others[mind.target].aim + mind.bias
     set_action(action, speed, turn_stick(aim, obs.angular, obs.turn_rate, PERIOD), snap_shot(obs, mind), 0)
 
 
 @kernel
-def snap_shot(obs: Any, mind: Any) -> int:
+def snap_shot(obs: Observation, mind: FsmMind) -> int:
     """1 if the gun points at the target and the reaction time is over, or if a mine can be laid at a distance."""
     if mind.target < 0:
         return 0
@@ -236,7 +243,7 @@ def snap_shot(obs: Any, mind: Any) -> int:
 
 
 @kernel
-def duel(obs: Any, mind: Any, action: Any, other: Any) -> None:
+def duel(obs: Observation, mind: FsmMind, action: Action, other: Other) -> None:
     """Aim and fire while the gun is loaded; swerve while it reloads."""
     ahead = 1.0
     if other.distance < CROWD:
@@ -251,7 +258,7 @@ def duel(obs: Any, mind: Any, action: Any, other: Any) -> None:
 
 
 @kernel
-def dodge(obs: Any, action: Any) -> None:
+def dodge(obs: Observation, action: Action) -> None:
     """Drive across the path of a bullet, to the nearer side, if that can still succeed."""
     if obs.threat > 0.7:
         return

@@ -12,19 +12,20 @@ dodges nothing.
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain.kind import BrainKind, NoWeights
 from pigaming_app.ai.brain.steering import approach, turn_stick
 from pigaming_app.ai.brain.unstick import escape
-from pigaming_app.ai.pitanks.fsm import BREAK_FREE, detect_stuck, dodge, draw_error, go_to
+from pigaming_app.ai.pitanks.fsm import BREAK_FREE, TankMind, detect_stuck, dodge, draw_error, go_to
 from pigaming_app.games.pitanks.observation import (
     OTHERS,
     Observation,
-    Senses,
+    Other,
     aim_at_other,
     locate_other,
     observe_self,
     observe_surroundings,
 )
+from pigaming_app.games.pitanks.state import PiTanks, Tank
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
@@ -32,7 +33,7 @@ from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH
+from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH, Action
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 NEAR, FAR = 300.0, 480.0  # px; in a fight it opens the distance within NEAR and closes in beyond FAR
@@ -56,36 +57,19 @@ HUNT, FIGHT, COLLECT = 0, 1, 3  # states, with BREAK_FREE of `fsm`, which is 2
 
 
 @record
-class GunnerMind:
+class GunnerMind(TankMind):
     """Parameters of a strength, and memory."""
 
-    senses: Senses
-    obs: Observation
-    spread: float  # standard deviation of the aiming error, rad
     lead: float  # share of the target's movement that the aim allows for
     watch: int  # ticks for which it watches a shot before it aims again
     swing: int  # ticks for which it swings aside after a shot
     loyalty: float  # px by which its target counts as nearer than other opponents
-    random: int
     wait: int  # ticks until the next decision; at random at first, so that no seat is always ahead of another
-    state: int
-    since: int  # ticks in this state
-    unseen: int  # ticks since the target was last in sight
-    seen: int  # ticks for which the target has been in sight
-    target: int  # index into `obs.others`; -1: none
     shot: int  # ticks since the last shot
-    bias: float  # present aiming error, rad
-    bias_left: int  # ticks until the next draw
-    weave: float  # side to which it swings, 1 or -1
-    anchor_x: float  # position at the last progress, px
-    anchor_y: float
-    stuck_ticks: int  # ticks since then
-    escape: float  # forward stick while backing out
-    escape_turn: float
 
 
 @kernel
-def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
+def think(match: PiTanks, seat: int, mind: GunnerMind, weights: NoWeights) -> None:
     """Observe and decide every PERIOD ticks; the action holds in between."""
     mind.wait -= 1
     if mind.wait > 0:
@@ -98,7 +82,7 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 
 
 @kernel
-def act(match: Any, obs: Any, mind: Any, action: Any) -> None:
+def act(match: PiTanks, obs: Observation, mind: GunnerMind, action: Action) -> None:
     """One step of the machine: update memory, run the state, change state if it returns another one."""
     mind.since += PERIOD
     mind.shot += PERIOD
@@ -126,7 +110,7 @@ def act(match: Any, obs: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def hunt(obs: Any, mind: Any, action: Any) -> int:
+def hunt(obs: Observation, mind: GunnerMind, action: Action) -> int:
     """Drive to the target round the walls."""
     if mind.target < 0:
         set_action(action, 0.0, 0.0, 0, 0)
@@ -140,7 +124,7 @@ def hunt(obs: Any, mind: Any, action: Any) -> int:
 
 
 @kernel
-def collect(obs: Any, mind: Any, action: Any) -> int:
+def collect(obs: Observation, mind: GunnerMind, action: Action) -> int:
     """Drive to the nearest pick-up."""
     if mind.target < 0 or not wants_prize(obs, mind):
         return hunt(obs, mind, action)
@@ -150,7 +134,7 @@ def collect(obs: Any, mind: Any, action: Any) -> int:
 
 
 @kernel
-def fight(match: Any, obs: Any, mind: Any, action: Any) -> int:
+def fight(match: PiTanks, obs: Observation, mind: GunnerMind, action: Action) -> int:
     """Aim and fire; swing aside while the gun reloads."""
     if mind.target < 0 or mind.unseen > LOST or obs.others[mind.target].distance > REACH:
         return hunt(obs, mind, action)
@@ -172,7 +156,7 @@ def fight(match: Any, obs: Any, mind: Any, action: Any) -> int:
 
 
 @kernel
-def break_free(obs: Any, mind: Any, action: Any) -> int:
+def break_free(obs: Observation, mind: GunnerMind, action: Action) -> int:
     """Back out with a turn until the robot is free."""
     return HUNT if escape(mind, obs.x, obs.y, action) else BREAK_FREE
 
@@ -181,7 +165,7 @@ def break_free(obs: Any, mind: Any, action: Any) -> int:
 
 
 @kernel
-def choose_target(match: Any, seat: int, mind: Any) -> None:
+def choose_target(match: PiTanks, seat: int, mind: GunnerMind) -> None:
     """Choose the most rewarding opponent, observe it, and count for how long it has been in sight.
 
     The present target comes first, since it mostly stays the best: of the others no more is observed than it takes to
@@ -234,13 +218,13 @@ def is_better(cost: float, i: int, least: float, best: int) -> bool:
 
 
 @kernel
-def price(distance: float, tank: Any) -> float:
+def price(distance: float, tank: Tank) -> float:
     """Cost of an opponent in sight as a target: its distance in px, less what makes it rewarding."""
-    return distance + WAITING * tank.protected - EXPOSED * (tank.lit + tank.bounty)  # type: ignore[no-any-return]
+    return distance + WAITING * tank.protected - EXPOSED * (tank.lit + tank.bounty)
 
 
 @kernel
-def in_fight(obs: Any, mind: Any) -> int:
+def in_fight(obs: Observation, mind: GunnerMind) -> int:
     """1 if the target has been noticed within REACH."""
     if mind.unseen or obs.others[mind.target].distance > REACH:
         return 0
@@ -248,7 +232,7 @@ def in_fight(obs: Any, mind: Any) -> int:
 
 
 @kernel
-def wants_prize(obs: Any, mind: Any) -> int:
+def wants_prize(obs: Observation, mind: GunnerMind) -> int:
     """1 if the nearest pick-up is worth the way; in the finale only if it is very near."""
     if not obs.prize or obs.prize_distance > DETOUR:
         return 0
@@ -258,7 +242,7 @@ def wants_prize(obs: Any, mind: Any) -> int:
 
 
 @kernel
-def follow(obs: Any, mind: Any, action: Any) -> None:
+def follow(obs: Observation, mind: GunnerMind, action: Action) -> None:
     """Follow the route; fire if the gun happens to point at the target."""
     bearing, speed = approach(obs.waypoint_bearing, obs.waypoint_distance)
     dash = 1 if obs.goal_distance > 300.0 and abs(bearing) < 0.3 and charged(obs, action) else 0
@@ -266,19 +250,19 @@ def follow(obs: Any, mind: Any, action: Any) -> None:
 
 
 @kernel
-def charged(obs: Any, action: Any) -> int:
+def charged(obs: Observation, action: Action) -> int:
     """1 if the meter is full enough to start turbo, or to keep it on."""
     return 1 if obs.turbo > (LOW if action.turbo else FULL) else 0
 
 
 @kernel
-def aim(mind: Any, other: Any) -> float:
+def aim(mind: GunnerMind, other: Other) -> float:
     """Bearing to point the gun at: between the target and where a bullet would meet it, with the present error."""
     return float(other.bearing + mind.lead * turn_to(other.aim - other.bearing) + mind.bias)
 
 
 @kernel
-def pull_trigger(obs: Any, mind: Any) -> int:
+def pull_trigger(obs: Observation, mind: GunnerMind) -> int:
     """1 if the gun points at a target that can be hit, or if a mine can be laid at a distance."""
     other = obs.others[mind.target]
     if obs.mine and other.distance > 150.0:
@@ -291,7 +275,7 @@ def pull_trigger(obs: Any, mind: Any) -> int:
 
 
 @kernel
-def rhythm(obs: Any, mind: Any, other: Any) -> int:
+def rhythm(obs: Observation, mind: GunnerMind, other: Other) -> int:
     """Part of a fight: it watches its last shot, swings aside, aims. In the finale it takes half the time for it."""
     pace = 2 if obs.finale or obs.overtime else 1
     if pace * mind.shot < mind.watch:
@@ -300,7 +284,7 @@ def rhythm(obs: Any, mind: Any, other: Any) -> int:
 
 
 @kernel
-def swing_angle(other: Any) -> float:
+def swing_angle(other: Other) -> float:
     """Angle off the target's bearing at which it swings aside, rad."""
     if other.distance < NEAR:
         return OPEN_UP
@@ -308,7 +292,7 @@ def swing_angle(other: Any) -> float:
 
 
 @kernel
-def can_hit(obs: Any, mind: Any) -> int:
+def can_hit(obs: Observation, mind: GunnerMind) -> int:
     """1 if the gun is loaded and the target noticed, in sight and not protected."""
     other = obs.others[mind.target]
     if not obs.loaded or not other.clear or other.protected > INVULNERABLE:
@@ -317,7 +301,7 @@ def can_hit(obs: Any, mind: Any) -> int:
 
 
 @kernel
-def choose_side(match: Any, obs: Any, mind: Any, other: Any) -> None:
+def choose_side(match: PiTanks, obs: Observation, mind: GunnerMind, other: Other) -> None:
     """Swing to the other side if a wall is in the way and there is room on that one."""
     angle = obs.heading + other.bearing
     turn = swing_angle(other) * mind.weave
@@ -326,7 +310,7 @@ def choose_side(match: Any, obs: Any, mind: Any, other: Any) -> None:
 
 
 @kernel
-def has_room(match: Any, obs: Any, direction: float) -> int:
+def has_room(match: PiTanks, obs: Observation, direction: float) -> int:
     """1 if the robot can drive ROOM px in a direction."""
     x, y = obs.x + ROOM * cos(direction), obs.y + ROOM * sin(direction)
     if not (RADIUS < x < WIDTH - RADIUS and RADIUS < y < HEIGHT - RADIUS):

@@ -4,12 +4,15 @@ All values come from the machine's memory, its last observation and its own func
 """
 
 from math import pi
-from typing import Any
 
+from pigaming_app.ai.brain.kind import NoWeights
 from pigaming_app.ai.brain.thoughts import Thoughts, blend, clamp, towards
 from pigaming_app.ai.pitanks import fsm, gunner
 from pigaming_app.ai.pitanks.fsm_thoughts import SOON, dodges, percepts
+from pigaming_app.ai.pitanks.gunner import GunnerMind
+from pigaming_app.games.pitanks.observation import Observation
 from pigaming_app.games.pitanks.scoring import lead
+from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, ROBOTS
 
@@ -17,7 +20,7 @@ PARTS = {gunner.WATCH: "watch", gunner.SWING_ASIDE: "swing", gunner.AIM: "duel"}
 CHOSEN = {"hunt": "attack", "duel": "fire", "watch": "wait", "out": "", "idle": ""}  # others: named as the behaviour
 
 
-def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
+def explain(match: PiTanks, seat: int, mind: GunnerMind, weights: NoWeights) -> Thoughts:
     """Thoughts of the machine on `seat`."""
     obs = mind.obs
     if not obs.turn_rate:
@@ -35,7 +38,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     )
 
 
-def _behaviour(obs: Any, mind: Any) -> str:
+def _behaviour(obs: Observation, mind: GunnerMind) -> str:
     """Text key of the present behaviour."""
     if obs.knocked_out:
         return "out"
@@ -52,11 +55,11 @@ def _behaviour(obs: Any, mind: Any) -> str:
     return "hunt"
 
 
-def _dodges(obs: Any) -> bool:
+def _dodges(obs: Observation) -> bool:
     return bool(obs.threat > obs.protected * DT and dodges(obs))
 
 
-def _reason(obs: Any, mind: Any, behaviour: str) -> str:
+def _reason(obs: Observation, mind: GunnerMind, behaviour: str) -> str:
     """Text key of the reason."""
     fixed = {"out": "hit", "free": "stuck", "dodge": "bullet", "collect": "near", "watch": "wonders", "idle": ""}
     if behaviour in fixed:
@@ -75,7 +78,7 @@ def _reason(obs: Any, mind: Any, behaviour: str) -> str:
     return "sees" if behaviour == "duel" else "nearest"
 
 
-def _utilities(match: Any, obs: Any, mind: Any) -> dict[str, float]:
+def _utilities(match: PiTanks, obs: Observation, mind: GunnerMind) -> dict[str, float]:
     """Utility of each behaviour; `wait` only for a strength that watches its shots."""
     attack = fire = swing = wait = 0.0
     if mind.target >= 0:
@@ -99,7 +102,7 @@ def _utilities(match: Any, obs: Any, mind: Any) -> dict[str, float]:
     return utilities
 
 
-def _facts(match: Any, seat: int, mind: Any) -> dict[str, float]:
+def _facts(match: PiTanks, seat: int, mind: GunnerMind) -> dict[str, float]:
     obs = mind.obs
     return {
         "state": mind.state,
@@ -114,7 +117,7 @@ def _facts(match: Any, seat: int, mind: Any) -> dict[str, float]:
     }
 
 
-def _rose(obs: Any, mind: Any, behaviour: str) -> list[float]:
+def _rose(obs: Observation, mind: GunnerMind, behaviour: str) -> list[float]:
     """Direction in which it drives or points the gun; repulsion from a bullet."""
     if behaviour == "free":
         wanted = towards(0.0 if mind.escape > 0.0 else pi)

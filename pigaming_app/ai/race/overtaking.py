@@ -6,9 +6,9 @@ way. In `party` a robot with charge in its meter pulls out of the slipstream to 
 boxes, stays in a slipstream while its meter is low, and avoids oil.
 """
 
-from typing import Any
+from typing import Protocol
 
-from pigaming_app.games.race.observation import OTHERS
+from pigaming_app.games.race.observation import OTHERS, Observation
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS
 
@@ -31,8 +31,18 @@ SLICK, SLICK_HALF = 300.0, 46.0  # cost of oil, and px to either side that it wa
 CLOSE = 20.0  # px ahead, below which it is too late to steer for something
 
 
+class Overtaker(Protocol):
+    """The part of a driver's memory that chooses its lane; see `RacerMind`."""
+
+    speed: float
+    line: float
+    lane: float
+    foresight: float
+    alert: float
+
+
 @kernel
-def choose_lane(obs: Any, mind: Any) -> None:
+def choose_lane(obs: Observation, mind: Overtaker) -> None:
     """Set `mind.lane` to the cheapest lane: px lost behind others, plus px of a longer way round the bend."""
     mark = obs.ahead
     wanted = mind.line * mark.ideal
@@ -51,7 +61,7 @@ def choose_lane(obs: Any, mind: Any) -> None:
 
 
 @kernel
-def lane_cost(obs: Any, mind: Any, lane: float) -> float:
+def lane_cost(obs: Observation, mind: Overtaker, lane: float) -> float:
     """Cost of the robots and features on a lane, px; 0 if there are none. `lane`: px right of the middle."""
     cost = feature_cost(obs, mind, lane) if obs.party else 0.0
     passing = eagerness(obs)
@@ -75,7 +85,7 @@ def lane_cost(obs: Any, mind: Any, lane: float) -> float:
 
 
 @kernel
-def eagerness(obs: Any) -> float:
+def eagerness(obs: Observation) -> float:
     """Cost of staying behind a robot right ahead, px: in `party`, with a charged meter, on a straight."""
     if not obs.party or (obs.turbo < CHARGED and not obs.surge):
         return 0.0
@@ -84,14 +94,14 @@ def eagerness(obs: Any) -> float:
 
 
 @kernel
-def has_features(obs: Any, mind: Any) -> bool:
+def has_features(obs: Observation, mind: Overtaker) -> bool:
     """True if something on the course, or a slipstream, may be worth another lane."""
     near = obs.pad.present or obs.box.present or obs.oils[0].present
     return bool(obs.party and mind.alert > 0.0 and (near or obs.turbo < CHARGED))
 
 
 @kernel
-def feature_cost(obs: Any, mind: Any, lane: float) -> float:
+def feature_cost(obs: Observation, mind: Overtaker, lane: float) -> float:
     """Cost, px, of oil on a lane, less the worth of a boost pad, an item box and a slipstream."""
     cost = 0.0
     if not obs.shield:
@@ -115,7 +125,7 @@ def feature_cost(obs: Any, mind: Any, lane: float) -> float:
 
 
 @kernel
-def leader_speed(obs: Any, mind: Any) -> float:
+def leader_speed(obs: Observation, mind: Overtaker) -> float:
     """Speed of a robot right ahead on the present lane, as a share of full speed; above 1 if there is none."""
     share = 2.0
     tail = 0.0 if obs.party else TAIL

@@ -5,14 +5,16 @@ All values come from the brain's memory, its last observation and its own functi
 
 from collections.abc import Iterator
 from math import atan2, pi
-from typing import Any
 
+from pigaming_app.ai.brain.kind import NoWeights
 from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, Percept, Thoughts, blend, clamp, towards
 from pigaming_app.ai.race import overtaking, racer
 from pigaming_app.ai.race.overtaking import CLEAR, EDGE, FAR, lane_cost, leader_speed
-from pigaming_app.games.race.observation import OTHERS
+from pigaming_app.ai.race.racer import RacerMind
+from pigaming_app.games.race.observation import OTHERS, Feature, Observation
+from pigaming_app.games.race.state import Race
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import ROBOTS, Action
 
 CHANGED = 25.0  # px off its own line beyond which it is overtaking
 SLOW = 0.93  # share of full speed below which it is braking
@@ -30,7 +32,7 @@ REASONS = {
 }  # fmt: skip
 
 
-def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
+def explain(match: Race, seat: int, mind: RacerMind, weights: NoWeights) -> Thoughts:
     """Thoughts of the driver on `seat`."""
     obs = mind.obs
     if not obs.turn_rate:
@@ -50,7 +52,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     )
 
 
-def _behaviour(obs: Any, mind: Any, action: Any) -> str:
+def _behaviour(obs: Observation, mind: RacerMind, action: Action) -> str:
     """Text key of the present behaviour."""
     if obs.finished:  # its actions no longer move the robot
         return "done"
@@ -77,7 +79,7 @@ def _behaviour(obs: Any, mind: Any, action: Any) -> str:
     return "bend" if obs.pace < SLOW else "race"
 
 
-def _lane_change(obs: Any, mind: Any) -> str:
+def _lane_change(obs: Observation, mind: RacerMind) -> str:
     """Text key of the reason to leave its own line: oil on it, a pad or a box beside it, else a robot."""
     own = mind.line * obs.ahead.ideal
     if not obs.shield and any(_near(oil, own, mind, overtaking.SLICK_HALF) for oil in obs.oils):
@@ -89,12 +91,12 @@ def _lane_change(obs: Any, mind: Any) -> str:
     return "pass_left" if mind.lane < own else "pass_right"
 
 
-def _near(feature: Any, lane: float, mind: Any, half: float) -> bool:
+def _near(feature: Feature, lane: float, mind: RacerMind, half: float) -> bool:
     """True if a feature on this lane is near enough to be considered."""
     return bool(feature.present and feature.ahead < mind.foresight and abs(feature.aside - lane) < half)
 
 
-def _utilities(obs: Any, mind: Any) -> dict[str, float]:
+def _utilities(obs: Observation, mind: RacerMind) -> dict[str, float]:
     """Utilities of lanes (of another lane, higher the more its own is blocked) and of speed changes."""
     mark = obs.ahead
     room, own = mark.half - EDGE, mind.line * mark.ideal
@@ -113,7 +115,7 @@ def _utilities(obs: Any, mind: Any) -> dict[str, float]:
     }
 
 
-def _goal(obs: Any, mind: Any) -> tuple[float, float]:
+def _goal(obs: Observation, mind: RacerMind) -> tuple[float, float]:
     """The point it steers to, arena px."""
     if mind.state == racer.GO_BACK or obs.past > racer.SLACK:
         return obs.return_x, obs.return_y
@@ -124,13 +126,13 @@ def _goal(obs: Any, mind: Any) -> tuple[float, float]:
     return mark.x + aside * mark.right_x, mark.y + aside * mark.right_y
 
 
-def _ahead(obs: Any) -> int:
+def _ahead(obs: Observation) -> int:
     """Index of the nearest robot ahead, else alongside; -1 if none is near."""
     near = [i for i in range(OTHERS) if obs.others[i].present and -CLEAR < obs.others[i].ahead < FAR]
     return min(near, key=lambda i: (obs.others[i].ahead <= 0.0, obs.others[i].distance), default=-1)
 
 
-def _facts(obs: Any, mind: Any) -> dict[str, float]:
+def _facts(obs: Observation, mind: RacerMind) -> dict[str, float]:
     return {
         "state": mind.state,
         "place": obs.rank,
@@ -146,13 +148,13 @@ def _facts(obs: Any, mind: Any) -> dict[str, float]:
     }
 
 
-def _percepts(obs: Any, first: int, x: float, y: float) -> Iterator[Percept]:
+def _percepts(obs: Observation, first: int, x: float, y: float) -> Iterator[Percept]:
     if first >= 0:
         yield Percept(OPPONENT, obs.others[first].x, obs.others[first].y)
     yield Percept(GOAL, x, y)
 
 
-def _rose(obs: Any, mind: Any, x: float, y: float) -> list[float]:
+def _rose(obs: Observation, mind: RacerMind, x: float, y: float) -> list[float]:
     """Attraction to the goal, repulsion from close robots."""
     if mind.state == racer.BREAK_FREE:
         return towards(0.0 if mind.escape > 0.0 else pi)

@@ -5,11 +5,11 @@ that a released stick stays released; reverse, a turn on the spot, and the way b
 """
 
 from math import atan2, cos, sin, sqrt
-from typing import Any
 
 from pigaming_app.ai.brain.driving import Controller, Driving
 from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.observation import TrackPoint, observe_mark
+from pigaming_app.games.race.state import Race
 from pigaming_app.sim.angles import turn_to
 
 LOOK = 130.0  # px along the course to the point of the line that is steered for
@@ -25,13 +25,13 @@ TURNED = 1.75  # rad between robot and course above which a person is turning ro
 def with_help(driving: Driving) -> Driving:
     """A driving style with steering help in the race."""
 
-    def helped(state: Any, seat: int, stick: Controller) -> tuple[float, float]:
+    def helped(state: Race, seat: int, stick: Controller) -> tuple[float, float]:
         return helped_stick(state, seat, *driving(state, seat, stick))
 
     return helped
 
 
-def helped_stick(match: Any, seat: int, linear: float, angular: float) -> tuple[float, float]:
+def helped_stick(match: Race, seat: int, linear: float, angular: float) -> tuple[float, float]:
     """The stick of `seat`, both axes in [-1, 1], after the help in this tick. Reads the match only."""
     robot, racer = match.robots[seat], match.racers[seat]
     if linear <= 0.0 or racer.missed or racer.lines_reversed or racer.finished:
@@ -60,7 +60,7 @@ def _share(place: CoursePosition) -> float:
     return CENTRE_SHARE + near * (EDGE_SHARE - CENTRE_SHARE)
 
 
-def _stick_to_line(match: Any, seat: int, place: CoursePosition) -> tuple[float, float]:
+def _stick_to_line(match: Race, seat: int, place: CoursePosition) -> tuple[float, float]:
     """The stick for the arc to the fastest line LOOK px ahead: highest forward stick and turn.
 
     Source of pure pursuit: Coulter, CMU-RI-TR-92-01, 1992.
