@@ -27,7 +27,7 @@ from pigaming_app.sim.record import digest
 from pigaming_app.sim.toml_table import printable, quote
 from pigaming_app.sim.world import HZ, ROBOTS
 
-FORMATS = ("pigaming-replay-1", "pigaming-replay-2")  # the last is written; 1 has the engine hash of 1.4.0 and before
+FORMAT = "pigaming-replay-1"
 BYTES_PER_TICK = 3 * ROBOTS
 MAX_TICKS = 60 * 60 * HZ
 MAX_SCORE = 100_000
@@ -48,7 +48,7 @@ class Replay:
     ticks: bytes  # BYTES_PER_TICK for each tick
     digest: str  # of the state after the last tick
     engine: str  # hash of the engine that recorded it
-    scores: tuple[int, ...] = ()  # of each seat after the last tick; empty in files of 1.5.0 and before
+    scores: tuple[int, ...] = ()  # of each seat after the last tick
     winners: tuple[int, ...] = ()  # seats of the winning team
     moments: tuple[Moment, ...] = ()  # worth showing again
 
@@ -93,7 +93,7 @@ def pack(replay: Replay) -> bytes:
     columns = b"".join(ticks[i::BYTES_PER_TICK] for i in range(BYTES_PER_TICK))
     packed = zlib.compress(columns, 9)
     head: dict[str, Any] = {
-        "format": FORMATS[-1],
+        "format": FORMAT,
         "engine": replay.engine,
         "setup": asdict(replay.setup),
         "arena": replay.source,
@@ -159,8 +159,8 @@ def _decode(raw: bytes) -> Replay:
         head = None
     if not isinstance(head, dict) or not str(head.get("format", "")).startswith("pigaming-replay"):
         raise ReplayError("not a PiGaming replay")
-    if head["format"] not in FORMATS:
-        raise ReplayError(f"a replay of another format ({quote(head['format'])}); known are {', '.join(FORMATS)}")
+    if head["format"] != FORMAT:
+        raise ReplayError(f"a replay of another format ({quote(head['format'])}); known is {FORMAT}")
     if head.get("check") != _check(head, packed):
         raise ReplayError("damaged: it has been cut short or edited")
     try:
@@ -183,14 +183,13 @@ def _decode(raw: bytes) -> Replay:
 
 
 def _result(head: Mapping[str, Any], ticks: int) -> tuple[tuple[int, ...], tuple[int, ...], tuple[Moment, ...]]:
-    """Scores, winners and moments, all optional. Raises KeyError, TypeError or ValueError if they are invalid."""
-    scores, winners = (tuple(int(number) for number in head.get(name, ())) for name in ("scores", "winners"))
+    """Scores, winners and moments. Raises KeyError, TypeError or ValueError if they are invalid."""
+    scores, winners = (tuple(int(number) for number in head[name]) for name in ("scores", "winners"))
     found = tuple(
-        Moment(str(one["kind"]), int(one["tick"]), int(one["seat"]), float(one["lead"]))
-        for one in head.get("moments", ())
+        Moment(str(one["kind"]), int(one["tick"]), int(one["seat"]), float(one["lead"])) for one in head["moments"]
     )
     seats = {*winners, *(moment.seat for moment in found)}
-    if len(scores) not in (0, ROBOTS) or any(abs(score) > MAX_SCORE for score in scores):
+    if len(scores) != ROBOTS or any(abs(score) > MAX_SCORE for score in scores):
         raise ValueError("scores")
     if not seats <= {*range(ROBOTS)} or len(winners) > ROBOTS or len(found) > len(KINDS):
         raise ValueError("result")
@@ -216,5 +215,5 @@ def _setup(table: Mapping[str, Any]) -> Setup:
     if not 0 < minutes <= 60 or goal not in (*offered.goals, offered.default_goal):
         raise ValueError("setup")
     check_teams(rules, offered, [seat.team for seat in seats if seat.brain != "off"])
-    arena, seed, sudden = str(table["arena"]), int(table["seed"]), bool(table.get("sudden_death", False))
+    arena, seed, sudden = str(table["arena"]), int(table["seed"]), bool(table["sudden_death"])
     return Setup(game, arena, (one, two, three, four), minutes, seed, variant, goal, sudden)

@@ -12,9 +12,6 @@ or `Annotated[list[float], 64, "f"]` (whole numbers below 2**24, since plain rec
 
 `Robot()` is a plain object; every number without a default is zero. `dtype(Robot)` is the same layout as a NumPy
 record; `packed` and `unpack` copy between the two, and `digest` gives the same hash for both.
-
-Fields that a later version adds are declared with `added()`, lists that it makes longer with `grown()`. `digest` leaves
-out added fields and elements that have their defaults, so that replays of earlier versions can still be verified.
 """
 
 import hashlib
@@ -31,24 +28,6 @@ _CODES = {float: "d", int: "q"}
 _NUMPY = {"d": "<f8", "f": "<f4", "q": "<i8", "h": "<i2"}
 _DTYPES: "dict[type, np.dtype[Any]]" = {}
 _LAYOUTS: dict[type, struct.Struct] = {}
-_ADDED: dict[type, tuple[tuple[str, int, int, bytes], ...]] = {}
-
-
-class Added:
-    """The default of a field, or of the elements of a list from `first` on, that `digest` leaves out while unused."""
-
-    def __init__(self, default: float, first: int = 0) -> None:
-        self.default, self.first = default, first
-
-
-def added(default: float = 0) -> Any:
-    """Declare a field, with its default, that earlier versions of the record did not have."""
-    return Added(default)
-
-
-def grown(first: int) -> Any:
-    """Declare a list of records that had `first` elements in earlier versions."""
-    return Added(0, first)
 
 
 class Field:
@@ -56,9 +35,6 @@ class Field:
 
     def __init__(self, name: str, hint: Any, default: Any = 0) -> None:
         self.name = name
-        self.first_added = default.first if isinstance(default, Added) else None  # index of the first added element
-        self.added = self.first_added == 0
-        default = default.default if isinstance(default, Added) else default
         self.count: int | None = None
         code: str | None = None
         if hasattr(hint, "__metadata__"):
@@ -73,10 +49,6 @@ class Field:
         if default and (self.code is None or self.count is not None):
             raise TypeError(f"{name}: only a single number has a default")
         self.default: float = default
-
-    def inherited(self) -> Any:
-        """The default as declared, for a derived record."""
-        return self.default if self.first_added is None else Added(self.default, self.first_added)
 
     def fresh(self) -> Any:
         """The initial value of the field."""
@@ -93,7 +65,7 @@ def record(cls: type[T]) -> type[T]:
     """Make a class of annotated fields (its own and those of its base) a record."""
     hints = get_type_hints(cls, include_extras=True)
     base = getattr(cls, "_fields", ())
-    inherited = {field.name: field.inherited() for field in base}
+    inherited = {field.name: field.default for field in base}
     defaults = {**inherited, **vars(cls)}
     fields = tuple(Field(name, hint, defaults.get(name, 0)) for name, hint in hints.items())
     factories = tuple((field.name, field.fresh) for field in fields)
@@ -210,54 +182,5 @@ def copy(state: T) -> T:
 
 
 def digest(state: Any) -> str:
-    """SHA-256 of a plain record or of one element of a NumPy array; equal for equal states.
-
-    A field declared with `added()` counts only while it differs from its default.
-    """
-    return hashlib.sha256(comparable_bytes(state)).hexdigest()
-
-
-def comparable_bytes(state: Any) -> bytes:
-    """The input of `digest`: all fields but the added ones, then path and bytes of each added one in use."""
-    if hasattr(state, "_fields"):
-        raw, spans = to_bytes(state), _added_spans(type(state))
-    else:
-        raw, spans = state.tobytes(), _added_spans(_kind_of(state.dtype))
-    if not spans:
-        return raw
-    parts, used, start = [], [], 0
-    for path, begin, end, default in spans:
-        parts.append(raw[start:begin])
-        if raw[begin:end] != default:
-            used += [path.encode(), raw[begin:end]]
-        start = end
-    return b"".join([*parts, raw[start:], *used])
-
-
-def _kind_of(layout: Any) -> type | None:
-    return next((kind for kind, known in _DTYPES.items() if known is layout or known == layout), None)
-
-
-def _added_spans(kind: type | None) -> tuple[tuple[str, int, int, bytes], ...]:
-    """Path, first and last byte, and default bytes of every added field of a record, in memory order."""
-    if kind is None:
-        return ()
-    if kind not in _ADDED:
-        _ADDED[kind] = tuple(_spans(kind, "", 0, to_bytes(kind())))
-    return _ADDED[kind]
-
-
-def _spans(kind: type, path: str, offset: int, fresh: bytes) -> Iterator[tuple[str, int, int, bytes]]:
-    for field in fields_of(kind):
-        size = struct.calcsize("<" + field.code) if field.code else _layout(field.kind).size
-        end = offset + size * (1 if field.count is None else field.count)
-        if field.added:
-            yield f"{path}{field.name}", offset, end, fresh[offset:end]
-        elif not field.code:
-            kept = field.count or 1 if field.first_added is None else field.first_added
-            for i, start in enumerate(range(offset, end, size)):
-                if i < kept:
-                    yield from _spans(field.kind, f"{path}{field.name}.{i}.", start, fresh)
-                else:
-                    yield f"{path}{field.name}.{i}", start, start + size, fresh[start : start + size]
-        offset = end
+    """SHA-256 of a plain record or of one element of a NumPy array; equal for equal states."""
+    return hashlib.sha256(to_bytes(state) if hasattr(state, "_fields") else state.tobytes()).hexdigest()

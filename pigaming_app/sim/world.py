@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from pigaming_app.sim.record import added, grown, record
+from pigaming_app.sim.record import record
 
 HZ = 50  # ticks per second
 DT = 1.0 / HZ  # s
@@ -33,10 +33,10 @@ class Robot:
     requested_angular: float
     gain: float  # share of the speed error that the motors remove in one tick
     turbo: float  # charge of the meter, 0..1
-    recover: int = added()  # 1: the game asks to have it put at rest at the pose below; real robots drive there
-    recover_x: float = added()
-    recover_y: float = added()
-    recover_heading: float = added()
+    recover: int  # 1: the game asks to have it put at rest at the pose below; real robots drive there
+    recover_x: float
+    recover_y: float
+    recover_heading: float
 
 
 @record
@@ -86,8 +86,8 @@ class World:
     robots: Annotated[list[Robot], ROBOTS]
     actions: Annotated[list[Action], ROBOTS]
     wall_count: int
-    walls: Annotated[list[Wall], WALLS] = grown(24)
+    walls: Annotated[list[Wall], WALLS]
     grid: Annotated[list[int], NODES_PADDED, "h"]  # see grid.py: walls that block a node, and walls near it
-    mud_count: int = added()
-    muds: Annotated[list[Capsule], MUDS] = added()  # ground on which robots are slow
-    shifts: int = added()  # how often walls were replaced during the match (real things that are moved)
+    mud_count: int
+    muds: Annotated[list[Capsule], MUDS]  # ground on which robots are slow
+    shifts: int  # how often walls were replaced during the match (real things that are moved)

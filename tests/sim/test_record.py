@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.sim.record import added, copy, digest, dtype, grown, numbers, packed, record, to_bytes, unpack
+from pigaming_app.sim.record import copy, digest, dtype, numbers, packed, record, to_bytes, unpack
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.world import World
 
@@ -162,84 +162,3 @@ def test_narrow_numbers_must_fill_whole_words():
 def test_a_misspelt_field_is_an_error():
     with pytest.raises(AttributeError):
         Cart().laod = 1.0
-
-
-@record
-class OldCart:
-    wheels: Annotated[list[Wheel], 2]
-    load: float
-
-
-@record
-class NewWheel:
-    speed: float
-    turns: int
-    flat: int = added()
-
-
-@record
-class NewCart:
-    wheels: Annotated[list[NewWheel], 2]
-    limit: float = added(1.5)
-    load: float
-    notes: Annotated[list[int], 4, "h"] = added()
-
-
-def test_added_fields_leave_the_digest_alone_until_they_are_used():
-    old, new = filled(OldCart), NewCart()
-    new.load = old.load
-    for was, now in zip(old.wheels, new.wheels, strict=True):
-        now.speed, now.turns = was.speed, was.turns
-    assert digest(new) == digest(old) == digest(packed([new])[0])
-    seen = {digest(new)}
-    for change in (
-        lambda cart: setattr(cart.wheels[0], "flat", 1),
-        lambda cart: setattr(cart.wheels[1], "flat", 1),
-        lambda cart: setattr(cart, "limit", 0.0),
-        lambda cart: cart.notes.__setitem__(3, 1),
-    ):
-        other = copy(new)
-        change(other)
-        assert digest(other) == digest(packed([other])[0])
-        seen.add(digest(other))
-    assert len(seen) == 5
-    assert NewCart().limit == 1.5
-
-
-@record
-class Shelf:
-    """A record whose list has grown from two to four elements."""
-
-    spots: Annotated[list[Wheel], 4] = grown(2)
-
-
-@record
-class Shorter:
-    """The same before."""
-
-    spots: Annotated[list[Wheel], 2]
-
-
-def test_a_list_that_has_grown_leaves_the_digest_alone_until_its_new_elements_are_used():
-    old, new = Shorter(), Shelf()
-    assert digest(new) == digest(old)
-    for shelf in (old, new):
-        shelf.spots[1].speed = 3.0
-    assert digest(new) == digest(old)
-    new.spots[2].speed = 1.0
-    changed = digest(new)
-    assert changed != digest(old)
-    new.spots[2].speed, new.spots[3].speed = 0.0, 1.0
-    assert digest(new) not in (changed, digest(old)), "the index counts"
-    assert digest(new) == digest(packed([new])[0])
-    assert digest(unpack(Shelf, packed([new])[0])) == digest(new)
-
-
-def test_a_derived_record_inherits_the_list_that_has_grown():
-    @record
-    class Rack(Shelf):
-        """Nothing more."""
-
-        height: float = added()
-
-    assert digest(Rack()) == digest(Shelf()) == digest(Shorter())

@@ -22,7 +22,6 @@ from pigaming_app.sim.record import dtype
 FORMAT, RULE = "pigaming-table-1", "pitanks classic"
 MAX_BYTES = 4_000_000  # size limit of a file; a full training takes about 60,000
 COUNTS = ("experiences", "pairs", "states", "matches", "random")
-FIXED = {"off_wall": 1, "look": 0, "behind_from": 4, "behind_to": 12, "exposure": 1}  # in files before they were knobs
 PARTS = {"head": 100_000, "q": 8 * PAIRS + 1000, "n": 8 * PAIRS + 1000}  # limits of the unpacked sizes, bytes
 
 
@@ -141,9 +140,9 @@ def _trained(head: dict[str, Any], q: Any, n: Any) -> Trained:
 
 def _recipe(numbers: Any) -> Recipe:
     """The recipe after validation. Raises TableError."""
-    if not isinstance(numbers, dict) or numbers.keys() | FIXED.keys() != {field.name for field in fields(Recipe)}:
+    if not isinstance(numbers, dict) or numbers.keys() != {field.name for field in fields(Recipe)}:
         raise TableError("its recipe is of another version")
     try:
-        return Recipe(**FIXED | numbers)
+        return Recipe(**numbers)
     except (TypeError, ValueError) as error:
         raise TableError(f"its recipe: {error}") from None

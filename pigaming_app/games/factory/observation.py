@@ -12,7 +12,7 @@ from pigaming_app.games.factory.state import INPUT, NOBODY, SHARED_SLOTS, SLOTS,
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import added, grown, record
+from pigaming_app.sim.record import record
 from pigaming_app.sim.world import ROBOTS, Robot
 
 OTHERS = ROBOTS - 1
@@ -73,9 +73,9 @@ class SlotView:
     wait: float  # s until the machine is done; 0: it is idle
     stalled: float  # of an input: s for which work has waited for a worker; counts down without work
     ours: int  # 1: the pallet in process, or in the output, belongs to the own team
-    rush: float = added()  # s left to the deadline of its pallet, a rush order; 0: none
-    fast: int = added()  # 1: a slot of the fast machine
-    theirs: int = added()  # 1: in party, its pallet is loose or the other team's
+    rush: float  # s left to the deadline of its pallet, a rush order; 0: none
+    fast: int  # 1: a slot of the fast machine
+    theirs: int  # 1: in party, its pallet is loose or the other team's
 
 
 @record
@@ -99,7 +99,7 @@ class Observation:
     lead: int  # own team's deliveries less the other team's; in party points
     others: Annotated[list[Other], OTHERS]
     people: Annotated[list[Person], WORKERS]
-    slots: Annotated[list[SlotView], SLOTS] = grown(SHARED_SLOTS)
+    slots: Annotated[list[SlotView], SLOTS]
     waypoint_x: float  # waypoint of the route
     waypoint_y: float
     waypoint_bearing: float
@@ -107,8 +107,8 @@ class Observation:
     goal_bearing: float
     goal_distance: float  # straight-line
     straight: int  # 1: the straight line to the goal is clear
-    rush: float = added()  # s left to the deadline of its pallet, a rush order; 0: none
-    slot_count: int = added(SHARED_SLOTS)  # slots that exist, from the first
+    rush: float  # s left to the deadline of its pallet, a rush order; 0: none
+    slot_count: int = SHARED_SLOTS  # slots that exist, from the first
 
 
 @kernel

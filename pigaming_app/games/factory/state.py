@@ -8,7 +8,7 @@ from typing import Annotated
 
 from pigaming_app.games.simple import MatchRules, MatchState
 from pigaming_app.sim.flow_field import Route
-from pigaming_app.sim.record import added, grown, record
+from pigaming_app.sim.record import record
 from pigaming_app.sim.world import HZ, ROBOTS
 
 ICE, FIRE = 0, 1  # the teams
@@ -55,20 +55,20 @@ class Rules(MatchRules):
     walk: float = 130.0  # speed of workers
     worker_radius: float = 20.0
     driving: float = 20.0  # slower robots do not drive over anybody
-    party: int = added()  # 1: endless orders, rush orders, loose pallets, a fast machine; points decide
-    allies: int = added()  # 1: one team, for which both warehouses work; stars by time
-    orders: int = added()  # party: pallets of a team that are under way at once
-    loose: int = added()  # party: loose pallets on the floor, at most
-    rush_every: int = added()  # party: each team's every so many-th order is a rush
-    rush: int = added()  # party: ticks from the arrival of a rush order to its deadline
-    rush_points: int = added()  # party: for a rush delivered in time; any other delivery is one point
-    claim: int = added()  # party: ticks in an output after which anybody may take a processed pallet
-    renew: int = added()  # party: ticks from a delivery to the next order, or to the next loose pallet
-    fast_every: int = added()  # party: ticks for which one machine is the fast one
-    fast_process: int = added()  # party: ticks of processing on the fast machine, which needs no worker
-    overtime: int = added()  # party: ticks at most, after level points, in which the next point wins
-    three_stars: int = added()  # allies: ticks within which everything is delivered for three stars
-    two_stars: int = added()  # and for two; one star for everything within the time limit
+    party: int  # 1: endless orders, rush orders, loose pallets, a fast machine; points decide
+    allies: int  # 1: one team, for which both warehouses work; stars by time
+    orders: int  # party: pallets of a team that are under way at once
+    loose: int  # party: loose pallets on the floor, at most
+    rush_every: int  # party: each team's every so many-th order is a rush
+    rush: int  # party: ticks from the arrival of a rush order to its deadline
+    rush_points: int  # party: for a rush delivered in time; any other delivery is one point
+    claim: int  # party: ticks in an output after which anybody may take a processed pallet
+    renew: int  # party: ticks from a delivery to the next order, or to the next loose pallet
+    fast_every: int  # party: ticks for which one machine is the fast one
+    fast_process: int  # party: ticks of processing on the fast machine, which needs no worker
+    overtime: int  # party: ticks at most, after level points, in which the next point wins
+    three_stars: int  # allies: ticks within which everything is delivered for three stars
+    two_stars: int  # and for two; one star for everything within the time limit
 
 
 @record
@@ -83,8 +83,8 @@ class Pallet:
     waited: int  # ticks in its slot (a machine's, or the exit), or since it was damaged
     steps: int  # machines that have processed it
     fed: int  # 1 + the robot that put it into the machine
-    loose: int = added()  # 1: comes back to a shared slot, half done, and belongs to the team that lifts it
-    rush: int = added()  # ticks left to its deadline as a rush order; 0: an ordinary order, or too late
+    loose: int  # 1: comes back to a shared slot, half done, and belongs to the team that lifts it
+    rush: int  # ticks left to its deadline as a rush order; 0: an ordinary order, or too late
 
 
 @record
@@ -115,8 +115,8 @@ class Machine:
     stalled: int  # ticks for which work has waited; counts down without work
     failed_worker: int  # 1 + the worker who last failed to reach it, until one succeeds; 0: none
     failed_at: int  # tick of that failure
-    fast: int = added()  # 1: the fast machine of the moment, in party
-    quick: int = added()  # 1: the pallet in process takes only Rules.fast_process
+    fast: int  # 1: the fast machine of the moment, in party
+    quick: int  # 1: the pallet in process takes only Rules.fast_process
 
 
 @record
@@ -163,7 +163,7 @@ class Load:
     spoiled: int  # pallets put into a wrong machine
     hits: int  # workers driven over
     aim: int  # 1 + the target slot of an AI, visible to its team mate; 0: none, or a human player
-    stolen: int = added()  # pallets of the other team that this robot has taken
+    stolen: int  # pallets of the other team that this robot has taken
 
 
 @record
@@ -172,7 +172,7 @@ class Factory(MatchState):
 
     rules: Rules
     pallets: Annotated[list[Pallet], PALLETS]
-    slots: Annotated[list[Slot], SLOTS] = grown(SHARED_SLOTS)
+    slots: Annotated[list[Slot], SLOTS]
     machines: Annotated[list[Machine], MACHINES]
     workers: Annotated[list[Worker], WORKERS]
     loads: Annotated[list[Load], ROBOTS]
@@ -180,8 +180,8 @@ class Factory(MatchState):
     aisle: Annotated[list[float], 4]  # left, top, width, height of the walkway
     delivered: Annotated[list[int], TEAMS]
     winner: int  # 1 + the team that has delivered everything; 0: none
-    slot_count: int = added(SHARED_SLOTS)  # slots that exist, from the first
-    points: Annotated[list[int], TEAMS] = added()  # in party
-    ordered: Annotated[list[int], TEAMS] = added()  # in party: orders that have arrived so far
-    turns: Annotated[list[int], MACHINES] = added()  # in party: machines in the order in which they are the fast one
-    stars: int = added()  # of allies, once everything is delivered: 1 to 3
+    slot_count: int = SHARED_SLOTS  # slots that exist, from the first
+    points: Annotated[list[int], TEAMS]  # in party
+    ordered: Annotated[list[int], TEAMS]  # in party: orders that have arrived so far
+    turns: Annotated[list[int], MACHINES]  # in party: machines in the order in which they are the fast one
+    stars: int  # of allies, once everything is delivered: 1 to 3

@@ -13,7 +13,7 @@ from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import added, record
+from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH, Robot
@@ -28,7 +28,7 @@ class Senses:
 
     delay: float  # s, age of the poses of others
     route: Route
-    cover: int = added(1)  # 0: cover is left out
+    cover: int = 1  # 0: cover is left out
 
 
 @record
@@ -46,10 +46,10 @@ class Other:
     clear: int  # 1: a bullet would meet no inner wall
     protected: int
     score: int
-    knocked_out: int = added()  # ticks left
-    lit: int = added()
-    bounty: int = added()  # points that a hit on it is worth in addition
-    worth: int = added(1)  # points that a hit of the observer on it would score now
+    knocked_out: int  # ticks left
+    lit: int
+    bounty: int  # points that a hit on it is worth in addition
+    worth: int = 1  # points that a hit of the observer on it would score now
 
 
 @record
@@ -87,12 +87,12 @@ class Observation:
     waypoint_distance: float
     goal_distance: float  # straight-line
     straight: int  # 1: the straight line to the goal is clear
-    knocked_out: int = added()  # ticks left
-    camped: int = added()  # ticks within `Rules.camp_radius`
-    lit: int = added()
-    bounty: int = added()
-    finale: int = added()  # 1: hits count double
-    overtime: int = added()  # 1: regular time is over; `seconds_left` is that of the overtime
+    knocked_out: int  # ticks left
+    camped: int  # ticks within `Rules.camp_radius`
+    lit: int
+    bounty: int
+    finale: int  # 1: hits count double
+    overtime: int  # 1: regular time is over; `seconds_left` is that of the overtime
 
 
 @kernel

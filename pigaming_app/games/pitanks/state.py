@@ -3,7 +3,7 @@
 from typing import Annotated
 
 from pigaming_app.games.simple import MatchRules, MatchState
-from pigaming_app.sim.record import added, record
+from pigaming_app.sim.record import record
 from pigaming_app.sim.world import HZ, ROBOTS
 
 SHIELD, SPEED, RAPID, TRIPLE, RICOCHET, MINE = range(6)
@@ -45,15 +45,15 @@ class Rules(MatchRules):
     mine_radius: float = 22.0
     mine_arming: int = HZ
     mine_life: int = 30 * HZ
-    penalty: int = added(1)  # points that a hit costs the robot that is hit
-    knockout: int = added()  # time that a hit knocks out; 0: disabled
-    recoil: float = added(176.0)  # speed backwards at the hit, which falls evenly to 0 during the knock-out
-    camping: int = added()  # time within `camp_radius` after which a robot is lit; 0: disabled
-    camp_radius: float = added(72.0)
-    lit_distance: float = added(500.0)  # between a lit robot and a pick-up that appears
-    bounty_lead: int = added()  # a hit on a robot whose team leads by more counts one more; 0: disabled
-    finale: int = added()  # time before the end in which hits count double
-    overtime: int = added()  # at most, if two teams are level at the top when `ticks` are over
+    penalty: int = 1  # points that a hit costs the robot that is hit
+    knockout: int  # time that a hit knocks out; 0: disabled
+    recoil: float = 176.0  # speed backwards at the hit, which falls evenly to 0 during the knock-out
+    camping: int  # time within `camp_radius` after which a robot is lit; 0: disabled
+    camp_radius: float = 72.0
+    lit_distance: float = 500.0  # between a lit robot and a pick-up that appears
+    bounty_lead: int  # a hit on a robot whose team leads by more counts one more; 0: disabled
+    finale: int  # time before the end in which hits count double
+    overtime: int  # at most, if two teams are level at the top when `ticks` are over
 
 
 @record
@@ -67,13 +67,13 @@ class Tank:
     hits: int  # hits made, by bullet or mine
     taken: int  # hits taken
     powers: Annotated[list[int], 6]  # ticks left of each; 0: inactive
-    knocked_out: int = added()  # ticks left in which it reverses and obeys no input
-    camp_x: float = added()  # centre of the circle that it has not left
-    camp_y: float = added()
-    camped: int = added()  # ticks in that circle
-    lit: int = added()  # 1: it has been there for `Rules.camping`
-    bounty: int = added()  # points that a hit on it is worth in addition
-    barred: int = added()  # 1: its hits score nothing, since its team is not level at the top in overtime
+    knocked_out: int  # ticks left in which it reverses and obeys no input
+    camp_x: float  # centre of the circle that it has not left
+    camp_y: float
+    camped: int  # ticks in that circle
+    lit: int  # 1: it has been there for `Rules.camping`
+    bounty: int  # points that a hit on it is worth in addition
+    barred: int  # 1: its hits score nothing, since its team is not level at the top in overtime
 
 
 @record
@@ -121,7 +121,7 @@ class PiTanks(MatchState):
     next_pickup: int  # ticks until the next one appears
     pickups: Annotated[list[Pickup], PICKUPS]
     mines: Annotated[list[Mine], MINES]
-    last_hit: int = added()  # ticks from the start to the last hit that knocked out; 0: none
-    last_shooter: int = added()  # seats of that hit
-    last_victim: int = added()
-    last_points: int = added()  # that it scored
+    last_hit: int  # ticks from the start to the last hit that knocked out; 0: none
+    last_shooter: int  # seats of that hit
+    last_victim: int
+    last_points: int  # that it scored

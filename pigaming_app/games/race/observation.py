@@ -13,7 +13,7 @@ from pigaming_app.games.race.passages import clear_aside
 from pigaming_app.games.race.state import Race
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import added, record
+from pigaming_app.sim.record import record
 from pigaming_app.sim.world import ROBOTS, Robot
 
 OTHERS = ROBOTS - 1
@@ -44,9 +44,9 @@ class TrackPoint:
     right_y: float
     ideal: float  # px aside of the centre line
     half: float  # px from the centre line to the edges
-    narrow: int = added()  # 1: things stand there, and from here to there robots pass between these two offsets, px
-    low: float = added()
-    high: float = added()
+    narrow: int  # 1: things stand there, and from here to there robots pass between these two offsets, px
+    low: float
+    high: float
 
 
 @record
@@ -104,16 +104,16 @@ class Observation:
     finished: int
     ahead: TrackPoint  # at the lookahead distance
     others: Annotated[list[Other], OTHERS]
-    lost: int = added()  # as in Racer: FIRE asks for the way back
-    party: int = added()  # 1: the fields below are in use
-    item: int = added()
-    shield: int = added()
-    spin: int = added()
-    slip: int = added()
-    surge: int = added()
-    oils: Annotated[list[Feature], SLICKS] = added()  # the nearest, nearest first
-    pad: Feature = added()  # the nearest
-    box: Feature = added()  # the nearest that is there; of two side by side the one less far to the side
+    lost: int  # as in Racer: FIRE asks for the way back
+    party: int  # 1: the fields below are in use
+    item: int
+    shield: int
+    spin: int
+    slip: int
+    surge: int
+    oils: Annotated[list[Feature], SLICKS]  # the nearest, nearest first
+    pad: Feature  # the nearest
+    box: Feature  # the nearest that is there; of two side by side the one less far to the side
 
 
 @kernel

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pigaming_app.games.race.course import POINTS, Course, CoursePosition
 from pigaming_app.games.simple import MatchRules, MatchState
-from pigaming_app.sim.record import added, record
+from pigaming_app.sim.record import record
 from pigaming_app.sim.world import HZ, ROBOTS
 
 MAX_LAPS = 9
@@ -34,19 +34,19 @@ class Rules(MatchRules):
     patience: int = 30 * HZ  # left for the others after the first has finished
     roll_on: int = round(1.5 * HZ)  # for which a finisher may still drive, to clear the line
     carried: float = 40.0  # px in a tick: a robot that moved further was carried by hand, and has crossed nothing
-    party: int = added()  # 1: common start and finish line, slipstream, boost pads, items
-    slip_reach: float = added(350.0)  # px, length of the slipstream behind a robot's centre
-    slip_width: float = added(45.0)  # px to either side of it
-    slip_refill: float = added(1.0 / (5 * HZ))  # of the meter, per tick, times the place: most for the last
-    surge_factor: float = added(1.3)  # of speed, on a boost pad and after it
-    pad_surge: int = added(round(1.0 * HZ))
-    item_surge: int = added(round(1.4 * HZ))  # of the item `turbo`, which also fills the meter
-    shield_life: int = added(10 * HZ)
-    box_pause: int = added(HZ)  # until an item box that was taken is back
-    oil_life: int = added(20 * HZ)
-    oil_radius: float = added(30.0)
-    spin: int = added(round(1.05 * HZ))
-    spin_rate: float = added(6.0)  # a turn of 360 degrees in `spin`
+    party: int  # 1: common start and finish line, slipstream, boost pads, items
+    slip_reach: float = 350.0  # px, length of the slipstream behind a robot's centre
+    slip_width: float = 45.0  # px to either side of it
+    slip_refill: float = 1.0 / (5 * HZ)  # of the meter, per tick, times the place: most for the last
+    surge_factor: float = 1.3  # of speed, on a boost pad and after it
+    pad_surge: int = round(1.0 * HZ)
+    item_surge: int = round(1.4 * HZ)  # of the item `turbo`, which also fills the meter
+    shield_life: int = 10 * HZ
+    box_pause: int = HZ  # until an item box that was taken is back
+    oil_life: int = 20 * HZ
+    oil_radius: float = 30.0
+    spin: int = round(1.05 * HZ)
+    spin_rate: float = 6.0  # a turn of 360 degrees in `spin`
 
 
 @record
@@ -84,20 +84,20 @@ class Racer:
     best_splits: Annotated[list[float], LINES]  # of its best lap
     delta: float  # the last split, or lap, less that of the best lap
     delta_at: int  # tick of the last change of `delta`; 0: none yet
-    line: int = added()  # index of its own line, its start and finish
-    lost: int = added()  # OFF_COURSE .. STUCK: FIRE now asks for the way back (see `Robot.recover`); 0: it is not lost
-    left: float = added()  # px along the course, where it was last on its way
-    backward: int = added()  # ticks of facing against the course
-    still: int = added()  # ticks of driving without getting anywhere
-    still_x: float = added()  # where that began, px
-    still_y: float = added()
-    fire_held: int = added()  # 1: FIRE was down in the previous tick
-    item: int = added()  # TURBO, SHIELD or OIL, which FIRE uses; NO_ITEM
-    shield: int = added()  # ticks left
-    surge: int = added()  # ticks left of the speed of a boost pad
-    slip: int = added()  # 1: in a slipstream
-    spin: int = added()  # ticks left of a spin on oil
-    spin_way: int = added()  # 1: clockwise, -1: anticlockwise
+    line: int  # index of its own line, its start and finish
+    lost: int  # OFF_COURSE .. STUCK: FIRE now asks for the way back (see `Robot.recover`); 0: it is not lost
+    left: float  # px along the course, where it was last on its way
+    backward: int  # ticks of facing against the course
+    still: int  # ticks of driving without getting anywhere
+    still_x: float  # where that began, px
+    still_y: float
+    fire_held: int  # 1: FIRE was down in the previous tick
+    item: int  # TURBO, SHIELD or OIL, which FIRE uses; NO_ITEM
+    shield: int  # ticks left
+    surge: int  # ticks left of the speed of a boost pad
+    slip: int  # 1: in a slipstream
+    spin: int  # ticks left of a spin on oil
+    spin_way: int  # 1: clockwise, -1: anticlockwise
 
 
 @record
@@ -142,9 +142,9 @@ class Race(MatchState):
     first: int  # tick of the first finish; 0: none yet
     ideal: Annotated[list[float], POINTS]  # offset of the fastest line at each point of the course, px
     pace: Annotated[list[float], POINTS]  # speed there, as a share of full speed
-    pads: Annotated[list[Pad], PADS] = added()  # party only
-    boxes: Annotated[list[Box], BOXES] = added()
-    oils: Annotated[list[Oil], OILS] = added()
-    narrow: int = added()  # 1: there are things, and robots pass them between these two offsets at each point, px
-    low: Annotated[list[float], POINTS] = added()
-    high: Annotated[list[float], POINTS] = added()
+    pads: Annotated[list[Pad], PADS]  # party only
+    boxes: Annotated[list[Box], BOXES]
+    oils: Annotated[list[Oil], OILS]
+    narrow: int  # 1: there are things, and robots pass them between these two offsets at each point, px
+    low: Annotated[list[float], POINTS]
+    high: Annotated[list[float], POINTS]

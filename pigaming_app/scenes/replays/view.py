@@ -77,7 +77,7 @@ def row(words: Words, entry: Entry, hot: bool) -> list[LitImage]:
     if replay is None:
         return [damaged(words("replays.damaged", name=entry.path.name))]
     seats = tuple(
-        (seat, other.brain, replay.scores[seat] if replay.scores else None, seat in replay.winners)
+        (seat, other.brain, replay.scores[seat], seat in replay.winners)
         for seat, other in enumerate(replay.setup.seats)
         if other.brain != "off"
     )

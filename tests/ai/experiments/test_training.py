@@ -6,7 +6,6 @@ import zipfile
 from contextlib import suppress
 from dataclasses import asdict, replace
 from io import BytesIO
-from pathlib import Path
 from warnings import catch_warnings
 
 import numpy as np
@@ -24,6 +23,7 @@ from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.match import Match
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
+from tests import tags
 
 BODIES = [False, pytest.param(True, marks=pytest.mark.skipif(not can_compile(), reason="numba is not installed"))]
 compiles = pytest.mark.skipif(not can_compile(), reason="numba is not installed")
@@ -154,9 +154,8 @@ def test_a_file_says_what_it_was_trained_for_and_on(kept):
     assert kept.stat().st_size < 100_000
 
 
-@pytest.mark.parametrize("version", ["1.3.0", "1.4.0"])
-def test_a_table_of_an_older_version_is_read_and_learns_on(version):
-    trained = read(Path(__file__).parents[2] / "data" / version / "ROBI.npz")
+def test_a_table_of_another_engine_is_read_and_learns_on():
+    trained = replace(read(tags.FOLDER / "2.0.0" / "ROBI.npz"), engine="another")
     assert (trained.name, trained.recipe, trained.matches, trained.other_engine) == ("ROBI", RECIPES[2], 2, True)
     again = training.resumed(trained, fast=False)
     again.run(300)

@@ -1,11 +1,12 @@
 """Naming, saving and opening robots with a pad; every error is one sentence on screen."""
 
 import errno
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.qlearning.table_files import Trained
+from pigaming_app.ai.qlearning.table_files import Trained, decode, encode
 from pigaming_app.scenes.lab import saved_robots as robots
 from pigaming_app.scenes.lab.pages.menu import LabMenu
 from pigaming_app.scenes.lab.pages.name_page import NamePage
@@ -15,11 +16,10 @@ from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
+from tests import tags
 from tests.cases import one_in
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
-
-OLD = Path(__file__).parents[2] / "data" / "1.3.0"
 
 
 @pytest.fixture
@@ -171,10 +171,11 @@ def test_a_damaged_file_is_one_sentence_and_the_robot_of_the_moment_stays(arcade
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_a_robot_of_an_older_version_is_opened_and_that_is_said(arcade: Arcade, language: str) -> None:
+def test_a_robot_of_another_engine_is_opened_and_that_is_said(arcade: Arcade, language: str) -> None:
     arcade.context.words.switch(language)
+    trained = decode((tags.FOLDER / "2.0.0" / "ROBI.npz").read_bytes(), "")
     robots.folder().mkdir(parents=True)
-    robots.file_of("ROBI").write_bytes((OLD / "ROBI.npz").read_bytes())
+    robots.file_of("ROBI").write_bytes(encode(replace(trained, engine="another")))
     menu(arcade, "open")
     arcade.press(Button.FIRE)
     here = lab(arcade)

@@ -1,5 +1,6 @@
 """Demonstration matches and replays."""
 
+from dataclasses import replace
 from pathlib import Path
 from time import thread_time
 
@@ -18,11 +19,10 @@ from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
+from tests import tags
 from tests.scenes.arcade import Arcade, setup
 from tests.scenes.measuring import faults, measuring
 from tests.scenes.title.test_attract import scores_of
-
-OLD = Path(__file__).parents[2] / "data" / "1.3.0"
 
 
 @pytest.fixture
@@ -205,7 +205,9 @@ def test_a_replay_of_another_engine_plays_with_a_notice(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str
 ) -> None:
     arcade.context.words.switch(language)
-    scene = ReplayScene(arcade.context, load_replay(OLD / "pitanks.replay"))
+    scene = ReplayScene(
+        arcade.context, replace(load_replay(tags.FOLDER / "2.0.0" / "pitanks.replay"), engine="another")
+    )
     arcade.open(scene)
     notice = arcade.context.words("replay.other_engine")
     with measuring(monkeypatch) as screen:

@@ -12,7 +12,6 @@ import logging
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from glob import escape
 from itertools import pairwise
 from pathlib import Path
 from threading import Thread
@@ -30,7 +29,6 @@ FOLDER = "ghosts"
 LONGEST = 600.0  # s
 FARTHEST = 10_000.0  # px from the centre, or rad
 SLACK = 1.1  # tolerance: real robots may be slightly faster than the rules, and tracked poses jitter
-OFF = 0.2  # share of a lap that may lie off the course; more is a lap of another track
 NEAR = 50.0  # px along the track between a robot and the line it crosses
 Pose = tuple[float, float, float]  # px, px, rad
 log = logging.getLogger(__name__)
@@ -96,55 +94,12 @@ def load_ghost(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
     for line in warnings:
         log.warning("%s", line)
     if parsed is None:
-        return (None, "lost") if warnings else (_of_moved_lines(folder, arena), "")
+        return None, "lost" if warnings else ""
     engine, ghost = parsed
     if drivable(ghost, arena) or engine == engine_hash():  # hashing the engine takes a tenth of a second
         return ghost, ""
     log.warning("%s: dropped; under the current rules no robot can drive this lap", file_of(folder, arena))
     return None, "old"
-
-
-def _of_moved_lines(folder: Path, arena: Arena) -> Ghost | None:
-    """The fastest ghost from the time before a track's lines were moved, timed anew on its present lines."""
-    found = []
-    for path in sorted((folder / FOLDER).glob(f"{escape(arena.name)}-????????.json")):
-        parsed, _ = read_or_restore(path, _parsed)
-        ghost = timed_anew(parsed[1], arena) if parsed else None
-        if ghost and drivable(ghost, arena):
-            found.append(ghost)
-    return min(found, key=lambda ghost: ghost.seconds, default=None)
-
-
-def timed_anew(ghost: Ghost, arena: Arena) -> Ghost | None:
-    """The same lap, from line 0 of a track to itself; None unless it is a lap of this track."""
-    course, place = arena.plan.course, CoursePosition()
-    alongs, off = [], 0
-    for x, y, _ in ghost.poses:
-        locate(course, x, y, place)
-        alongs.append(place.along)
-        off += 1 - place.on
-    if off > OFF * len(alongs):
-        return None
-    ways = [(b - a + course.length / 2) % course.length - course.length / 2 for a, b in pairwise([*alongs, alongs[0]])]
-    if abs(sum(ways) - course.length) > NEAR:
-        return None
-    times = [_passing(line, alongs, ways, course.length, ghost.seconds) for line in arena.plan.lines]
-    start = times[0]
-    crossed = tuple(round((time - start) % ghost.seconds, 4) for time in times)
-    if any(before >= after for before, after in pairwise((*crossed, ghost.seconds))):
-        return None
-    track = [ghost.pose(ghost.line, (start + i / RATE) % ghost.seconds) for i in range(int(ghost.seconds * RATE) + 1)]
-    return Ghost(0, ghost.seconds, crossed, tuple(pose or ghost.poses[0] for pose in track))
-
-
-def _passing(line: float, alongs: Sequence[float], ways: Sequence[float], length: float, seconds: float) -> float:
-    """Time in s at which a lap of `seconds` first passes a line; `ways`: px from each position to the next."""
-    for i, (along, way) in enumerate(zip(alongs, ways, strict=True)):
-        ahead = (line - along) % length
-        if way > 0.0 and ahead < way:
-            begin, end = i / RATE, min((i + 1) / RATE, seconds)
-            return begin + ahead / way * (end - begin)
-    return 0.0
 
 
 def drivable(ghost: Ghost, arena: Arena) -> bool:
