@@ -4,12 +4,12 @@
     python3 examples/hand_written_agent.py
 
 It drives along the way to the nearest opponent, turns its gun to the most pressing one, leads the target and fires.
-The parts of the observation are described in pigaming_app/ai/networks/pitanks.py.
+docs/networks.md describes the parts of the observation.
 """
 
 from typing import Any
 
-from pigaming_app.gym import groups, parallel_env
+from pigaming_app.api.environments import groups, parallel_env
 
 PARTS = groups("pitanks")
 BACK, STOP, AHEAD = range(3)  # choices of the head `drive`

@@ -18,7 +18,7 @@ import torch
 from torch import nn
 from torch.distributions import Categorical
 
-import pigaming_app.gym  # noqa: F401  # registers the environments
+import pigaming_app.api.environments  # noqa: F401  # registers the environments
 
 STEPS, EPOCHS, MINIBATCH = 60, 2, 2048
 DISCOUNT, TRACE, CLIP, ENTROPY, STEEPEST, RATE = 0.99, 0.95, 0.2, 0.01, 0.5, 1e-3

@@ -21,7 +21,7 @@ ALONE = {"agents": 1, "opponents": ("level3",)}
 
 def make(options: dict[str, Any]) -> ParallelPettingZooEnv:
     """The environment, in a worker of RLlib."""
-    from pigaming_app.gym import parallel_env
+    from pigaming_app.api.environments import parallel_env
 
     return ParallelPettingZooEnv(parallel_env(**options))
 

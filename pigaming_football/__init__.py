@@ -1,6 +1,6 @@
 """Robot Football: put the ball into the other team's goal."""
 
-from pigaming_app.games.game import Game, LadderMatches
+from pigaming_app.api import Game, LadderMatches
 
 from .observation import Observation, observe
 from .pitch import faults, read
@@ -9,6 +9,7 @@ from .start import VARIANTS, rules_of, start, stats
 from .state import Football
 from .surprise import surprise
 
+API = 1  # of pigaming_app.api, for which this game was written
 GAME = Game(
     name="football",
     state=Football,

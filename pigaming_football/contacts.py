@@ -6,11 +6,19 @@ is that of `sim/sweep.py`.
 
 from typing import Any
 
-from pigaming_app.sim.grid import NEAR_UNIT, node_at
-from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import FAR, disc_contact, offset_from_wall, wall_contact
-from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
+from pigaming_app.api.rules import (
+    FAR,
+    HEIGHT,
+    NEAR_UNIT,
+    RADIUS,
+    ROBOTS,
+    WIDTH,
+    disc_contact,
+    kernel,
+    node_at,
+    offset_from_wall,
+    wall_contact,
+)
 
 from .state import LEFT, MIDDLE, RIGHT
 

@@ -5,35 +5,35 @@ from typing import ClassVar
 
 import pygame
 
-from pigaming_app.games.drawing.values import Drawing, Part
-from pigaming_app.scenes.editor.model.routes import legs
-from pigaming_app.scenes.editor.model.shapes import (
+from pigaming_app.api.arenas import BUILT, Drawing, Part
+from pigaming_app.api.editor import (
+    SHORT,
+    SOLID_WALL,
     Dial,
+    Image,
     Item,
     Outline,
     Paper,
     Routes,
     Shape,
+    Start,
+    Thing,
     Tool,
     Tools,
+    Wall,
     apart,
     following,
+    legs,
     number_of,
     part_of,
     point_of,
+    rock,
     square,
+    starts_of,
     whole,
 )
-from pigaming_app.scenes.editor.model.symmetry import Image
-from pigaming_app.scenes.editor.parts.starts import Start, starts_of
-from pigaming_app.scenes.editor.parts.things import Thing
-from pigaming_app.scenes.editor.parts.walls import SHORT, SOLID_WALL, Wall, rock
-from pigaming_app.scenes.views.things.styles import NEON
-from pigaming_app.sim.arena import BUILT, Arena
-from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import HAIR, MIST, STEEL, THIN, Point, regular_polygon
-from pigaming_app.ui.draw.frame_budget import Steps
-from pigaming_app.ui.draw.icons import Pen
+from pigaming_app.api.look import HAIR, MIST, NEON, STEEL, THIN, Pen, Point, Steps, regular_polygon
+from pigaming_app.api.rules import HEIGHT, WIDTH, Arena
 
 from .pitch import BALL, FEWEST, NARROWEST, WIDEST
 from .screens.sprites import CIRCLE, draw_goal, draw_lines

@@ -8,14 +8,19 @@ from collections.abc import Sequence
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.ai.brain.thoughts import MATE, OPPONENT, PRIZE, Percept
-from pigaming_app.ai.networks.encoding import Encoding, encode_room, nearest_robot, saturating, whole
-from pigaming_app.ai.networks.subject import At, Found, Subject, distance_of
-from pigaming_app.sim.action import set_action
-from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import record
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH
+from pigaming_app.api.brains import MATE, OPPONENT, PRIZE, Percept, set_action
+from pigaming_app.api.networks import (
+    At,
+    Encoding,
+    Found,
+    Subject,
+    distance_of,
+    encode_room,
+    nearest_robot,
+    saturating,
+    whole,
+)
+from pigaming_app.api.rules import DT, HEIGHT, HZ, RADIUS, ROBOTS, WIDTH, kernel, record
 
 from .physics import can_catch
 from .rules import lead_of, side_of

@@ -6,11 +6,7 @@ The right team's frame is turned by half a circle, so that one brain plays for e
 from math import atan2, pi, sqrt
 from typing import Annotated, Any
 
-from pigaming_app.games.simple import OTHERS
-from pigaming_app.sim.angles import turn_to, wrap
-from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import record
-from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
+from pigaming_app.api.rules import DT, HEIGHT, OTHERS, ROBOTS, WIDTH, kernel, record, turn_to, wrap
 
 from .rules import lead_of, side_of
 from .state import LEFT, MIDDLE

@@ -7,11 +7,18 @@ place that no wall separates from it (`nearest_free`).
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.sim.grid import NEAR_UNIT, node_at
-from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import is_clear, offset_from_wall
-from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
+from pigaming_app.api.rules import (
+    DT,
+    HEIGHT,
+    NEAR_UNIT,
+    RADIUS,
+    ROBOTS,
+    WIDTH,
+    is_clear,
+    kernel,
+    node_at,
+    offset_from_wall,
+)
 
 from .contacts import SLOP, reflect, touch
 from .state import LEFT, MIDDLE, RIGHT

@@ -15,10 +15,7 @@ Where there is no room for it, `settle` finds some, or the ball is dropped anew.
 from math import atan2, cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, ROBOTS, WIDTH
+from pigaming_app.api.rules import DT, RADIUS, ROBOTS, WIDTH, kernel, turn_to
 
 from .contacts import LINE, ROBOT, bounce_off, first_contact, reflect, touch
 from .overlaps import give_way, is_free, nearest_free

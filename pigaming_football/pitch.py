@@ -13,14 +13,21 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import dist, hypot
 
-from pigaming_app.games.drawing.gaps import Flaw, narrow_gaps
-from pigaming_app.games.starts import clear_starts
-from pigaming_app.sim.arena import Arena, Layout, build, raise_first, read_starts, read_walls, start_faults
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.sweep import offset_from_wall
-from pigaming_app.sim.things.spec import read_things
-from pigaming_app.sim.toml_table import FieldError, TomlTable
-from pigaming_app.sim.world import HEIGHT, ROBOTS, SOLID, WIDTH, Wall, World
+from pigaming_app.api.arenas import (
+    FieldError,
+    Flaw,
+    Layout,
+    TomlTable,
+    build,
+    clear_starts,
+    narrow_gaps,
+    raise_first,
+    read_starts,
+    read_things,
+    read_walls,
+    start_faults,
+)
+from pigaming_app.api.rules import HEIGHT, RADIUS, ROBOTS, SOLID, WIDTH, Arena, Wall, World, offset_from_wall
 
 from .space import Place, Space, traps
 from .state import MAX_DROPS, MIDDLE, Rules

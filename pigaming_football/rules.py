@@ -16,11 +16,7 @@ lighter and livelier, and now and then golden: it counts two.
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.games.simple import steer
-from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.rng import uniform
-from pigaming_app.sim.robot import RADIUS, stop_all
-from pigaming_app.sim.world import ROBOTS, WIDTH
+from pigaming_app.api.rules import RADIUS, ROBOTS, WIDTH, kernel, steer, stop_all, uniform
 
 from .overlaps import is_free, nearest_free
 from .physics import (

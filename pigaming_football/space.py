@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import hypot, sqrt
 
-from pigaming_app.sim.world import HEIGHT, WIDTH, Wall
+from pigaming_app.api.rules import HEIGHT, WIDTH, Wall
 
 from .state import MIDDLE
 

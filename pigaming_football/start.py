@@ -2,12 +2,9 @@
 
 from collections.abc import Mapping, Sequence
 
-from pigaming_app.games.game import PAIRS, Setup, Variant, named
-from pigaming_app.games.simple import seat_robots
-from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.rng import seeded
-from pigaming_app.sim.toml_table import FieldError
-from pigaming_app.sim.world import HZ, WIDTH
+from pigaming_app.api import PAIRS, Variant, named
+from pigaming_app.api.arenas import FieldError
+from pigaming_app.api.rules import HZ, WIDTH, Arena, Setup, seat_robots, seeded
 
 from .pitch import Pitch
 from .rules import take_out

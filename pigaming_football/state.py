@@ -2,9 +2,8 @@
 
 from typing import Annotated
 
-from pigaming_app.games import simple
-from pigaming_app.sim.record import record
-from pigaming_app.sim.world import HEIGHT, HZ, ROBOTS
+from pigaming_app.api.rules import HEIGHT, HZ, ROBOTS, SimpleMatch, record
+from pigaming_app.api.rules import Rules as SimpleRules
 
 LEFT, RIGHT = 0, 1  # sides, which are also the numbers of the teams that defend them
 MIDDLE = HEIGHT / 2  # px, height of both goals' centres
@@ -13,7 +12,7 @@ NOBODY = 0  # `Ball.holder` and `Ball.touched` are 1 + the seat
 
 
 @record
-class Rules(simple.Rules):
+class Rules(SimpleRules):
     """Tunable parameters. Distances in px, speeds in px/s, times in ticks, masses in those of the standard ball.
 
     Robots are driven by their motors, whatever the ball does, so that its mass counts in shots alone.
@@ -89,7 +88,7 @@ class Footballer:
 
 
 @record
-class Football(simple.SimpleMatch):
+class Football(SimpleMatch):
     """The complete state of a match of Robot Football."""
 
     rules: Rules

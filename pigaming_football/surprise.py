@@ -4,8 +4,7 @@ from collections.abc import Iterator
 from math import dist
 from random import Random
 
-from pigaming_app.games.drawing.values import Drawing, Part, Value, text_of
-from pigaming_app.sim.toml_table import TomlTable
+from pigaming_app.api.arenas import Drawing, Part, TomlTable, Value, text_of
 
 from .pitch import faults
 

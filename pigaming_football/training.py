@@ -11,11 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.ppo.learner import Hyper
-from pigaming_app.ai.ppo.task import LEARNER, OFF, POOL, LineUp, Task
-from pigaming_app.ai.tallies import Tallies, is_over, sign
-from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.world import WIDTH
+from pigaming_app.api.learning import LEARNER, OFF, POOL, Hyper, LineUp, Tallies, Task, is_over, sign
+from pigaming_app.api.rules import WIDTH, kernel
 
 from .network import ENCODING
 from .rules import lead_of, side_of

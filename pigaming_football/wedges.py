@@ -5,7 +5,7 @@ from itertools import combinations
 from math import hypot
 from typing import NamedTuple
 
-from pigaming_app.sim.world import HEIGHT, WIDTH, Wall
+from pigaming_app.api.rules import HEIGHT, WIDTH, Wall
 
 from .state import MIDDLE
 

@@ -21,6 +21,7 @@ MAY = {
     "ai": {"sim", "storage", "games"},
     "ui": {"storage"},
     "scenes": {"sim", "storage", "ui", "games", "hardware", "ai", "events"},
+    "api": {"sim", "storage", "ui", "games", "ai", "scenes", "gym"},
     "gym": {"links", "sim", "storage", "ui", "games", "hardware", "ai", "scenes"},
     "events": {"games", "ai", "storage"},
     "jobs": {"links", "boot", "sim", "storage", "ui", "games", "hardware", "ai", "scenes", "gym", "events"},
@@ -48,24 +49,6 @@ DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pet
 DEPENDENCIES |= {"aiohttp", "segno", "ifaddr"}
 ROS = {"rospy", "rosgraph", "geometry_msgs", "sensor_msgs", "std_msgs"}  # of the system, in one module
 DEPENDENCIES |= ROS
-PLUGINS = [PACKAGE.parent / "pigaming_football", PACKAGE.parent / "assets" / "new_game"]
-RULES_FACE = ("sim", "games.game", "games.simple", "games.starts", "games.drawing")
-_BRAINS = (*RULES_FACE, "ai.brain", "ai.game_ai")
-FACE = {  # parts of a plug-in and the modules of this package that they may import; all others are its rules
-    "ai": (*_BRAINS, "ai.networks"),
-    "network": (*_BRAINS, "ai.networks"),
-    "training": (*_BRAINS, "ai.networks", "ai.ppo", "ai.tallies"),
-    "screens": (*RULES_FACE, "scenes.views", "ui"),
-    "editor": (*RULES_FACE, "scenes.views", "scenes.editor.model", "scenes.editor.parts", "ui"),
-}
-PACKAGES_OF = {"pygame": {"screens", "editor"}, "numpy": {"training"}}
-# An own part, and one that imports it.
-OWN_PARTS = {("network", "ai"), ("network", "training"), ("ai", "training"), ("screens", "editor")}
-OF_OUR_GAMES = tuple(
-    f"{room}.{game}"
-    for room in ("games", "ai", "ai.networks", "ai.ppo", "scenes.views", "scenes.views.games", "scenes.views.lessons")
-    for game in ("pitanks", "factory", "race")
-)
 FILES = [PACKAGE.parent / "main.py", *sorted(path for path in PACKAGE.rglob("*.py") if "micropython" not in path.parts)]
 
 
@@ -195,42 +178,6 @@ def test_rooms_lie_on_few_floors():
     assert {"boot", "storage", "sim"} <= {room for room in arrows if floor(room) == 1}
     assert max(map(floor, arrows)) <= FLOORS
     assert all(others <= MAY[room] for room, others in arrows.items())
-
-
-def test_plug_ins_import_public_faces_alone_and_nobody_imports_them():
-    assert [folder.name for folder in PLUGINS if not (folder / "__init__.py").is_file()] == []
-    for folder in PLUGINS:
-        for path in sorted(folder.rglob("*.py")):
-            check_face(folder, path)
-    names = {folder.name for folder in PLUGINS}
-    texts = [node.value for path in FILES for node, _ in nodes(path) if isinstance(node, ast.Constant)]
-    assert not [text for text in texts if isinstance(text, str) and names & {*text.split(".")} - {"new_game"}]
-
-
-def check_face(folder, path):
-    """Each part of a plug-in imports its part of the face, and no higher part of its own."""
-    place = path.relative_to(folder).parts
-    part = place[0].removesuffix(".py")
-    for node, _ in nodes(path):
-        names = [alias.name for alias in getattr(node, "names", ())]
-        assert not [name for name in names if name.startswith("_")], f"{path} imports a private name"
-        if isinstance(node, ast.ImportFrom) and node.level:
-            inside = [*place[: len(place) - node.level], *(node.module.split(".") if node.module else names)]
-            own = inside[0].removesuffix(".py")
-            assert own not in FACE or own == part or (own, part) in OWN_PARTS, f"{path} imports its {own}"
-        elif isinstance(node, ast.ImportFrom):
-            assert all(is_face(part, f"{node.module}.{name}") for name in names), f"{path} imports {node.module}"
-        elif isinstance(node, ast.Import):
-            assert all(is_face(part, name) for name in names), f"{path} imports {names}"
-
-
-def is_face(part, module):
-    """True if a part of a plug-in may import a module, or a name of it."""
-    root, _, inner = module.partition(".")
-    if root != PACKAGE.name:
-        return root in sys.stdlib_module_names or part in PACKAGES_OF.get(root, ())
-    faces = FACE.get(part, RULES_FACE)
-    return any(f"{inner}.".startswith(f"{face}.") for face in faces) and not inner.startswith(OF_OUR_GAMES)
 
 
 def test_main_needs_nothing_but_the_standard_library():

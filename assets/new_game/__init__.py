@@ -1,9 +1,10 @@
 """New Game: drive over the coin before the others do."""
 
-from pigaming_app.games.game import Game, Variant, named
+from pigaming_app.api import Game, Variant, named
 
 from .rules import NewGame, judge, rules_of, start
 
+API = 1  # of pigaming_app.api, for which this game was written
 GAME = Game(
     name="new_game",
     state=NewGame,

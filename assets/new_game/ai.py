@@ -2,12 +2,8 @@
 
 from typing import Any
 
-from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.brain.steering import follow
-from pigaming_app.ai.game_ai import GameAI, every_level
-from pigaming_app.sim.flow_field import Route
-from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import record
+from pigaming_app.api.brains import BrainKind, GameAI, Route, every_level, follow
+from pigaming_app.api.rules import kernel, record
 
 PERIOD = 5  # ticks between decisions
 

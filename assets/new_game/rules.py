@@ -2,15 +2,26 @@
 
 from typing import Any
 
-from pigaming_app.games.game import Setup
-from pigaming_app.games.simple import Rules, seat_robots, steer
-from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.flow_field import free_node
-from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import seeded, uniform
-from pigaming_app.sim.robot import stop_all
-from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, HZ, ROBOTS, WIDTH, World
+from pigaming_app.api.rules import (
+    CELL,
+    COLUMNS,
+    HEIGHT,
+    HZ,
+    ROBOTS,
+    WIDTH,
+    Arena,
+    Rules,
+    Setup,
+    World,
+    free_node,
+    kernel,
+    record,
+    seat_robots,
+    seeded,
+    steer,
+    stop_all,
+    uniform,
+)
 
 REACH = 60.0  # px from the coin at which a robot takes it
 

@@ -3,13 +3,22 @@
 from collections.abc import Iterator
 from typing import Any
 
-from pigaming_app.scenes.views.game_screens import GameScreens
-from pigaming_app.scenes.views.simple import SimpleView, on_canvas
-from pigaming_app.scenes.views.sprites.robot import robot
-from pigaming_app.ui.draw import FOCUS, LINE, GlowCanvas, dim
-from pigaming_app.ui.draw.frame_budget import Job
-from pigaming_app.ui.draw.sprites import Batch, Sprite, put, trim
-from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.api.look import (
+    FOCUS,
+    LINE,
+    Batch,
+    GameScreens,
+    GlowCanvas,
+    Job,
+    SimpleView,
+    Sprite,
+    cached,
+    dim,
+    on_canvas,
+    put,
+    robot,
+    trim,
+)
 
 
 class NewGameView(SimpleView):

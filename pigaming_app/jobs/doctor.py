@@ -204,8 +204,12 @@ def _assets() -> Iterator[Line]:
     from pigaming_app.games.arenas import arenas, load
     from pigaming_app.games.registry import games
     from pigaming_app.sim.arena import ArenaError
+    from pigaming_app.storage.plugins.parts import failures
 
-    for game in games():
+    every = games()
+    for failure in failures():
+        yield Line("added game", "note", failure, "mend it, or switch it off: main.py games off NAME")
+    for game in every:
         names = arenas(game)
         for name in names:
             try:

@@ -45,6 +45,7 @@ def run(arguments: Namespace) -> int:
     print(f"{', '.join(OURS)}: always there")
     for plugin in plugins:
         left_out = plugin.fault or (is_on(plugin) and plugin.name not in playing)
-        print(f"{plugin.name}: {STATES[is_on(plugin)]}{', left out' if left_out else ''}, in {plugin.folder}")
+        state = f"{STATES[is_on(plugin)]}{', left out' if left_out else ''}"
+        print(f"{plugin.name}: {state}, in {plugin.folder}{f': {plugin.fault}' if plugin.fault else ''}")
     print(f"more: packages in {user_folder()}, or `main.py new-game NAME`")
     return 0

@@ -3,11 +3,9 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.game_ai import LEVELS, GameAI
-from pigaming_app.ai.networks.files import shipped_brain
-from pigaming_app.ai.networks.policy import Handicap
-from pigaming_app.sim.rng import seeded, uniform
+from pigaming_app.api.brains import LEVELS, BrainKind, GameAI
+from pigaming_app.api.networks import Handicap, shipped_brain
+from pigaming_app.api.rules import seeded, uniform
 
 from .footballer import think
 from .mind import PERIOD, Mind

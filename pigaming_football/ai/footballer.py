@@ -15,15 +15,8 @@ Every robot decides for itself, from its team's frame; a human mate is assigned 
 from math import atan2, pi, sqrt
 from typing import Any
 
-from pigaming_app.ai.brain.steering import turn_stick
-from pigaming_app.ai.brain.unstick import choose_escape, escape, ticks_stuck
-from pigaming_app.sim.action import set_action
-from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.flow_field import descend, update_route
-from pigaming_app.sim.grid import node_at
-from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, WIDTH
+from pigaming_app.api.brains import choose_escape, descend, escape, set_action, ticks_stuck, turn_stick, update_route
+from pigaming_app.api.rules import CELL, COLUMNS, HEIGHT, WIDTH, is_clear, kernel, node_at, turn_to
 
 from ..observation import FREE, MATE, OPPONENT, OWN, from_left, observe, polar
 from ..rules import side_of

@@ -3,13 +3,8 @@
 from math import sqrt
 from typing import Any
 
-from pigaming_app.games.simple import Senses
-from pigaming_app.sim.flow_field import Route
-from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import bell
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.api.brains import Route, Senses
+from pigaming_app.api.rules import HEIGHT, RADIUS, WIDTH, bell, kernel, record
 
 from ..observation import Observation
 from ..state import Rules

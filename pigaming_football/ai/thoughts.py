@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from typing import Any
 
-from pigaming_app.ai.brain.thoughts import GOAL, MATE, OPPONENT, Percept, Thoughts, clamp, towards
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.api.brains import GOAL, MATE, OPPONENT, Percept, Thoughts, clamp, towards
+from pigaming_app.api.rules import HEIGHT, WIDTH
 
 from ..observation import OWN, from_left, polar
 from ..rules import side_of

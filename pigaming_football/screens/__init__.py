@@ -4,13 +4,23 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.scenes.views.game_screens import GameScreens, Placed
-from pigaming_app.scenes.views.preview import fitted, walls
-from pigaming_app.scenes.views.sprites.robot import robot
-from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import ADD, ICE, MIST, THIN, Color, GlowCanvas, dim, regular_polygon
-from pigaming_app.ui.draw.frame_budget import Steps
+from pigaming_app.api.look import (
+    ADD,
+    ICE,
+    MIST,
+    THIN,
+    Color,
+    GameScreens,
+    GlowCanvas,
+    Placed,
+    Steps,
+    dim,
+    fitted,
+    regular_polygon,
+    robot,
+    walls,
+)
+from pigaming_app.api.rules import HEIGHT, WIDTH, Arena
 
 from . import lessons
 from .sprites import draw_ball, draw_goal, draw_lines

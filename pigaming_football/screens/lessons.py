@@ -4,15 +4,21 @@ import math
 
 import pygame
 
-from pigaming_app.scenes.views.lessons.animation import add, drive_by
-from pigaming_app.scenes.views.sprites import effects
-from pigaming_app.scenes.views.sprites.factory import TEAMS
-from pigaming_app.scenes.views.sprites.robot import tank
-from pigaming_app.ui.draw import FOCUS, PLAYERS, GlowCanvas
-from pigaming_app.ui.draw.layers import LitImage
-from pigaming_app.ui.draw.sprites import HEADINGS, step
-from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.widgets.labels import blit_sprite
+from pigaming_app.api.look import (
+    FOCUS,
+    HEADINGS,
+    PLAYERS,
+    TEAMS,
+    GlowCanvas,
+    LitImage,
+    add,
+    blit_sprite,
+    cached,
+    drive_by,
+    effects,
+    step,
+    tank,
+)
 
 from .sprites import PHASES, RADIUS, ball, draw_goal
 

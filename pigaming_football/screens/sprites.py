@@ -4,28 +4,35 @@ import math
 
 import pygame
 
-from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.sprites.factory import TEAMS
-from pigaming_app.scenes.views.walled_background import Starts, walled_floor
-from pigaming_app.ui.draw import (
+from pigaming_app.api.look import (
     ADD,
     FOCUS,
     HAIR,
     ICE,
+    LEFT,
     LINE,
     MIST,
     STEEL,
+    TEAMS,
     THIN,
+    TOP,
     WHITE,
     Color,
     GlowCanvas,
+    Sprite,
+    Starts,
+    Steps,
+    cached,
     dim,
+    faded,
     mix,
+    painted,
     regular_polygon,
+    resumable,
+    trim,
+    turned,
+    walled_floor,
 )
-from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.sprites import Sprite, faded, painted, trim, turned
-from pigaming_app.ui.draw.surface_cache import cached
 
 RADIUS = 22  # px, of the ball
 DIRECTIONS, PHASES = 24, 20  # of the rolling ball

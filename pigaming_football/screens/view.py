@@ -8,22 +8,36 @@ from typing import Any
 
 import pygame
 
-from pigaming_app.scenes.views.background import TOP, Background, Bit
-from pigaming_app.scenes.views.hud.parts import CLOCK
-from pigaming_app.scenes.views.hud.score import ScoreHud
-from pigaming_app.scenes.views.rumble import GIVEN
-from pigaming_app.scenes.views.simple import SimpleView, on_canvas
-from pigaming_app.scenes.views.sprites import effects
-from pigaming_app.scenes.views.sprites.factory import TEAMS
-from pigaming_app.scenes.views.view import SoundCue, ViewOptions
-from pigaming_app.scenes.views.walled_background import Starts
-from pigaming_app.sim.arena import Arena
-from pigaming_app.ui.draw import FOCUS, HERO, ICE, LABEL, PLAYERS, readable
-from pigaming_app.ui.draw.frame_budget import Job
-from pigaming_app.ui.draw.layers import LitImage
-from pigaming_app.ui.draw.sprites import Batch, put, step
-from pigaming_app.ui.draw.text import fit_size, text
-from pigaming_app.ui.i18n import Words
+from pigaming_app.api.look import (
+    CLOCK,
+    FOCUS,
+    GIVEN,
+    HERO,
+    ICE,
+    LABEL,
+    PLAYERS,
+    TEAMS,
+    TOP,
+    Background,
+    Batch,
+    Bit,
+    Job,
+    LitImage,
+    ScoreHud,
+    SimpleView,
+    SoundCue,
+    Starts,
+    ViewOptions,
+    Words,
+    effects,
+    fit_size,
+    on_canvas,
+    put,
+    readable,
+    step,
+    text,
+)
+from pigaming_app.api.rules import Arena
 
 from ..rules import side_of
 from ..start import start_indices

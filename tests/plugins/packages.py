@@ -33,3 +33,12 @@ def install(site: Path, game: str, module: str) -> Path:
     (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: robot-{game}\nVersion: 1.2\n")
     (info / "entry_points.txt").write_text(f"[pigaming.games]\n{game} = {module}\n")
     return site.joinpath(*module.split("."))
+
+
+def changed(file: Path, old: str, new: str) -> int:
+    """Change a file of a package. Returns the line on which the first difference lies."""
+    text = file.read_text(encoding="utf-8")
+    assert old in text, old
+    file.write_text(text.replace(old, new, 1), encoding="utf-8")
+    same = next(k for k, (a, b) in enumerate(zip(old + "\0", new + "\0", strict=False)) if a != b)
+    return text[: text.index(old) + same].count("\n") + 1

@@ -10,7 +10,7 @@ import pytest
 from pigaming_app.jobs.new_game import write
 from pigaming_app.storage.plugins.consent import switch
 from pigaming_app.storage.plugins.found import user_folder
-from tests.plugins.packages import ROOT
+from tests.plugins.packages import ROOT, changed
 
 MATCH = """
 from pigaming_app.games.game import Seat, Setup
@@ -48,9 +48,7 @@ def test_the_title_returns_without_a_game_that_fails_or_hangs_in_a_match(
     folder = user_folder() / "tag"
     write(folder, "tag")
     switch("tag", True)
-    source = (folder / file).read_text()
-    assert before in source
-    (folder / file).write_text(source.replace(before, after))
+    changed(folder / file, before, after)
     quiet = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
     command = [sys.executable, "-c", MATCH]
     ended = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=os.environ | quiet, timeout=600)

@@ -13,7 +13,7 @@ import pytest
 from pigaming_app.jobs.new_game import write
 from pigaming_app.storage.plugins.consent import switch
 from pigaming_app.storage.plugins.found import user_folder
-from tests.plugins.packages import ROOT, write_tag
+from tests.plugins.packages import ROOT, changed, write_tag
 
 COMMAND = """
 import sys
@@ -48,12 +48,6 @@ def run(words: str, folder: Path, compiled: bool = False) -> subprocess.Complete
     return subprocess.run(command, capture_output=True, text=True, cwd=folder, env=os.environ | quiet, timeout=300)
 
 
-def change(folder: Path, file: str, old: str, new: str) -> None:
-    source = folder / file
-    assert old in source.read_text(), old
-    source.write_text(source.read_text().replace(old, new, 1))
-
-
 def refused(ended: subprocess.CompletedProcess[str], folder: Path) -> str:
     """The reason, if the command has ended as it should."""
     assert ended.returncode == 1, (ended.stdout, ended.stderr)
@@ -67,31 +61,36 @@ def refused(ended: subprocess.CompletedProcess[str], folder: Path) -> str:
 @pytest.mark.parametrize(
     ("words", "old", "new", "reason"),
     [
-        (PLAY, TICK, TICK + LOOP, "rules.py, line 56: it did not end."),
-        (LEAGUE, "    drop_coin(match)\n\n", f"    drop_coin(match)\n{LOOP}\n", "rules.py, line 39: it did not end."),
-        (BENCH, TICK, TICK + LOOP, "rules.py, line 56: it did not end."),
-        (TRAIN, TICK, TICK + LOOP, "rules.py, line 49: it did not end."),
-        (PLAY, TICK, TICK + "    __import__('time').sleep(99)\n", "rules.py, line 56: it did not end."),
+        (PLAY, TICK, TICK + LOOP, "rules.py, line {line}: it did not end."),
+        (
+            LEAGUE,
+            "    drop_coin(match)\n\n",
+            f"    drop_coin(match)\n{LOOP}\n",
+            "rules.py, line {line}: it did not end.",
+        ),
+        (BENCH, TICK, TICK + LOOP, "rules.py, line {line}: it did not end."),
+        (TRAIN, TICK, TICK + LOOP, "rules.py, line {line}: it did not end."),
+        (PLAY, TICK, TICK + "    __import__('time').sleep(99)\n", "rules.py, line {line}: it did not end."),
         (PLAY, "        match.over = 1", "        pass", "its match is not over 10 s after its time."),
         (DUEL, "        match.over = 1", "        pass", "its match is not over 10 s after its time."),
         (DUEL, "robot.score += 1", "robot.score += 0.5", ", no whole number."),
-        (DUEL, TICK, f"{TICK}    raise KeyboardInterrupt\n", "rules.py, line 56: KeyboardInterrupt."),
+        (DUEL, TICK, f"{TICK}    raise KeyboardInterrupt\n", "rules.py, line {line}: KeyboardInterrupt."),
     ],
 )
 def test_a_fault_in_a_match_is_one_line(tag: Path, words: str, old: str, new: str, reason: str) -> None:
     if words == TRAIN:
         write_tag(tag)
-    change(tag, "rules.py", old, new)
-    assert reason in refused(run(words, tag), tag)
+    line = changed(tag / "rules.py", old, new)
+    assert reason.format(line=line) in refused(run(words, tag), tag)
 
 
 def test_an_arena_that_is_never_done(tag: Path) -> None:
-    change(tag, "__init__.py", "GAME = Game(", SURPRISE)
+    changed(tag / "__init__.py", "GAME = Game(", SURPRISE)
     assert "it did not end" in refused(run(f"{PLAY} --arena surprise-7", tag), tag)
 
 
 def test_an_unusable_result_is_one_line(tag: Path) -> None:
-    change(tag, "__init__.py", "GAME = Game(", "GAME = Game(\n    ranking_key=lambda match, seat: None,")
+    changed(tag / "__init__.py", "GAME = Game(", "GAME = Game(\n    ranking_key=lambda match, seat: None,")
     assert "TypeError: " in refused(run(DUEL, tag), tag)
 
 
@@ -105,7 +104,7 @@ def test_an_unusable_result_is_one_line(tag: Path) -> None:
 )
 def test_compiled_matches_refuse_the_same(tag: Path, words: str, old: str, new: str, reason: str) -> None:
     """They are rehearsed plain: compiled, half a point would be cut off."""
-    change(tag, "rules.py", old, new)
+    changed(tag / "rules.py", old, new)
     assert reason in refused(run(words, tag, compiled=True), tag)
 
 
@@ -152,10 +151,10 @@ def test_what_ends_a_process_at_import_ends_no_other_job(tag: Path, file: str, l
 
 def test_a_plug_in_is_tried_again_only_after_a_change(tag: Path) -> None:
     trace = tag / "trace"
-    change(tag, "rules.py", "REACH = ", f"print(file=open({str(trace)!r}, 'a'))\nREACH = ")
+    changed(tag / "rules.py", "REACH = ", f"print(file=open({str(trace)!r}, 'a'))\nREACH = ")
     for tried in (2, 3):  # imports: the trial, and each command
         assert run(PLAY, tag).returncode == 0
         assert len(trace.read_text()) == tried
-    change(tag, "rules.py", "REACH = 60.0", "REACH = 61.0")
+    changed(tag / "rules.py", "REACH = 60.0", "REACH = 61.0")
     assert run(PLAY, tag).returncode == 0
     assert len(trace.read_text()) == 5

@@ -7,7 +7,7 @@ from pigaming_app.ai.brain.thoughts import BULLET, GOAL, MATE, OPPONENT, PERSON,
 from pigaming_app.ai.networks import factory, pitanks, race
 from pigaming_app.ai.networks.pitanks_things import MINE_NEAR
 from pigaming_app.ai.networks.subject import At, Found, Subject, distance_of
-from pigaming_app.storage.plugins.parts import parts
+from pigaming_app.storage.plugins.parts import Registry
 
 
 def in_pitanks(match: Any, inputs: Sequence[float], at: At) -> Found:
@@ -59,7 +59,7 @@ def in_race(match: Any, inputs: Sequence[float], at: At) -> Found:
             yield "course", Percept(WAY, *place)
 
 
-SUBJECTS = {
+OURS = {
     "pitanks": Subject(
         {
             "near": ("first",),
@@ -109,5 +109,5 @@ SUBJECTS = {
         "item",
         in_race,
     ),
-    **parts("network", "SUBJECT", Subject),
-}  # by game
+}
+SUBJECTS = Registry(OURS, "network", "SUBJECT", Subject)  # by game

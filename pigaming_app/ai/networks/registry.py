@@ -2,9 +2,11 @@
 
 from pigaming_app.ai.networks import factory, pitanks, race
 from pigaming_app.ai.networks.encoding import Encoding
-from pigaming_app.storage.plugins.parts import parts
+from pigaming_app.storage.plugins.parts import Registry
 
-ENCODINGS: dict[str, Encoding] = {
-    **{encoding.game: encoding for encoding in (pitanks.ENCODING, factory.ENCODING, race.ENCODING)},
-    **parts("network", "ENCODING", Encoding),
-}  # by game
+ENCODINGS = Registry(
+    {encoding.game: encoding for encoding in (pitanks.ENCODING, factory.ENCODING, race.ENCODING)},
+    "network",
+    "ENCODING",
+    Encoding,
+)  # by game

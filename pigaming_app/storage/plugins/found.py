@@ -2,7 +2,7 @@
 
 A plug-in is a package whose parts are modules of fixed names; each is optional but the first:
 
-    __init__    GAME: Game                        rules
+    __init__    API = 1, GAME: Game               the number of the API that it was written for; rules
     ai          AI: GameAI                        brains and driving styles
     network     ENCODING: Encoding, SUBJECT       inputs and outputs of networks, and how the overlay shows them
     training    TASK: Task, TALLIES: Tallies      training by PPO and by learning libraries
@@ -11,6 +11,7 @@ A plug-in is a package whose parts are modules of fixed names; each is optional 
 and folders `arenas`, `text` (LANGUAGE.toml), `sounds`, `brains`.
 """
 
+import ast
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -23,6 +24,7 @@ from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.plugins import user
 from pigaming_app.storage.settings import NoHome, folders
 
+API = 1  # the version of `pigaming_app.api`: names and their meanings. A plug-in names the one it was written for
 GROUP = "pigaming.games"  # of entry points, named after the games
 DISTRIBUTION = "pigaming-app"  # of this program
 PREFIX = "pigaming_"  # of packages beside this one, in a clone
@@ -54,7 +56,7 @@ def found() -> tuple[Plugin, ...]:
     for plugin in (*_beside(), *_of_user(), *_installed()):
         first = next((other for other in every if other.name == plugin.name), None)
         if first is None:
-            every.append(plugin)
+            every.append(replace(plugin, fault=plugin.fault or _api_fault(plugin.folder)))
         elif first.module != plugin.module:
             every.append(replace(plugin, fault=f"there is one in {first.folder} already"))
     return tuple(every)
@@ -122,3 +124,16 @@ def _folder_of(entry: EntryPoint) -> Path | None:
         if (folder / "__init__.py").is_file():
             return folder
     return None
+
+
+def _api_fault(folder: Path) -> str:
+    """Why the API that a package was written for is not this one, or nothing. Read without running any of its code."""
+    try:
+        body = ast.parse((folder / "__init__.py").read_bytes()).body
+    except (OSError, SyntaxError, ValueError):
+        return ""  # its import says more
+    for statement in body:
+        match statement:
+            case ast.Assign(targets=[ast.Name(id="API")], value=ast.Constant(value=int(number))):
+                return "" if number == API else f"it was written for API {number}, but this is API {API}"
+    return f"__init__.py: API = {API} is missing, the number of the API that it was written for"

@@ -6,9 +6,9 @@ Switching a plug-in on or off counts from the next start on: kernels and hashes 
 import re
 import sys
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, nullcontext, redirect_stdout
-from functools import cache
+from functools import cache, cached_property
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -94,6 +94,29 @@ def parts(part: str, attribute: str, kind: type[T], fits: Callable[[str, T], str
     if part == EDITOR:  # loaded while the game is on the screen: its texts and arenas stay
         _stopped.update(plugin.name for plugin in {*_failed} - before)
     return found
+
+
+class Registry(Mapping[str, T]):
+    """Parts of all games by name: `ours`, then an attribute of each plug-in's `part`, as `parts` has them.
+
+    Plug-ins are loaded at the first look, since they import rooms that may themselves import the registry.
+    """
+
+    def __init__(self, ours: Mapping[str, T], part: str, attribute: str, kind: type[T]) -> None:
+        self._ours, self._source = ours, (part, attribute, kind)
+
+    @cached_property
+    def _all(self) -> dict[str, T]:
+        return {**self._ours, **parts(*self._source)}
+
+    def __getitem__(self, game: str) -> T:
+        return self._all[game]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._all)
+
+    def __len__(self) -> int:
+        return len(self._all)
 
 
 def data_folders(kind: str) -> Iterator[tuple[str, Path]]:

@@ -13,7 +13,7 @@ from pigaming_app.jobs.new_game import write
 from pigaming_app.storage.plugins import consent, found
 from pigaming_app.storage.plugins.consent import is_on, switch
 from pigaming_app.storage.plugins.found import Plugin, user_folder
-from tests.plugins.packages import install
+from tests.plugins.packages import changed, install
 
 ROOT = Path(__file__).resolve().parents[3]
 LEFT_OUT = "PiGaming: The game tag in {folder} is left out: {reason}\n"
@@ -87,18 +87,16 @@ def test_one_that_is_switched_off_is_named(tag: Path) -> None:
 @pytest.mark.parametrize(
     ("file", "old", "new", "reason"),
     [
-        ("rules.py", "REACH = 60.0", "REACH = 60.0 +", "rules.py, line 15: SyntaxError: invalid syntax"),
-        ("rules.py", "REACH = 60.0", "REACH = SIXTY", "rules.py, line 15: NameError: name 'SIXTY' is not defined."),
+        ("rules.py", "REACH = 60.0", "REACH = 60.0 +", "rules.py, line {line}: SyntaxError: invalid syntax"),
+        ("rules.py", "REACH = 60.0", "REACH = SIXTY", "rules.py, line {line}: NameError: name 'SIXTY' is not defined."),
         ("__init__.py", "GAME = ", "THIS = ", "__init__.py: GAME is missing."),
         ("__init__.py", 'name="tag"', 'name="tick"', "its game is named tick, not tag."),
         ("__init__.py", "GAME = Game(", "GAME = dict(", "GAME is no Game."),
-        ("__init__.py", "GAME = ", "raise SystemExit(3)\nGAME = ", "__init__.py, line 7: SystemExit: 3."),
+        ("__init__.py", "GAME = ", "raise SystemExit(3)\nGAME = ", "__init__.py, line {line}: SystemExit: 3."),
     ],
 )  # fmt: skip
 def test_one_that_fails_is_left_out_with_file_and_reason(tag: Path, file: str, old: str, new: str, reason: str) -> None:
-    source = tag / file
-    assert old in source.read_text()
-    source.write_text(source.read_text().replace(old, new))
+    reason = reason.format(line=changed(tag / file, old, new))
     ended = program("duel", "pitanks", "easy", "idle", "--matches", "2", "--minutes", "0.05")
     assert ended.returncode == 0
     assert ended.stderr.startswith(LEFT_OUT.format(folder=tag, reason=reason).rstrip("\n"))
@@ -117,13 +115,11 @@ def test_one_that_fails_is_left_out_with_file_and_reason(tag: Path, file: str, o
     ],
 )
 def test_brains_that_the_lobby_could_not_offer(tag: Path, brains: str, reason: str) -> None:
-    file = tag / "ai.py"
-    before, _, _ = file.read_text().partition("AI = ")
     kinds = 'every_level(BrainKind("collector", Mind, think, reset))'
-    file.write_text(f"{before}AI = GameAI({brains.replace('KINDS', kinds)})\n")
+    line = changed(tag / "ai.py", f"AI = GameAI({kinds})", f"AI = GameAI({brains.replace('KINDS', kinds)})")
     ended = python("from pigaming_app.ai.registry import AIS; print(*AIS['tag'].kinds)")
     assert ended.stdout.split() == ["level1", "level2", "level3", "level4", "level5"], "random ones"
-    assert f"is left out: ai.py, line 34: ValueError: {reason}" in ended.stderr
+    assert f"is left out: ai.py, line {line}: ValueError: {reason}" in ended.stderr
     assert ended.stderr.count("\n") == 1
 
 
@@ -307,6 +303,32 @@ def test_an_installed_one_runs_nothing_before_it_is_switched_on_nor_its_parents(
     assert "is left out: SystemExit: a parent." in play().stderr
     (tmp_path / "site" / "robot_tag" / "__init__.py").write_text("")
     assert json.loads(play().stdout)["game"] == "tag"
+
+
+def test_one_for_another_api_is_refused_at_every_place(
+    home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Installed, in one line, before any of its code runs, and though its imports fit no more."""
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path / "site"))
+    folder = install(tmp_path / "site", "tag", "robot_tag")
+    write(folder, "tag")
+    switch("tag@robot_tag", True)
+    package = folder / "__init__.py"
+    package.write_text(package.read_text().replace("API = 1 ", "API = 2 ").replace("import Game,", "import Play,"))
+    reason = f"The game tag in {folder} is left out: it was written for API 2, but this is API 1."
+    ended = play()
+    assert (ended.returncode, ended.stdout, ended.stderr) == (1, "", f"PiGaming: {reason}\n")
+    assert f"note     added game               {reason}" in program("doctor").stdout
+    assert "tag: on, left out, in" in program("games").stdout
+    page = (
+        "from pigaming_app.scenes.options.games_page import why\nfrom pigaming_app.storage.plugins.found import found\n"
+    )
+    page += "print(*[why(plugin) for plugin in found() if plugin.name == 'tag'])"
+    assert python(page).stdout.splitlines()[-1] == "it was written for API 2, but this is API 1"
+    package.write_text(package.read_text().replace("API = 2 ", "THIS = 2 "))
+    assert (
+        "is left out: __init__.py: API = 1 is missing, the number of the API that it was written for." in play().stderr
+    )
 
 
 def test_a_module_instead_of_a_package_is_left_out(home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,11 @@
+"""All that a game from elsewhere may import, by what its author does; nothing else of this package is meant for it.
+
+`rules` and `arenas` (state, physics, arena files), `brains` (written by hand), `networks` and `learning` (trained), and
+`look` (pictures, sounds), `editor` (drawing of arenas), `environments` (for learning libraries), which need pygame.
+"""
+
+from pigaming_app.games.game import PAIRS, Game, LadderMatches, Variant, named
+from pigaming_app.storage.plugins.found import API
+
+MODULES = ("rules", "arenas", "brains", "networks", "learning", "look", "editor", "environments")  # the others
+__all__ = ["API", "PAIRS", "Game", "LadderMatches", "Variant", "named"]
