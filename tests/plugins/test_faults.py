@@ -61,27 +61,27 @@ def refused(ended: subprocess.CompletedProcess[str], folder: Path) -> str:
 @pytest.mark.parametrize(
     ("words", "old", "new", "reason"),
     [
-        (PLAY, TICK, TICK + LOOP, "rules.py, line {line}: it did not end."),
+        (PLAY, TICK, TICK + LOOP, "rules.py, line {n}: it did not end."),
         (
             LEAGUE,
             "    drop_coin(match)\n\n",
             f"    drop_coin(match)\n{LOOP}\n",
-            "rules.py, line {line}: it did not end.",
+            "rules.py, line {n}: it did not end.",
         ),
-        (BENCH, TICK, TICK + LOOP, "rules.py, line {line}: it did not end."),
-        (TRAIN, TICK, TICK + LOOP, "rules.py, line {line}: it did not end."),
-        (PLAY, TICK, TICK + "    __import__('time').sleep(99)\n", "rules.py, line {line}: it did not end."),
+        (BENCH, TICK, TICK + LOOP, "rules.py, line {n}: it did not end."),
+        (TRAIN, TICK, TICK + LOOP, "rules.py, line {n}: it did not end."),
+        (PLAY, TICK, TICK + "    __import__('time').sleep(99)\n", "rules.py, line {n}: it did not end."),
         (PLAY, "        match.over = 1", "        pass", "its match is not over 10 s after its time."),
         (DUEL, "        match.over = 1", "        pass", "its match is not over 10 s after its time."),
         (DUEL, "robot.score += 1", "robot.score += 0.5", ", no whole number."),
-        (DUEL, TICK, f"{TICK}    raise KeyboardInterrupt\n", "rules.py, line {line}: KeyboardInterrupt."),
+        (DUEL, TICK, f"{TICK}    raise KeyboardInterrupt\n", "rules.py, line {n}: KeyboardInterrupt."),
     ],
 )
 def test_a_fault_in_a_match_is_one_line(tag: Path, words: str, old: str, new: str, reason: str) -> None:
     if words == TRAIN:
         write_tag(tag)
-    line = changed(tag / "rules.py", old, new)
-    assert reason.format(line=line) in refused(run(words, tag), tag)
+    n = changed(tag / "rules.py", old, new)
+    assert reason.format(n=n) in refused(run(words, tag), tag)
 
 
 def test_an_arena_that_is_never_done(tag: Path) -> None:
@@ -142,7 +142,7 @@ def test_compiled_code_that_makes_no_tick_is_ended() -> None:
 )
 def test_what_ends_a_process_at_import_ends_no_other_job(tag: Path, file: str, line: str, reason: str) -> None:
     source = tag / file
-    source.write_text(f"{line}\n{source.read_text()}")
+    source.write_text(f"{n}\n{source.read_text()}")
     ended = run(OTHER, tag)
     assert (ended.returncode, ended.stderr) == (0, f"PiGaming: The game tag in {tag} is left out: {reason}\n")
     if line.startswith("raise Key"):

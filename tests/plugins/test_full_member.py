@@ -61,14 +61,14 @@ def test_the_arenas_of_tag_are_drawn(tag: Path) -> None:
         (
             "TOOLS = TagTools()",
             "TOOLS = tag_tools",
-            "editor.py, line {line}: NameError: name 'tag_tools' is not defined.",
+            "editor.py, line {n}: NameError: name 'tag_tools' is not defined.",
         ),
         ('game = "tag"', 'game = "tick"', "its tools are for tick, not for tag."),
         ("TOOLS = TagTools()", "TOOLS = TagTools", "TOOLS is no Tools."),
     ],
 )
 def test_one_that_fails_takes_its_game_from_the_title_alone(tag: Path, old: str, new: str, reason: str) -> None:
-    reason = reason.format(line=changed(tag / "editor.py", old, new))
+    reason = reason.format(n=changed(tag / "editor.py", old, new))
     lines, errors = seen()
     assert lines == ["pitanks factory race football tag | pitanks factory race football | Tag classic"]
     assert errors == f"PiGaming: The game tag in {tag} is left out: {reason}\n"
@@ -87,7 +87,7 @@ print(*shown_games(), "|", *climbed_games())
         ("rules.py", "", "", ""),
         ("screens.py", "", "", ""),
         ("__init__.py", "LadderMatches()", 'LadderMatches(arenas=("park",))', "arenas/park.toml is missing."),
-        ("rules.py", "REACH = 92.0", "REACH = 92.0 +", "rules.py, line {line}: SyntaxError: invalid syntax"),
+        ("rules.py", "REACH = 92.0", "REACH = 92.0 +", "rules.py, line {n}: SyntaxError: invalid syntax"),
     ],
 )
 def test_a_game_that_asks_for_it_is_on_the_ladder(tag: Path, file: str, old: str, new: str, reason: str) -> None:
@@ -96,7 +96,7 @@ def test_a_game_that_asks_for_it_is_on_the_ladder(tag: Path, file: str, old: str
     text = package.read_text().replace("import Game", "import Game, LadderMatches")
     package.write_text(text.replace("    judge=judge,", "    judge=judge,\n    ladder=LadderMatches(),"))
     if old:
-        reason = reason.format(line=changed(tag / file, old, new))
+        reason = reason.format(n=changed(tag / file, old, new))
     if file == "screens.py":
         (tag / file).unlink()
     ended = subprocess.run([sys.executable, "-c", CLIMBED], capture_output=True, text=True, cwd=ROOT, timeout=60)

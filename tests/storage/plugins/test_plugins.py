@@ -87,16 +87,16 @@ def test_one_that_is_switched_off_is_named(tag: Path) -> None:
 @pytest.mark.parametrize(
     ("file", "old", "new", "reason"),
     [
-        ("rules.py", "REACH = 60.0", "REACH = 60.0 +", "rules.py, line {line}: SyntaxError: invalid syntax"),
-        ("rules.py", "REACH = 60.0", "REACH = SIXTY", "rules.py, line {line}: NameError: name 'SIXTY' is not defined."),
+        ("rules.py", "REACH = 60.0", "REACH = 60.0 +", "rules.py, line {n}: SyntaxError: invalid syntax"),
+        ("rules.py", "REACH = 60.0", "REACH = SIXTY", "rules.py, line {n}: NameError: name 'SIXTY' is not defined."),
         ("__init__.py", "GAME = ", "THIS = ", "__init__.py: GAME is missing."),
         ("__init__.py", 'name="tag"', 'name="tick"', "its game is named tick, not tag."),
         ("__init__.py", "GAME = Game(", "GAME = dict(", "GAME is no Game."),
-        ("__init__.py", "GAME = ", "raise SystemExit(3)\nGAME = ", "__init__.py, line {line}: SystemExit: 3."),
+        ("__init__.py", "GAME = ", "raise SystemExit(3)\nGAME = ", "__init__.py, line {n}: SystemExit: 3."),
     ],
 )  # fmt: skip
 def test_one_that_fails_is_left_out_with_file_and_reason(tag: Path, file: str, old: str, new: str, reason: str) -> None:
-    reason = reason.format(line=changed(tag / file, old, new))
+    reason = reason.format(n=changed(tag / file, old, new))
     ended = program("duel", "pitanks", "easy", "idle", "--matches", "2", "--minutes", "0.05")
     assert ended.returncode == 0
     assert ended.stderr.startswith(LEFT_OUT.format(folder=tag, reason=reason).rstrip("\n"))
@@ -116,10 +116,10 @@ def test_one_that_fails_is_left_out_with_file_and_reason(tag: Path, file: str, o
 )
 def test_brains_that_the_lobby_could_not_offer(tag: Path, brains: str, reason: str) -> None:
     kinds = 'every_level(BrainKind("collector", Mind, think, reset))'
-    line = changed(tag / "ai.py", f"AI = GameAI({kinds})", f"AI = GameAI({brains.replace('KINDS', kinds)})")
+    n = changed(tag / "ai.py", f"AI = GameAI({kinds})", f"AI = GameAI({brains.replace('KINDS', kinds)})")
     ended = python("from pigaming_app.ai.registry import AIS; print(*AIS['tag'].kinds)")
     assert ended.stdout.split() == ["level1", "level2", "level3", "level4", "level5"], "random ones"
-    assert f"is left out: ai.py, line {line}: ValueError: {reason}" in ended.stderr
+    assert f"is left out: ai.py, line {n}: ValueError: {reason}" in ended.stderr
     assert ended.stderr.count("\n") == 1
 
 
@@ -231,7 +231,7 @@ def test_one_that_fails_in_a_match_ends_the_job_with_one_line(tag: Path, words: 
     ended = program(*words.split(), "--minutes", "0.1", *(("--seats", "hard,easy") if "play" in words else ()))
     assert ended.returncode == 1
     line = rules.read_text().splitlines().index("    match.tick //= 0") + 1
-    reason = f"rules.py, line {line}: ZeroDivisionError: integer division or modulo by zero."
+    reason = f"rules.py, line {n}: ZeroDivisionError: integer division or modulo by zero."
     assert ended.stderr == LEFT_OUT.format(folder=tag, reason=reason)
 
 
@@ -249,7 +249,7 @@ def test_one_that_fails_in_another_process_is_named(tag: Path) -> None:
     )
     assert ended.stdout.split()[-1:] == ["tag"], ended.stderr
     line = rules.read_text().splitlines().index("    1 // 0") + 1
-    assert f"left out: rules.py, line {line}: ZeroDivisionError" in ended.stderr
+    assert f"left out: rules.py, line {n}: ZeroDivisionError" in ended.stderr
 
 
 def test_one_that_prints_does_not_print_into_outcomes_from_another_process(tag: Path) -> None:
