@@ -142,7 +142,7 @@ def test_compiled_code_that_makes_no_tick_is_ended() -> None:
 )
 def test_what_ends_a_process_at_import_ends_no_other_job(tag: Path, file: str, line: str, reason: str) -> None:
     source = tag / file
-    source.write_text(f"{n}\n{source.read_text()}")
+    source.write_text(f"{line}\n{source.read_text()}")
     ended = run(OTHER, tag)
     assert (ended.returncode, ended.stderr) == (0, f"PiGaming: The game tag in {tag} is left out: {reason}\n")
     if line.startswith("raise Key"):

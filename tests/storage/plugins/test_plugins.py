@@ -231,7 +231,7 @@ def test_one_that_fails_in_a_match_ends_the_job_with_one_line(tag: Path, words: 
     ended = program(*words.split(), "--minutes", "0.1", *(("--seats", "hard,easy") if "play" in words else ()))
     assert ended.returncode == 1
     line = rules.read_text().splitlines().index("    match.tick //= 0") + 1
-    reason = f"rules.py, line {n}: ZeroDivisionError: integer division or modulo by zero."
+    reason = f"rules.py, line {line}: ZeroDivisionError: integer division or modulo by zero."
     assert ended.stderr == LEFT_OUT.format(folder=tag, reason=reason)
 
 
@@ -249,7 +249,7 @@ def test_one_that_fails_in_another_process_is_named(tag: Path) -> None:
     )
     assert ended.stdout.split()[-1:] == ["tag"], ended.stderr
     line = rules.read_text().splitlines().index("    1 // 0") + 1
-    assert f"left out: rules.py, line {n}: ZeroDivisionError" in ended.stderr
+    assert f"left out: rules.py, line {line}: ZeroDivisionError" in ended.stderr
 
 
 def test_one_that_prints_does_not_print_into_outcomes_from_another_process(tag: Path) -> None:
