@@ -29,7 +29,7 @@ def tour(played: Sequence[str]) -> None:
     from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
     from pigaming_app.scenes.lobby.scene import Lobby
-    from pigaming_app.scenes.options.page import SECTIONS, OptionsPage, added_rows, rows_of
+    from pigaming_app.scenes.options.page import SECTIONS, OptionsPage, added_rows, options_of
     from pigaming_app.scenes.play.scene import MatchScene
     from pigaming_app.scenes.results.scene import Results
     from pigaming_app.scenes.start import opened
@@ -106,7 +106,7 @@ def tour(played: Sequence[str]) -> None:
             home(app)
         for section in ("", *SECTIONS):
             page = OptionsPage(app.context, section=section)
-            for name in rows_of(section):
+            for name in options_of(section):
                 page.value(name)
                 if name in added_rows():
                     app.stack.scenes.append(added_rows()[name].page(app.context))

@@ -156,7 +156,7 @@ def sheet_written(arcade: Arcade) -> Scene:
     page = RobotsMenu(arcade.context)
     page.focus.move_to("sheet")
     path = "/home/a.rather.long.name/.local/share/pigaming/of-the-school/markers.pdf"
-    page.navigation.show_message(arcade.context.words("robots.written", path=path))
+    page.show_message(arcade.context.words("robots.written", path=path))
     return page
 
 

@@ -14,7 +14,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.match_choice import arena_title
 from pigaming_app.scenes.howto.scene import HowTo, taught
 from pigaming_app.scenes.lobby.view import level_words
-from pigaming_app.scenes.options.page import SECTIONS, rows_of
+from pigaming_app.scenes.options.page import SECTIONS, options_of
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
@@ -58,7 +58,7 @@ def test_choices_of_one_page_have_names_of_their_own(language: str) -> None:
         assert twice(words(f"lobby.drive_{style}") for style in AIS[name].driving) == []
         assert twice(" ".join(level_words(words, brain)) for brain in (*LEVELS, *AIS[name].rivals[len(LEVELS) :])) == []
     for section in ("", *SECTIONS):
-        assert twice(words(f"options.{row}") for row in rows_of(section)) == []
+        assert twice(words(f"options.{row}") for row in options_of(section)) == []
     assert twice(words(f"events.{form.value}") for form in Format) == []
 
 

@@ -166,8 +166,10 @@ def hints(scene: Scene, device: Device) -> Iterator[ButtonPrompts]:
         yield scene.page.prompts
     elif isinstance(scene, ControlsTest):
         yield scene._prompts()
-    elif isinstance(scene, MatchSetupPage | OptionsPage):
+    elif isinstance(scene, MatchSetupPage):
         yield scene.navigation.prompts
+    elif isinstance(scene, OptionsPage):
+        yield scene.prompts
 
 
 @pytest.mark.parametrize("name", PAGES)

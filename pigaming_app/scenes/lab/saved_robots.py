@@ -10,7 +10,7 @@ from pigaming_app.ai.experiments.training import Training
 from pigaming_app.ai.networks.files import TrainedNetwork
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.files import is_network, load_network, load_table, save_network, save_table
-from pigaming_app.scenes.flow.name_page import LETTERS
+from pigaming_app.scenes.pages.name_page import LETTERS
 from pigaming_app.storage.settings import folders
 
 LENGTH = 6  # letters in a name

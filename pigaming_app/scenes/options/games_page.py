@@ -3,10 +3,10 @@
 import pygame
 
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.settings_page import SettingsPage
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.options.new_game import NewGame, game_name, place, short
-from pigaming_app.scenes.views.game_tile import picture
+from pigaming_app.scenes.pages.settings_page import SettingsPage
+from pigaming_app.scenes.views import game_tile
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.plugins.consent import is_on, switch
 from pigaming_app.storage.plugins.found import Plugin, found, user_folder
@@ -29,30 +29,33 @@ SCALE = 0.8  # of the picture of a tile
 class GamesPage(SettingsPage):
     """One page of plug-ins; the row below them leads to the next one. `first`: index of its first plug-in."""
 
+    table, title = "plugins", "plugins.title"
+
     def __init__(self, context: Context, first: int = 0) -> None:
         self.first, every = first, found()
         self.count = len(every)
         self.plugins = {str(i): plugin for i, plugin in enumerate(every[first : first + ROWS])}
         self.question: NewGame | None = None
         rows = (*self.plugins, *((MORE,) if self.count > ROWS else ())) or (NONE,)
-        super().__init__(context, "plugins", "plugins.title", rows)
-        self.subtitle = "plugins.when"
+        super().__init__(context, rows)
+
+    @property
+    def subtitle(self) -> str:
+        return self.context.words("plugins.when")
 
     def on_enter(self) -> None:
         """First display, or return from a question."""
         self.rewarm()
 
-    def update(self, seconds: float) -> StackOperation:
-        """Animate; ask about a new plug-in."""
-        if question := self.question:
-            self.question = None
-            return Push(question)
-        return super().update(seconds)
+    def advance(self, seconds: float) -> StackOperation:
+        """Ask about a new plug-in."""
+        question, self.question = self.question, None
+        return Push(question) if question else None
 
-    def draw(self, screen: pygame.Surface) -> None:
-        super().draw(screen)
+    def paint(self, screen: pygame.Surface) -> None:
+        super().paint(screen)
         if plugin := self.plugins.get(self.focus.name):
-            if (reason := why(plugin)) and not self.navigation.sentence:
+            if (reason := why(plugin)) and not self.message:
                 line, size = fit_text(reason, BODY, RIGHT - LEFT, "body")
                 text(line, size, ALARM, "body", "l").draw(screen, LEFT, REASON_Y)
             room = dials.PANEL.w - 80
@@ -77,10 +80,9 @@ class GamesPage(SettingsPage):
 
     def value(self, name: str) -> SettingValue:
         """On or off; a new one is off."""
-        words = self.context.words
         if name not in self.plugins:
-            return SettingValue("deed", (words("plugins.next" if name == MORE else "options.hint_back"),))
-        return SettingValue("toggle", (words("options.off"), words("options.on")), int(bool(is_on(self.plugins[name]))))
+            return self.action("plugins.next" if name == MORE else "options.hint_back")
+        return self.switch(bool(is_on(self.plugins[name])))
 
     def apply(self, name: str, chosen: int) -> None:
         """Switch a plug-in; a new one asks first."""
@@ -97,10 +99,7 @@ class GamesPage(SettingsPage):
         following = self.first + ROWS if self.first + ROWS < self.count else 0
         return Swap(GamesPage(self.context, following)) if name == MORE else Pop()
 
-    def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
-        self.render_picture(name, chosen).draw(screen, *dials.CENTRE)
-
-    def render_picture(self, name: str, chosen: int) -> LitImage:
+    def picture(self, name: str, chosen: int) -> LitImage:
         """The picture of a game that plays, centred on (0, 0); else a sign."""
         plugin = self.plugins.get(name)
         if plugin in plugins() and plugin.name in shown_games():
@@ -113,7 +112,7 @@ class GamesPage(SettingsPage):
 @cached
 def smaller(game: str) -> LitImage:
     """The picture of a game, 560 x 284 px, as it fits the panel, centred on (0, 0)."""
-    lit = picture(game)
+    lit = game_tile.picture(game)
     x, y = SCALE * (lit.at[0] - 280), SCALE * (lit.at[1] - 142)
     return LitImage(pygame.transform.smoothscale_by(lit.image, SCALE), (round(x), round(y)))
 

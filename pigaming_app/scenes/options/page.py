@@ -4,16 +4,21 @@ In a kiosk they offer only what children may change; the operator's page offers 
 """
 
 import logging
-from functools import cache
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, partial
 
 import pygame
 
 from pigaming_app.scenes.features.feature import OptionRow
 from pigaming_app.scenes.features.registry import features
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.settings_page import SettingsPage
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
 from pigaming_app.scenes.options import pictures
+from pigaming_app.scenes.options.controls_test import ControlsTest
+from pigaming_app.scenes.options.games_page import GamesPage
+from pigaming_app.scenes.options.remap_page import RemapPage
+from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.views.race.ghost_files import delete_ghosts
 from pigaming_app.scenes.views.rumble import TAKEN
 from pigaming_app.storage.settings import folders
@@ -23,149 +28,44 @@ from pigaming_app.ui.i18n import LANGUAGES, NAMES
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets.setting_row import CENTRE, SettingValue
 
-CLEAR = 2.0  # seconds for which a button is held to clear the high scores
 FLASHES = ("off", "soft", "full")
-ROWS = ("language", "picture", "controls", "ease", "games")
-SECTIONS: dict[str, tuple[str, ...]] = {
-    "picture": ("music", "sounds", "display", "fullscreen"),
-    "controls": ("rumble", "padtest", "remap"),
-    "ease": ("calm", "flashes", "shake", "large"),
-    "games": ("added", "reset"),
-}
-FOR_CHILDREN = {"language", "rumble", "padtest", *SECTIONS["ease"]}
-OPENING = ("padtest", "added", "remap", *SECTIONS)  # rows that open a page, besides those of features
 log = logging.getLogger("pigaming")
-
-
-@cache
-def added_rows() -> dict[str, OptionRow]:
-    """The rows of features."""
-    return {name: row for feature in features() for name, row in feature.options.items()}
-
-
-def rows_of(section: str) -> tuple[str, ...]:
-    """The rows of a section with those of features; empty: of the first page."""
-    found = list(SECTIONS.get(section, ROWS))
-    for name, row in added_rows().items():
-        if row.section == section:
-            found.insert(found.index(row.after) + 1, name)
-    return tuple(found)
-
-
-def offered(rows: tuple[str, ...]) -> tuple[str, ...]:
-    """Those of the rows that children may change, and those that lead to such rows."""
-    return tuple(name for name in rows if name in FOR_CHILDREN or (name in SECTIONS and offered(rows_of(name))))
 
 
 class OptionsPage(SettingsPage):
     """The options, or one of SECTIONS; `operator`: all rows, also in a kiosk."""
 
+    table, hold = "options", 2.0
+
     def __init__(self, context: Context, operator: bool = False, section: str = "") -> None:
         self.operator, self.untimed, self.cleared = operator, operator, False
-        self.added = added_rows()
-        rows = rows_of(section)
-        if context.kiosk:
-            rows = rows if operator and section else (*rows, "close") if operator else offered(rows)
-        title = section or ("operator" if operator else "title")
-        super().__init__(context, "options", f"options.{title}", rows, CLEAR)
-
-    def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
-        if name in self.added:
-            pictures.added(self.added[name].picture, int(self.clock * 2) % 2).draw(screen, *CENTRE)
-        else:
-            pictures.sketch(screen, name, chosen, self.clock)
-
-    def render_picture(self, name: str, chosen: int) -> object:
-        return pictures.added(self.added[name].picture, 0) if name in self.added else pictures.drawn(name, chosen)
+        self.title = f"options.{section or ('operator' if operator else 'title')}"
+        self.options = options_of(section)
+        rows = [*self.options] if operator or not context.kiosk else offered(section)
+        self.options["close"] = Option(lambda page: page.action("options.end"), lambda page: Quit())
+        super().__init__(context, [*rows, "close"] if operator and context.kiosk and not section else rows)
 
     def value(self, name: str) -> SettingValue:
-        """The value of a row."""
-        settings, words, canvas = self.context.settings, self.context.words, self.context.canvas
-        off_on = (words("options.off"), words("options.on"))
-        match name:
-            case "language":
-                return SettingValue("arrows", tuple(NAMES[code] for code in LANGUAGES), LANGUAGES.index(words.language))
-            case "music" | "sounds":
-                return SettingValue("meter", (), settings.music if name == "music" else settings.sounds)
-            case "flashes":
-                flashes = tuple(words(f"options.{code}") for code in FLASHES)
-                return SettingValue("toggle", flashes, FLASHES.index(settings.flashes))
-            case "shake":
-                return SettingValue("toggle", off_on, int(settings.shake))
-            case "rumble":
-                return SettingValue("toggle", off_on, int(settings.rumble))
-            case "calm" | "large":
-                return SettingValue("toggle", off_on, int(settings.calm if name == "calm" else settings.large_text))
-            case "fullscreen":
-                return SettingValue("toggle", off_on, int(canvas.fullscreen))
-            case "display":
-                return SettingValue("arrows", tuple(canvas.displays()), canvas.display)
-            case "reset":
-                key = "cleared" if self.cleared else "clear"
-                return SettingValue("deed", (words(f"options.{key}"),))
-        opens = name in OPENING or name in self.added
-        return SettingValue("deed", (words("options.open" if opens else "options.end"),))
+        return self.options[name].value(self)
+
+    def apply(self, name: str, chosen: int) -> None:
+        self.options[name].apply(self, chosen)
+        self.rewarm()
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
         """Open a page, close the arcade, or begin to clear the high scores."""
         self.context.sounds.play("move" if name == "reset" else "accept")
-        if name == "close":
-            return Quit()
         if name == "reset":
             self.cleared = False
             self.holding.begin(event)
-            return None
-        return Push(self._page(name))
+        return self.options[name].activate(self)
 
-    def _page(self, name: str) -> Scene:
-        """The page that a row opens."""
-        if name == "padtest":
-            from pigaming_app.scenes.options.controls_test import ControlsTest
-
-            return ControlsTest(self.context)
-        if name == "remap":
-            from pigaming_app.scenes.options.remap_page import RemapPage
-
-            return RemapPage(self.context)
-        if name == "added":
-            from pigaming_app.scenes.options.games_page import GamesPage
-
-            return GamesPage(self.context)
-        if name in self.added:
-            return self.added[name].page(self.context)
-        return OptionsPage(self.context, self.operator, name)
-
-    def apply(self, name: str, chosen: int) -> None:
-        """Apply a changed value."""
-        context, settings, canvas = self.context, self.context.settings, self.context.canvas
-        match name:
-            case "language":
-                settings.language = LANGUAGES[chosen]
-                if self.operator or not context.kiosk:
-                    settings.settle("language")
-                context.words.switch(settings.language)
-                self.rewarm()
-            case "music" | "sounds":
-                setattr(settings, name, chosen)
-                context.sounds.volume(*settings.loudness)
-            case "flashes":
-                settings.flashes = FLASHES[chosen]
-            case "shake":
-                settings.shake = bool(chosen)
-            case "rumble":
-                settings.rumble = bool(chosen)
-                if settings.rumble:
-                    context.controls.rumble(context.controls.last, *TAKEN)
-            case "calm":
-                settings.calm = bool(chosen)
-            case "large":
-                settings.large_text = bool(chosen)
-                read_large(settings.large_text)
-                surfaces.clear()
-                self.rewarm()
-            case "display" | "fullscreen":
-                canvas.show(*((chosen, canvas.fullscreen) if name == "display" else (canvas.display, bool(chosen))))
-                settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
+    def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
+        added = added_rows().get(name)
+        if added:
+            pictures.added(added.picture, int(self.clock * 2) % 2).draw(screen, *CENTRE)
+        else:
+            pictures.sketch(screen, name, chosen, self.clock)
 
     def held(self) -> StackOperation:
         """Clear the high scores and ghosts."""
@@ -178,3 +78,153 @@ class OptionsPage(SettingsPage):
         except OSError as trouble:
             log.warning("%s", trouble)
         return None
+
+
+@dataclass(frozen=True)
+class Option:
+    """A row: its value, what its action does, or what becomes of a value that was chosen.
+
+    `for_children`: they may change it in a kiosk.
+    """
+
+    value: Callable[[OptionsPage], SettingValue]
+    activate: Callable[[OptionsPage], StackOperation] = lambda page: None
+    apply: Callable[[OptionsPage, int], object] = lambda page, chosen: None
+    for_children: bool = False
+
+
+def opens(scene: Callable[[OptionsPage], Scene], for_children: bool = False) -> Option:
+    """A row that opens a page."""
+    return Option(lambda page: page.action("options.open"), lambda page: Push(scene(page)), for_children=for_children)
+
+
+def chosen_from(
+    name: str,
+    values: Sequence[object],
+    shown: Callable[[OptionsPage, int], SettingValue],
+    then: Callable[[OptionsPage], object] = lambda page: None,
+    for_children: bool = False,
+) -> Option:
+    """A row for a setting with these values. `shown`: its content while the i-th is chosen; `then`: what follows."""
+
+    def value(page: OptionsPage) -> SettingValue:
+        return shown(page, values.index(getattr(page.context.settings, name)))
+
+    def apply(page: OptionsPage, chosen: int) -> None:
+        page.context.settings.choose(name, values[chosen])
+        then(page)
+
+    return Option(value, apply=apply, for_children=for_children)
+
+
+def switch(name: str, then: Callable[[OptionsPage], object] = lambda page: None) -> Option:
+    """A row for a setting that is on or off."""
+    return chosen_from(name, (False, True), lambda page, on: page.switch(bool(on)), then, for_children=True)
+
+
+def meter(name: str) -> Option:
+    """A row for a volume."""
+    return chosen_from(name, range(11), lambda page, now: SettingValue("meter", (), now), _set_volume)
+
+
+def _flashes(page: OptionsPage, chosen: int) -> SettingValue:
+    return SettingValue("toggle", tuple(page.context.words(f"options.{code}") for code in FLASHES), chosen)
+
+
+def _languages(page: OptionsPage, chosen: int) -> SettingValue:
+    now = LANGUAGES.index(page.context.words.language)  # which may be another than that of the settings
+    return SettingValue("arrows", tuple(NAMES[code] for code in LANGUAGES), now)
+
+
+def _speak(page: OptionsPage) -> None:
+    settings = page.context.settings
+    if page.operator or not page.context.kiosk:
+        settings.settle("language")
+    page.context.words.switch(settings.language)
+
+
+def _set_volume(page: OptionsPage) -> None:
+    page.context.sounds.volume(*page.context.settings.loudness)
+
+
+def _rumble(page: OptionsPage) -> None:
+    """Show what it feels like."""
+    if page.context.settings.rumble:
+        page.context.controls.rumble(page.context.controls.last, *TAKEN)
+
+
+def _resize_texts(page: OptionsPage) -> None:
+    read_large(page.context.settings.large_text)
+    surfaces.clear()
+
+
+def _show_on(page: OptionsPage, display: int | None = None, fullscreen: bool | None = None) -> None:
+    canvas, settings = page.context.canvas, page.context.settings
+    canvas.show(canvas.display if display is None else display, canvas.fullscreen if fullscreen is None else fullscreen)
+    settings.display, settings.fullscreen = canvas.display, canvas.fullscreen
+
+
+def _displays(page: OptionsPage) -> SettingValue:
+    return SettingValue("arrows", tuple(page.context.canvas.displays()), page.context.canvas.display)
+
+
+def _section(name: str) -> Option:
+    return opens(lambda page: OptionsPage(page.context, page.operator, name))
+
+
+SECTIONS: dict[str, dict[str, Option]] = {
+    "picture": {
+        "music": meter("music"),
+        "sounds": meter("sounds"),
+        "display": Option(_displays, apply=lambda page, chosen: _show_on(page, display=chosen)),
+        "fullscreen": Option(
+            lambda page: page.switch(page.context.canvas.fullscreen),
+            apply=lambda page, chosen: _show_on(page, fullscreen=bool(chosen)),
+        ),
+    },
+    "controls": {
+        "rumble": switch("rumble", _rumble),
+        "padtest": opens(lambda page: ControlsTest(page.context), for_children=True),
+        "remap": opens(lambda page: RemapPage(page.context)),
+    },
+    "ease": {
+        "calm": switch("calm"),
+        "flashes": chosen_from("flashes", FLASHES, _flashes, for_children=True),
+        "shake": switch("shake"),
+        "large": switch("large_text", _resize_texts),
+    },
+    "games": {
+        "added": opens(lambda page: GamesPage(page.context)),
+        "reset": Option(lambda page: page.action("options.cleared" if page.cleared else "options.clear")),
+    },
+}
+FIRST: dict[str, Option] = {
+    "language": chosen_from("language", LANGUAGES, _languages, _speak, for_children=True),
+    **{name: _section(name) for name in SECTIONS},
+}
+
+
+@cache
+def added_rows() -> Mapping[str, OptionRow]:
+    """The rows of features."""
+    return {name: row for feature in features() for name, row in feature.options.items()}
+
+
+def options_of(section: str) -> dict[str, Option]:
+    """The rows of a section with those of features; empty: of the first page."""
+    found = [*SECTIONS.get(section, FIRST).items()]
+    for name, row in added_rows().items():
+        if row.section == section:
+            after = [known for known, _ in found].index(row.after) + 1
+            found.insert(after, (name, opens(partial(_page_of, row))))
+    return dict(found)
+
+
+def _page_of(row: OptionRow, page: OptionsPage) -> Scene:
+    return row.page(page.context)
+
+
+def offered(section: str) -> list[str]:
+    """Those of the rows of a section that children may change, and those that lead to such rows."""
+    options = options_of(section)
+    return [name for name in options if options[name].for_children or (name in SECTIONS and offered(name))]

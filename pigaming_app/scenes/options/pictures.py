@@ -146,9 +146,11 @@ def _drawn(name: str, chosen: int, beat: int) -> LitImage:
     elif name == "reset":
         icon(ink, "crown", 0, 0, 96, FOCUS, LINE)
         ink.line([(-120, 96), (120, -96)], ICE, LINE)
-    else:
+    elif name == "close":
         ink.arc(0, 6, 84, -math.pi / 2 + 0.5, 1.5 * math.pi - 0.5, FOCUS, LINE)
         ink.line([(0, -110), (0, -10)], FOCUS, LINE)
+    else:
+        raise KeyError(name)
     return LitImage(ink.lit(0.9), (-240, -170))
 
 

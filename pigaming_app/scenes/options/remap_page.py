@@ -4,39 +4,29 @@ FIRE on a row waits for the new key or button. One that is taken changes places 
 keeps one.
 """
 
-import logging
-
 import pygame
 
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.options import pictures
-from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw import LABEL
-from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.ui.input import gamepads, keyboard
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.remap import Tables, assigned, differences
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-IDLE = 90.0  # seconds without input until the title
-SENTENCE_SECONDS = 3.0  # seconds for which a sentence is shown
 WAIT = 8.0  # seconds for which a new key or button is awaited
 DEFAULTS = {**keyboard.DEFAULTS, **gamepads.DEFAULTS}
-HINTS = [(Button.RIGHT, "remap.hint_device"), (Button.FIRE, "remap.hint_ok"), (Button.BACK, "remap.hint_back")]
-log = logging.getLogger("pigaming")
 
 
-class RemapPage:
+class RemapPage(SettingsPage):
     """The page; `awaited`: the row that waits for a key or button, if any."""
 
+    table, title = "remap", "remap.title"
+    hints = ((Button.RIGHT, "remap.hint_device"), (Button.FIRE, "options.hint_ok"), (Button.BACK, "options.hint_back"))
+
     def __init__(self, context: Context) -> None:
-        self.context = context
         self.devices = [
             *keyboard.DEFAULTS,
             *dict.fromkeys(context.controls.name(pad) for pad in context.controls.pads()),
@@ -44,77 +34,64 @@ class RemapPage:
         last = context.controls.last
         own = f"keys{last.number + 1}" if last.kind == "keys" else context.controls.name(last)
         self.device = own if own in self.devices else self.devices[0]
-        self.awaited, self.left, self.clock = "", 0.0, 0.0
-        self.focus = Focus(dials.spots(self._rows()))
-        self.navigation = Navigation(context, self.focus, HINTS, IDLE, SENTENCE_SECONDS)
-
-    def on_enter(self) -> None:
-        pass
+        self.awaited, self.left = "", 0.0
+        super().__init__(context, self._rows())
 
     def on_leave(self) -> None:
         self.context.controls.listen(None)
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """Left and right change the device, FIRE awaits a key or button, or restores the defaults."""
-        if self.awaited:
-            if event.button in (Button.CLICK, Button.LOST):
-                self._stop_waiting()
-            return None
-        event = self.navigation.prompts.as_button(event)
-        match event.button:
-            case Button.LEFT | Button.RIGHT:
-                self._change_device(1 if event.button is Button.RIGHT else -1)
-            case Button.FIRE | Button.START:
-                self._do(self.focus.name)
-            case Button.CLICK:
-                self.focus.handle(event)
-                if name := self.focus.spot_at(event):
-                    self._do(name)
-            case _:
-                return self.navigation.handle(event)
+        """While a key or button is awaited, the mouse ends the waiting."""
+        if not self.awaited:
+            return super().handle(event)
+        if event.button in (Button.CLICK, Button.LOST):
+            self._stop_waiting()
         return None
 
-    def update(self, seconds: float) -> StackOperation:
-        self.clock += seconds
+    def advance(self, seconds: float) -> StackOperation:
         self.left -= seconds
         if self.awaited and self.left <= 0.0:
             self._stop_waiting()
-        return self.navigation.update(seconds)
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
-        words, focus = self.context.words, self.focus.name
-        screen.blit(backdrop(), (0, 0))
-        heading(words("remap.title")).draw(screen)
-        black_out(screen, dials.PANEL)
-        dials.draw(screen, words, self.focus, "remap", {name: self._value(name) for name in self._rows()})
-        frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
-        line = focus if focus in ("device", "normal") else "function"
-        dials.describe(screen, words(f"remap.{focus}"), words(f"remap.{line}_line"))
+    def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
         lit = not self.awaited or self.clock % 1.0 < 0.5
-        pictures.key(focus, self._sign, lit).draw(screen, *dials.CENTRE)
-        if self.navigation.sentence:
-            call_to_action(self.navigation.sentence, "", LABEL).draw(screen, 960, 926)
-        self.navigation.prompts.draw(screen)
+        pictures.key(name, self._sign, lit).draw(screen, *dials.CENTRE)
 
     # ---- rows
 
     def _rows(self) -> list[str]:
         return ["device", *DEFAULTS[self.device], "normal"]
 
-    def _value(self, name: str) -> SettingValue:
-        words, controls = self.context.words, self.context.controls
-        if name == "device":
-            return SettingValue("arrows", tuple(self._name(device) for device in self.devices), self._place)
-        if name == "normal":
-            return SettingValue("deed", (words("remap.restore"),))
-        if name == self.awaited:
-            return SettingValue("deed", (words("remap.press"),))
-        code = controls.tables()[self.device][name]
-        return SettingValue("deed", (words.key_name(self._printed(code)),))
+    def line(self, name: str) -> str:
+        return super().line(name if name in ("device", "normal") else "function")
 
-    @property
-    def _place(self) -> int:
-        return self.devices.index(self.device)
+    def value(self, name: str) -> SettingValue:
+        if name == "device":
+            names = tuple(self._name(device) for device in self.devices)
+            return SettingValue("arrows", names, self.devices.index(self.device), endless=True)
+        if name in ("normal", self.awaited):
+            return self.action("remap.restore" if name == "normal" else "remap.press")
+        code = self.context.controls.tables()[self.device][name]
+        return SettingValue("action", (self.context.words.key_name(self._printed(code)),))
+
+    def step(self, name: str, by: int) -> None:
+        """Left and right change the device on every row."""
+        super().step("device", by)
+
+    def apply(self, name: str, chosen: int) -> None:
+        self.device = self.devices[chosen]
+        self.show_rows(self._rows())
+
+    def activate(self, name: str, event: InputEvent) -> StackOperation:
+        """Await a key or button, or restore the defaults."""
+        if name == "normal":
+            self._keep(self._others())
+        else:
+            self.awaited, self.left = name, WAIT
+            self.context.controls.listen(self._assign)
+            self.context.sounds.play("move")
+        return None
 
     @property
     def _sign(self) -> str:
@@ -133,21 +110,6 @@ class RemapPage:
         known = self.device in keyboard.DEFAULTS
         return keyboard.key_label(code) if known else gamepads.button_label(self.device, code)
 
-    def _change_device(self, by: int) -> None:
-        self.device = self.devices[(self._place + by) % len(self.devices)]
-        self.focus.set_spots(dials.spots(self._rows()))
-        self.context.sounds.play("move")
-
-    def _do(self, name: str) -> None:
-        if name == "device":
-            self._change_device(1)
-        elif name == "normal":
-            self._keep(self._others())
-        else:
-            self.awaited, self.left = name, WAIT
-            self.context.controls.listen(self._assign)
-            self.context.sounds.play("move")
-
     def _assign(self, device: Device, code: int) -> None:
         """Give the awaited function a key or button that went down; Escape and what cannot have it end the waiting."""
         name, words = self.awaited, self.context.words
@@ -157,7 +119,7 @@ class RemapPage:
         own = device.kind == "keys" if keys else self.context.controls.name(device) == self.device
         if not own or not fits:
             if code != pygame.KSCAN_ESCAPE:
-                self.navigation.show_message(words("remap.unusable"))
+                self.show_message(words("remap.unusable"))
             self.context.sounds.play("back")
             return
         tables = self.context.controls.tables()
@@ -184,11 +146,8 @@ class RemapPage:
         context.settings.controls = changed
         context.controls.remap(changed)
         context.sounds.play("accept")
-        try:
-            context.settings.save(folders().config)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
-            self.navigation.show_message(context.words("app.unsaved"))
+        self.rewarm()
+        self.save()
 
 
 def _cluster(device: str) -> Device:

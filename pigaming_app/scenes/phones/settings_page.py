@@ -3,8 +3,8 @@
 import pygame
 
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.settings_page import SettingsPage
 from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import JoinByPhone, draw_code, plain, trouble
 from pigaming_app.storage.settings import MAX_NAME
@@ -24,10 +24,12 @@ STATUS_Y = 640  # px: what phones find at the moment
 class PhonesPage(SettingsPage):
     """The page. Changes apply and are saved at once."""
 
+    table, title = "phones", "options.phones"
+
     def __init__(self, context: Context) -> None:
         self.networks: list[Network] = []
-        super().__init__(context, "phones", "options.phones", ROWS)
         self.host = context.shared(phone_host)
+        super().__init__(context, ROWS)
 
     def on_enter(self) -> None:
         """Look which networks there are."""
@@ -36,8 +38,8 @@ class PhonesPage(SettingsPage):
         except PhonesUnavailable:
             self.networks = []  # the status says why
 
-    def draw(self, screen: pygame.Surface) -> None:
-        super().draw(screen)
+    def paint(self, screen: pygame.Surface) -> None:
+        super().paint(screen)
         lines = paragraph(self._status(), dials.W - 40, 4, ALARM if self.host.trouble else MIST)
         for i, lit in enumerate(lines):
             lit.draw(screen, LEFT + 40, STATUS_Y + 58 * i)
@@ -58,9 +60,9 @@ class PhonesPage(SettingsPage):
     def value(self, name: str) -> SettingValue:
         words, settings = self.context.words, self.context.settings
         if name == "enabled":
-            return SettingValue("toggle", (words("options.off"), words("options.on")), int(settings.phones))
+            return self.switch(settings.phones)
         if name == "code":
-            return SettingValue("deed", (words("options.open"),))
+            return self.action("options.open")
         chosen, known = settings.phones_network, self._names()
         names = [words("phones.first_network"), *map(shown, self.networks)]
         if chosen and chosen not in known:
@@ -80,7 +82,7 @@ class PhonesPage(SettingsPage):
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
         if not self.host.on:
-            self.navigation.show_message(self.context.words("phones.are_off"))
+            self.show_message(self.context.words("phones.are_off"))
             self.context.sounds.play("error")
             return None
         self.context.sounds.play("accept")

@@ -6,7 +6,7 @@ from functools import partial
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.flow.stack import Push
-from pigaming_app.scenes.options.page import OPENING, SECTIONS, added_rows
+from pigaming_app.scenes.options.page import SECTIONS
 from pigaming_app.scenes.results.high_score_tables import contest
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.title.language import SECONDS
@@ -107,7 +107,7 @@ def rows(walker: TourWalker) -> None:
     """The rows of a page of options, and the pages that they open; the language is changed and changed back."""
     depth = len(walker.app.stack.scenes)
     for name in [*walker.top.rows]:
-        if name in (*OPENING, *added_rows(), "figures"):
+        if walker.top.value(name).options == (walker.context.words("options.open"),):
             walker.set_screen(f"options: {name}")
             walker.press("space", pause=1.0)
             if name == "robots":

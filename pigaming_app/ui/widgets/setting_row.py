@@ -28,8 +28,6 @@ from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_text, paragraph, text
-from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import glow_bar
 
@@ -52,9 +50,10 @@ AT_MOST = 8  # rows at that pitch; more are closer
 class SettingValue:
     """The content of a row: options of a toggle, a meter of ten cells, a text between arrows, or an action."""
 
-    kind: str  # toggle, meter, arrows, deed
+    kind: str  # toggle, meter, arrows, action
     options: tuple[str, ...]
     chosen: int = 0
+    endless: bool = False  # the first option follows the last
 
     @property
     def count(self) -> int:
@@ -69,11 +68,6 @@ def spots(names: Sequence[str]) -> list[FocusSpot]:
     return [FocusSpot(name, pygame.Rect(x, TOP - HIGH // 2 + pitch * i, w, HIGH)) for i, name in enumerate(names)]
 
 
-def draw(screen: pygame.Surface, words: Words, focus: Focus, table: str, values: dict[str, SettingValue]) -> None:
-    """Draw the rows of a page whose texts are in `table`."""
-    draw_rows(screen, focus, {spot.name: words(f"{table}.{spot.name}") for spot in focus.spots}, values)
-
-
 def draw_rows(screen: pygame.Surface, focus: Focus, labels: dict[str, str], values: dict[str, SettingValue]) -> None:
     """Draw the rows of a page."""
     glow_bar(screen, focus.box)
@@ -84,19 +78,6 @@ def draw_rows(screen: pygame.Surface, focus: Focus, labels: dict[str, str], valu
         if i and box.y >= (above := focus.spots[i - 1].rect.bottom) + APART:
             separator(box.w).draw(screen, box.x, (box.y + above) // 2)
     focus.draw(screen)
-
-
-def step_of(event: InputEvent, focus: Focus, value: SettingValue) -> int:
-    """The step of the focused row by an event: 1, -1 or 0; for a click on a toggle, the offset to the option hit."""
-    if event.button in (Button.LEFT, Button.RIGHT):
-        return 1 if event.button is Button.RIGHT else -1
-    if event.button is Button.CLICK and event.at and focus.spot_at(event) == focus.name and value.kind != "deed":
-        across = event.at[0] - focus.spot.rect.x
-        if value.kind == "toggle":
-            hit = value_at(value.kind, value.options, value.chosen, across)
-            return 0 if hit is None else hit - value.chosen
-        return 0 if across < AT else -1 if across < AT + ROOM / 2 else 1
-    return 0
 
 
 def label(name: str, focused: bool) -> LitImage:
@@ -157,17 +138,12 @@ def chips(options: tuple[str, ...]) -> list[tuple[int, int]]:
     return places
 
 
-def value_at(kind: str, options: tuple[str, ...], chosen: int, x: float) -> int | None:
-    """The value selected by a click x px from the row's left edge; None if it hits nothing."""
+def value_at(kind: str, options: tuple[str, ...], x: float) -> int | None:
+    """The value of a toggle or meter at x px from the row's left edge; None if there is none."""
     if kind == "toggle":
         return next((i for i, (left, w) in enumerate(chips(options)) if left <= x < left + w), None)
-    if kind == "meter":
-        cell = math.ceil((x - AT) / CELL)
-        return cell if 0 <= cell <= CELLS else None
-    if x < AT:
-        return None
-    by = -1 if x < AT + ROOM / 2 else 1
-    return max(0, min(len(options) - 1, chosen + by))
+    cell = math.ceil((x - AT) / CELL)
+    return cell if 0 <= cell <= CELLS else None
 
 
 def describe(screen: pygame.Surface, title: str, sentence: str) -> None:

@@ -113,7 +113,7 @@ def test_a_file_that_stays_is_said(arcade: Arcade, monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(event_files, "delete", kept)
     page = managed(arcade, running(an_event()), DELETE)
     hold(arcade, "SPACE", HOLD + 0.2)
-    assert page.navigation.sentence == arcade.context.words("events.undeleted")
+    assert page.message == arcade.context.words("events.undeleted")
     arcade.shown(EventPage)
 
 
@@ -131,6 +131,7 @@ def test_whoever_withdraws_is_chosen_and_the_opponent_wins(arcade: Arcade) -> No
     assert second not in page.present
     run.change(lambda event: event.withdraw(page.present[0]))
     run.change(lambda event: event.withdraw(page.present[0]))
+    arcade.frame()
     assert page.rows == (RENAME, DELETE), "nobody is left to play"
 
 
@@ -236,7 +237,7 @@ def test_in_a_kiosk_visitors_read_the_results_but_do_not_change_them(arcade: Arc
     run = running(played(an_event(), 2))
     arcade.open(ResultsList(arcade.context, run))
     hold(arcade, "SPACE", HOLD_IN_KIOSK - 0.5)
-    assert arcade.shown(ResultsList).navigation.sentence == arcade.context.words("events.hold")
+    assert arcade.shown(ResultsList).message == arcade.context.words("events.hold")
     hold(arcade, "SPACE", HOLD_IN_KIOSK + 0.2)
     assert arcade.shown(Correction).fixture == run.event.fixtures[1]
 

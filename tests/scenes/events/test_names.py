@@ -135,8 +135,8 @@ def test_the_order_of_the_games_is_legible(arcade: Arcade, language: str) -> Non
     page = SetupPage(arcade.context, draft, lambda draft: "")
     for order in draft.options("order"):
         draft.choose("order", order)
-        shown = page._value("order")
+        shown = page.value("order")
         names = [arcade.context.words(f"events.short_{game}") for game in draft.order]
         assert text_width(shown.options[shown.chosen], readable(BODY), "body") <= setting_row.VALUE_ROOM
         assert names[0] in shown.options[shown.chosen]
-        assert page._line("order") == ", ".join(names)
+        assert page.line("order") == ", ".join(names)

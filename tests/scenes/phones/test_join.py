@@ -359,7 +359,7 @@ def test_the_operators_page_changes_and_keeps_the_settings(arcade: Arcade, tmp_p
     arcade.press(Button.UP)
     arcade.press(Button.FIRE)
     assert arcade.stack.top is page, "phones are off: there is no code"
-    assert page.navigation.sentence
+    assert page.message
     page.draw(arcade.screen)
     arcade.press(Button.BACK)
     assert arcade.stack.top is not page

@@ -16,23 +16,21 @@ from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.names import places_line, places_of, shortened
 from pigaming_app.scenes.events.running import RunningEvent, decided_by, round_name
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.pages.page import Page
+from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon, text_width
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon, text_width
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, fit_text, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets import setting_row
-from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, frame, glow_bar, heading
+from pigaming_app.ui.widgets.labels import black_out, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-IDLE = 60.0  # s without input before the return to the table
-MESSAGE_SECONDS = 5.0
 ROWS, TOP, HIGH, PITCH = 7, 212, 88, 104  # px
 RESULT_ROOM = RIGHT - LEFT - 570  # px
 NOTES = ("note_referee", "note_robot", "note_agreed", "note_seats")
@@ -43,20 +41,21 @@ NOTE, SAVE = " note", " save"  # rows below the entrants, whose names begin with
 log = logging.getLogger("pigaming")
 
 
-class ResultsList:
+class ResultsList(Page):
     """The matches that have been played, on pages of ROWS."""
 
+    title = "events.results"
+    idle, stay = 60.0, HOLD_IN_KIOSK
+    hints = (
+        (Button.FIRE, "events.hint_correct"),
+        (Button.Y, "events.hint_again"),
+        (Button.RIGHT, "events.hint_page"),
+        (Button.BACK, "events.hint_back"),
+    )
+
     def __init__(self, context: Context, running: RunningEvent) -> None:
-        self.context, self.running = context, running
-        self.page = 0
-        self.focus = Focus([FocusSpot("0", row_box(0))])
-        hints = [
-            (Button.FIRE, "events.hint_correct"),
-            (Button.Y, "events.hint_again"),
-            (Button.RIGHT, "events.hint_page"),
-            (Button.BACK, "events.hint_back"),
-        ]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, HOLD_IN_KIOSK)
+        super().__init__(context, Focus([FocusSpot("0", row_box(0))]))
+        self.running, self.page = running, 0
         self.holding = HoldTimers(context.controls, HOLD_IN_KIOSK)
         self._show()
 
@@ -69,9 +68,8 @@ class ResultsList:
         self.context.sounds.music(True)
         self._show()
 
-    def handle(self, event: InputEvent) -> StackOperation:
+    def press(self, event: InputEvent) -> StackOperation:
         """UP and DOWN select a result, LEFT and RIGHT turn the page, FIRE corrects it."""
-        event = self.navigation.prompts.as_button(event)
         if event.button in (Button.LEFT, Button.RIGHT):
             self.page = max(0, min(self.pages - 1, self.page + (1 if event.button is Button.RIGHT else -1)))
             self._show()
@@ -79,31 +77,38 @@ class ResultsList:
             return None
         if event.button is Button.Y and self.shown:
             return self._watch(self.shown[int(self.focus.name)])
-        before, chosen = self.focus.name, self.focus.activated(event)
-        if chosen is None or not self.shown:
-            turn = self.navigation.handle(event)
-            if self.focus.name != before:
-                self.holding.clear()
-            return turn
+        before = self.focus.name
+        turn = super().press(event)
+        if self.focus.name != before:
+            self.holding.clear()
+        return turn
+
+    def choose(self, name: str, event: InputEvent) -> StackOperation:
+        """Correct a result; in a kiosk the button is held."""
+        if not self.shown:
+            return None
         if not self.context.kiosk:
-            return self._correct(chosen)
+            return self._correct(name)
         self.context.sounds.play("move")
-        self.navigation.show_message(self.context.words("events.hold"))
+        self.show_message(self.context.words("events.hold"))
+        self.holding.clear()
         self.holding.begin(event)
         return None
 
-    def update(self, seconds: float) -> StackOperation:
-        """Animate; open a correction once the button has been held long enough; return to the table when idle."""
-        self.navigation.update(seconds)
-        if self.holding.update(seconds):
-            return self._correct(self.focus.name)
-        return Pop() if self.context.idle > IDLE else None
+    def advance(self, seconds: float) -> StackOperation:
+        """Open a correction once the button has been held long enough."""
+        return self._correct(self.focus.name) if self.holding.update(seconds) else None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    def when_idle(self) -> StackOperation:
+        return Pop()
+
+    @property
+    def subtitle(self) -> str:
+        return self.context.words("events.page", page=self.page + 1, of=self.pages) if self.pages > 1 else ""
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the results of this page."""
         words, event = self.context.words, self.running.event
-        screen.blit(backdrop(), (0, 0))
-        pages = words("events.page", page=self.page + 1, of=self.pages) if self.pages > 1 else ""
-        heading(words("events.results"), pages).draw(screen)
         if not self.shown:
             text(words("events.no_results"), LABEL, MIST, "head").draw(screen, 960, 540)
         black_out(screen, *(row_box(i) for i in range(len(self.shown))))
@@ -117,10 +122,6 @@ class ResultsList:
             result_row(where, line, noted, self.focus.name == str(i)).draw(screen, *row_box(i).topleft)
         if self.shown:
             self.focus.draw(screen)
-        if self.navigation.sentence:
-            caption(self.navigation.sentence, FOCUS).draw(screen, 960, self.navigation.prompts.y)
-        else:
-            self.navigation.prompts.draw(screen)
 
     # ---- inside
 
@@ -171,78 +172,60 @@ class ShownAgain:
         return ResultsList(scene.context, self.event)
 
 
-class Correction:
+class Correction(SettingsPage):
     """The places of one match, and the reason why they change."""
 
+    table, saves = "events", False
+    idle, stay = 60.0, 5.0
+    hints = (
+        (Button.RIGHT, "options.hint_change"),
+        (Button.X, "events.hint_words"),
+        (Button.START, "events.hint_save"),
+        (Button.BACK, "options.hint_back"),
+    )
+
     def __init__(self, context: Context, running: RunningEvent, fixture: Fixture) -> None:
-        self.context, self.running, self.fixture = context, running, fixture
+        self.running, self.fixture = running, fixture
         before = result_of(running.event, fixture)
         self.scores = before.scores
         self.places = {name: place for place, names in places_of(before) for name in names}
         self.names = sorted(fixture.entrants, key=lambda name: (self.places[name], name))
         self.note, self.own = 0, ""  # the reason: one of those offered, or in own words
-        self.focus = Focus(setting_row.spots((*self.names, NOTE, SAVE)))
-        hints = [
-            (Button.RIGHT, "options.hint_change"),
-            (Button.X, "events.hint_words"),
-            (Button.START, "events.hint_save"),
-            (Button.BACK, "events.hint_back"),
-        ]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
+        super().__init__(context, (*self.names, NOTE, SAVE))
 
-    def on_enter(self) -> None:
-        """Nothing to do."""
-
-    def handle(self, event: InputEvent) -> StackOperation:
+    def press(self, event: InputEvent) -> StackOperation:
         """LEFT and RIGHT change a place or the reason, X writes it; START and the last row save."""
-        event = self.navigation.prompts.as_button(event)
         if event.button is Button.X:
             self.context.sounds.play("accept")
             title = self.context.words("events.note")
             return Push(TextPage(self.context, title, self.own, MAX_NOTE, self._write))
-        row = self.focus.name
-        if event.button is Button.CLICK:
-            self.focus.handle(event)
-            row = self.focus.spot_at(event) or ""
-        if event.button is Button.START or (row == SAVE and event.button in (Button.FIRE, Button.CLICK)):
-            return self._save()
-        if row and row != SAVE:
-            by = 1 if event.button is Button.FIRE else setting_row.step_of(event, self.focus, self._value(row))
-            if by:
-                self._step(row, by)
-                return None
-        return None if event.button in (Button.LEFT, Button.RIGHT) else self.navigation.handle(event)
+        return self.activate(SAVE, event) if event.button is Button.START else super().press(event)
 
-    def update(self, seconds: float) -> StackOperation:
-        """Animate; return to the results when idle."""
-        self.navigation.update(seconds)
-        return Pop() if self.context.idle > IDLE else None
+    def when_idle(self) -> StackOperation:
+        return Pop()
 
-    def draw(self, screen: pygame.Surface) -> None:
+    @property
+    def heading(self) -> LitImage:
         words = self.context.words
-        screen.blit(backdrop(), (0, 0))
-        heading(words("events.correct"), round_name(words, self.running.event, self.fixture)).draw(screen)
-        black_out(screen, setting_row.PANEL)
-        glow_bar(screen, self.focus.box)
-        for spot in self.focus.spots:
-            value, box, hot = self._value(spot.name), spot.rect, spot.name == self.focus.name
-            named = spot.name in self.names
-            said = shortened(spot.name, LABEL_ROOM, BODY, "body") if named else words(f"events.{spot.name.strip()}")
-            setting_row.label(said, hot).draw(screen, box.x + 40, box.centery)
-            setting_row.value(value.kind, value.options, value.chosen, hot).draw(screen, box.x, box.centery)
-        self.focus.draw(screen)
-        frame(*setting_row.PANEL.size).draw(screen, *setting_row.PANEL.topleft)
-        setting_row.describe(screen, words("events.correct"), words("events.correct_line"))
+        return heading(words("events.correct"), round_name(words, self.running.event, self.fixture))
+
+    def label(self, name: str) -> str:
+        return shortened(name, LABEL_ROOM, BODY, "body") if name in self.names else super().label(name.strip())
+
+    def description(self, name: str) -> tuple[str, str]:
+        """That of the page, whichever row is focused."""
+        return super().description("correct")
+
+    def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
+        """Draw the places."""
+        panel = setting_row.PANEL
         for i, (place, names) in enumerate(places_of(self.outcome)):
-            room = (setting_row.PANEL.w - 130) // len(names) - 40
+            room = (panel.w - 130) // len(names) - 40
             line = f"{place}.  {' = '.join(shortened(name, room, BODY) for name in names)}"
-            text(line, BODY, FOCUS if place == 1 else ICE, "head", "l", setting_row.PANEL.w - 80).draw(
-                screen, setting_row.PANEL.x + 40, setting_row.PANEL.y + 80 + 76 * i
-            )
-        if self.navigation.sentence:
-            caption(self.navigation.sentence, ALARM).draw(screen, 960, self.navigation.prompts.y)
-        else:
-            self.navigation.prompts.draw(screen)
+            lit = text(line, BODY, FOCUS if place == 1 else ICE, "head", "l", panel.w - 80)
+            lit.draw(screen, panel.x + 40, panel.y + 80 + 76 * i)
+
+    draw_foot = Page.draw_foot
 
     @property
     def outcome(self) -> Outcome:
@@ -253,13 +236,20 @@ class Correction:
 
     # ---- inside
 
-    def _value(self, row: str) -> SettingValue:
-        words = self.context.words
-        if row == NOTE:
-            return SettingValue("arrows", self._reasons, self.note)
-        if row == SAVE:
-            return SettingValue("deed", (words("events.hint_save"),))
-        return SettingValue("toggle", tuple(str(i + 1) for i in range(len(self.names))), self._rank(row))
+    def value(self, name: str) -> SettingValue:
+        if name == SAVE:
+            return self.action("events.hint_save")
+        if name == NOTE:
+            return SettingValue("arrows", self._reasons, self.note, endless=True)
+        count = len(self.names)
+        places = tuple(str(i + 1) for i in range(count))
+        return SettingValue("toggle", places, min(self.places[name], count) - 1, endless=True)
+
+    def apply(self, name: str, chosen: int) -> None:
+        if name == NOTE:
+            self.note = chosen
+        else:
+            self.places[name] = chosen + 1
 
     @property
     def _reasons(self) -> tuple[str, ...]:
@@ -274,31 +264,22 @@ class Correction:
         self.note = len(NOTES)
         return ""
 
-    def _rank(self, name: str) -> int:
-        return min(self.places[name], len(self.names)) - 1
-
-    def _step(self, row: str, by: int) -> None:
-        if row == NOTE:
-            self.note = (self.note + by) % len(self._reasons)
-        else:
-            self.places[row] = (self._rank(row) + by) % len(self.names) + 1
-        self.context.sounds.play("move")
-
-    def _save(self) -> StackOperation:
-        words = self.context.words
+    def activate(self, name: str, event: InputEvent) -> StackOperation:
+        """Save the correction."""
         try:
             saved = self.running.change(lambda event: event.correct(self.outcome))
         except ValueError as reason:
             log.warning("%s", reason)
-            self.navigation.show_message(words("events.uncorrectable"))
-            self.context.sounds.play("refused")
-            return None
+            return self._refuse("events.uncorrectable", "refused")
         if not saved:
-            self.navigation.show_message(words("app.unsaved"))
-            self.context.sounds.play("error")
-            return None
+            return self._refuse("app.unsaved", "error")
         self.context.sounds.play("ready")
         return Pop()
+
+    def _refuse(self, key: str, sound: str) -> StackOperation:
+        self.show_message(self.context.words(key), wrong=True)
+        self.context.sounds.play(sound)
+        return None
 
 
 def result_of(event: Event, fixture: Fixture) -> Outcome:

@@ -6,28 +6,23 @@ Whatever cannot be undone needs a button that is held; in a kiosk everything doe
 import logging
 from pathlib import Path
 
-import pygame
-
 from pigaming_app.events import event_files
 from pigaming_app.events.spec import MAX_TITLE
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.pages.page import Page
+from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, FOCUS, GlowCanvas, icon
-from pigaming_app.ui.draw.layers import LitImage, backdrop
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.input.hold import HoldTimers
+from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets import setting_row
-from pigaming_app.ui.widgets.caption import caption
-from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import black_out, frame, heading
+from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-IDLE, MESSAGE_SECONDS = 60.0, 5.0  # s
 HOLD, HOLD_IN_KIOSK = 1.0, 5.0  # s
 RENAME, WITHDRAW, DELETE = "rename", "withdraw", "delete"
 SIGNS = {RENAME: "pencil", WITHDRAW: "cross", DELETE: "cross"}
@@ -35,28 +30,24 @@ SIGNS = {RENAME: "pencil", WITHDRAW: "cross", DELETE: "cross"}
 log = logging.getLogger("pigaming")
 
 
-class EventPage:
+class EventPage(SettingsPage):
     """The event in a file; `running` is None if the file is damaged. `gone`: the way out after it has been deleted."""
 
+    table, saves = "events", False
+    idle, stay = 60.0, 5.0
+
     def __init__(self, context: Context, path: Path, running: RunningEvent | None, gone: StackOperation) -> None:
-        self.context, self.path, self.running, self.gone = context, path, running, gone
+        self.path, self.running, self.gone = path, running, gone
+        self.hold = HOLD_IN_KIOSK if context.kiosk else HOLD
         self.chosen = 0  # among those who have not withdrawn
-        self.focus = Focus(setting_row.spots(self.rows))
-        self.holding = HoldTimers(context.controls, HOLD_IN_KIOSK if context.kiosk else HOLD)
-        hints = [
-            (Button.RIGHT, "options.hint_change"),
-            (Button.FIRE, "options.hint_ok"),
-            (Button.BACK, "events.hint_back"),
-        ]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
-        self.wrong = False  # the message is bad news
+        super().__init__(context, self._rows)
 
     def on_enter(self) -> None:
         """First display, or return from the title."""
         self.holding.clear()
 
     @property
-    def rows(self) -> tuple[str, ...]:
+    def _rows(self) -> tuple[str, ...]:
         if self.running is None:
             return (DELETE,)
         return (RENAME, WITHDRAW, DELETE) if self.present and not self.running.event.over else (RENAME, DELETE)
@@ -67,76 +58,53 @@ class EventPage:
         event = self.running.event if self.running else None
         return [one.name for one in event.entrants if one.name not in event.withdrawn] if event else []
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """LEFT and RIGHT choose an entrant, FIRE renames; held, it withdraws or deletes."""
-        event = self.navigation.prompts.as_button(event)
-        row = self.focus.name
-        if event.button is Button.CLICK:
-            self.focus.handle(event)
-            row = self.focus.spot_at(event) or ""
-        if row == WITHDRAW and (by := setting_row.step_of(event, self.focus, self._value(row))):
-            self.holding.clear()
-            if event.button is not Button.CLICK or (event.at and not self._on_name(event.at[0])):
-                self.chosen = (self.chosen + by) % len(self.present)
-                self.context.sounds.play("move")
-                return None
-        if row and event.button in (Button.FIRE, Button.START, Button.CLICK):
-            return self._activate(row, event)
-        if event.button in (Button.UP, Button.DOWN, Button.POINT, Button.BACK):
-            before, turn = self.focus.name, self.navigation.handle(event)
-            if self.focus.name != before:
-                self.holding.clear()
-            return turn
-        return None
-
-    def update(self, seconds: float) -> StackOperation:
-        """Animate; act once a button has been held long enough; leave when idle."""
-        self.navigation.update(seconds)
-        if self.holding.update(seconds):
-            return {RENAME: self._open_title, DELETE: self._delete}.get(self.focus.name, self._withdraw)()
-        return Pop() if self.context.idle > IDLE else None
-
-    def draw(self, screen: pygame.Surface) -> None:
-        words, row = self.context.words, self.focus.name
-        screen.blit(backdrop(), (0, 0))
-        if self.running:
-            event = self.running.event
-            heading(event.spec.title, words("events.over") if event.over else progress_line(words, event)).draw(screen)
-        else:
-            heading(words("events.damaged", name=self.path.name)).draw(screen)
-        black_out(screen, setting_row.PANEL)
-        setting_row.draw(screen, words, self.focus, "events", {name: self._value(name) for name in self.rows})
-        frame(*setting_row.PANEL.size).draw(screen, *setting_row.PANEL.topleft)
-        sign(SIGNS[row], row != RENAME).draw(screen, *setting_row.CENTRE)
-        setting_row.describe(screen, words(f"events.{row}"), words(f"events.{row}_line"))
-        if self.holding.share:
-            setting_row.ring(screen, self.holding.share)
-        if self.navigation.sentence:
-            caption(self.navigation.sentence, ALARM if self.wrong else FOCUS).draw(
-                screen, 960, self.navigation.prompts.y
-            )
-        else:
-            self.navigation.prompts.draw(screen)
-
-    # ---- inside
-
-    def _value(self, row: str) -> SettingValue:
+    @property
+    def heading(self) -> LitImage:
         words = self.context.words
-        if row == WITHDRAW:
-            return SettingValue("arrows", tuple(self.present), min(self.chosen, len(self.present) - 1))
-        return SettingValue("deed", (words("events.change" if row == RENAME else "options.clear"),))
+        if not self.running:
+            return heading(words("events.damaged", name=self.path.name))
+        event = self.running.event
+        return heading(event.spec.title, words("events.over") if event.over else progress_line(words, event))
 
-    def _on_name(self, x: float) -> bool:
-        """True between the two arrows of a row."""
-        across = x - self.focus.spot.rect.x - setting_row.AT
-        return 60 < across < setting_row.ROOM - 60
+    def value(self, name: str) -> SettingValue:
+        if name == WITHDRAW:
+            return SettingValue("arrows", tuple(self.present), min(self.chosen, len(self.present) - 1), endless=True)
+        return self.action("events.change" if name == RENAME else "options.clear")
 
-    def _activate(self, row: str, event: InputEvent) -> StackOperation:
-        if row == RENAME and not self.context.kiosk:
+    def apply(self, name: str, chosen: int) -> None:
+        self.holding.clear()
+        self.chosen = chosen
+
+    def fire(self, name: str, event: InputEvent) -> StackOperation:
+        """FIRE renames; held, it withdraws or deletes."""
+        if name == RENAME and not self.context.kiosk:
             return self._open_title()
         self.context.sounds.play("move")
         self.holding.begin(event)
         return None
+
+    def click_value(self, name: str, across: float, event: InputEvent) -> StackOperation:
+        """A click between the arrows of a row withdraws, held."""
+        on_name = 60 < across - setting_row.AT < setting_row.ROOM - 60
+        return self.fire(name, event) if on_name else super().click_value(name, across, event)
+
+    def advance(self, seconds: float) -> StackOperation:
+        """Follow the event, which changes elsewhere, too."""
+        self.show_rows(self._rows)
+        return None
+
+    def held(self) -> StackOperation:
+        return {RENAME: self._open_title, DELETE: self._delete}.get(self.focus.name, self._withdraw)()
+
+    def when_idle(self) -> StackOperation:
+        return Pop()
+
+    def picture(self, name: str, chosen: int) -> LitImage:
+        return sign(SIGNS[name], name != RENAME)
+
+    draw_foot = Page.draw_foot
+
+    # ---- inside
 
     def _open_title(self) -> StackOperation:
         assert self.running
@@ -164,7 +132,6 @@ class EventPage:
             log.warning("%s", reason)
             self._tell(words("events.elsewhere"), True)
         self.chosen = 0
-        self.focus.set_spots(setting_row.spots(self.rows))
         return None
 
     def _delete(self) -> StackOperation:
@@ -178,8 +145,7 @@ class EventPage:
         return self.gone
 
     def _tell(self, sentence: str, wrong: bool) -> None:
-        self.wrong = wrong
-        self.navigation.show_message(sentence)
+        self.show_message(sentence, wrong)
         self.context.sounds.play("error" if wrong else "ready")
 
 

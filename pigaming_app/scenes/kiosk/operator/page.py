@@ -5,17 +5,15 @@ It opens from the options, and over any screen by holding F10; a match below it 
 
 from collections.abc import Sequence
 
-import pygame
-
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.settings_page import SettingsPage
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.kiosk.operator import pictures
 from pigaming_app.scenes.kiosk.operator.group_limit import InMatch
 from pigaming_app.scenes.kiosk.operator.safe_start_notice import SafeStartNotice
 from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
+from pigaming_app.scenes.pages.settings_page import SettingsPage
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.input.events import InputEvent
-from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 SAFE_START = "safe_start"  # a row after failed starts only
@@ -23,8 +21,7 @@ ROWS = (
     "figures", "quiet_from", "quiet_until", "volume_cap", "group_minutes", "keep_choices",
     "scoreboard", "board", "end_all",
 )  # fmt: skip
-END_SECONDS = 1.0  # s for which a button is held to end all matches
-STEP_MINUTES = 30  # of the quiet hours
+TIMES = [f"{hour:02}:{minute}" for hour in range(24) for minute in ("00", "30")]  # of the quiet hours
 LIMITS = (0, 5, 10, 15, 20, 30, 45, 60)  # minutes of a group
 
 
@@ -32,23 +29,24 @@ class OperatorPage(SettingsPage):
     """`below`: the scenes under it, if it lies over any but the options."""
 
     untimed = True
+    table, title = "operator", "operator.title"
 
     def __init__(self, context: Context, below: Sequence[Scene] = ()) -> None:
         self.below = below
         self.safe_start = SafeStartNotice(context)
         rows = (SAFE_START, *ROWS) if self.safe_start.due else ROWS
-        super().__init__(context, "operator", "operator.title", rows, END_SECONDS)
+        super().__init__(context, rows)
 
     def on_enter(self) -> None:
         if self.below:
             self.context.hush()
 
-    def update(self, seconds: float) -> StackOperation:
-        """Animate; keep a match below at rest."""
+    def advance(self, seconds: float) -> StackOperation:
+        """Keep a match below at rest."""
         for scene in self.below:
             if isinstance(scene, InMatch):
                 scene.advance_paused(seconds)
-        return super().update(seconds)
+        return None
 
     def when_idle(self) -> StackOperation:
         return Pop() if self.below else Home()
@@ -57,10 +55,7 @@ class OperatorPage(SettingsPage):
         self.context.sounds.play("accept")
         return end_all(self.context)
 
-    def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
-        pictures.drawn(name, chosen).draw(screen, *dials.CENTRE)
-
-    def render_picture(self, name: str, chosen: int) -> object:
+    def picture(self, name: str, chosen: int) -> LitImage:
         return pictures.drawn(name, chosen)
 
     def line(self, name: str) -> str:
@@ -68,14 +63,14 @@ class OperatorPage(SettingsPage):
         return self.safe_start.line if name == SAFE_START else super().line(name)
 
     def value(self, name: str) -> SettingValue:
-        """The value of a row; the hours go round."""
+        """The value of a row."""
         settings, words = self.context.settings, self.context.words
         match name:
             case "quiet_from" | "quiet_until":
-                time = str(getattr(settings, name))
-                if settings.quiet_from == settings.quiet_until:
-                    time = f"{time}  ({words('operator.never')})"
-                return SettingValue("arrows", (time,) * (_SLOTS + 2), 1 + _slot(getattr(settings, name)))
+                never = f"  ({words('operator.never')})" if settings.quiet_from == settings.quiet_until else ""
+                now = str(getattr(settings, name))
+                times = [f"{now}{never}" if i == _slot(now) else time for i, time in enumerate(TIMES)]
+                return SettingValue("arrows", tuple(times), _slot(now), endless=True)
             case "volume_cap":
                 return SettingValue("meter", (), settings.volume_cap)
             case "group_minutes":
@@ -86,7 +81,7 @@ class OperatorPage(SettingsPage):
             case "keep_choices":
                 return SettingValue("toggle", (words("operator.undo"), words("operator.keep")), settings.keep_choices)
             case "safe_start":
-                return SettingValue("deed", (self.safe_start.deed,))
+                return self.action(self.safe_start.action)
             case "scoreboard":
                 displays = self.context.canvas.displays()
                 return SettingValue(
@@ -97,7 +92,7 @@ class OperatorPage(SettingsPage):
                 names = [page.name for page in board.pages]
                 chosen = names.index(board.chosen)
                 return SettingValue("arrows", tuple(words(f"scoreboard.{page}") for page in names), chosen)
-        return SettingValue("deed", (words("options.open" if name == "figures" else "options.clear"),))
+        return self.action("options.open" if name == "figures" else "options.clear")
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
         """Open the figures, agree to what became of failed starts, or begin to end all matches."""
@@ -119,8 +114,7 @@ class OperatorPage(SettingsPage):
         context, settings = self.context, self.context.settings
         match name:
             case "quiet_from" | "quiet_until":
-                minutes = (chosen - 1) % _SLOTS * STEP_MINUTES
-                setattr(settings, name, f"{minutes // 60:02}:{minutes % 60:02}")
+                setattr(settings, name, TIMES[chosen])
             case "volume_cap":
                 settings.volume_cap = chosen
                 context.sounds.volume(*settings.loudness)
@@ -136,12 +130,9 @@ class OperatorPage(SettingsPage):
                 board.chosen = board.pages[chosen].name
 
 
-_SLOTS = 24 * 60 // STEP_MINUTES
-
-
 def _slot(time: str) -> int:
-    """The slot of a time of day."""
-    return (int(time[:2]) * 60 + int(time[3:])) // STEP_MINUTES
+    """The place of the last of TIMES that is not later."""
+    return max(i for i, one in enumerate(TIMES) if one <= time)
 
 
 def _nearest(minutes: int) -> int:

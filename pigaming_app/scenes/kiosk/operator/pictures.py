@@ -17,7 +17,7 @@ def drawn(name: str, chosen: int) -> LitImage:
         ink.line([(-160, 112), (160, 112)], STEEL, LINE)
     elif name in ("quiet_from", "quiet_until"):
         ink.ring(0, 0, 104, ICE, LINE).line([(0, 0), (0, -66)], ICE, LINE)
-        angle = math.tau * (chosen - 1) / 24 - math.pi / 2
+        angle = math.tau * chosen / 24 - math.pi / 2
         ink.line([(0, 0), (52 * math.cos(angle), 52 * math.sin(angle))], FOCUS, LINE)
     elif name == "volume_cap":
         ink.line([(-92, -26), (-56, -26), (-10, -68), (-10, 68), (-56, 26), (-92, 26)], ICE, LINE, True)
@@ -48,7 +48,9 @@ def drawn(name: str, chosen: int) -> LitImage:
             ink.text("3:2", TITLE - 24, 108, -26, ICE, "hero", "c")
         elif on:
             icon(ink, "crown", 108, -26, 40, ICE, LINE)
-    else:
+    elif name == "end_all":
         ink.line(cut_box(-96, -96, 192, 192, 56), ALARM, LINE, True)
         ink.text("0:00", LABEL, 0, 0, ICE, "hero", "c")
+    else:
+        raise KeyError(name)
     return LitImage(ink.lit(0.9), (-240, -170))

@@ -28,9 +28,9 @@ class SafeStartNotice:
         return words("operator.taken_back_line", settings=", ".join([*names[:MOST], *(["…"] if names[MOST:] else [])]))
 
     @property
-    def deed(self) -> str:
-        """What the operator may do about it."""
-        return self.context.words("operator.keep" if self.safe else "operator.understood")
+    def action(self) -> str:
+        """What the operator may do about it: the key of its text."""
+        return "operator.keep" if self.safe else "operator.understood"
 
     def agree(self) -> None:
         """Keep the defaults of safe mode for the next start, too; forget what was taken back. Raises NotSaved."""

@@ -1,9 +1,9 @@
 """Name entry for the robot."""
 
-from pigaming_app.scenes.flow import name_page
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.host import IDLE, LabHost
 from pigaming_app.scenes.lab.saved_robots import LENGTH, RobotFileError, names, proposal
+from pigaming_app.scenes.pages import name_page
 
 
 class NamePage(name_page.NamePage):

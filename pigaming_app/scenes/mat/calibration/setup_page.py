@@ -1,6 +1,8 @@
 """The calibration setup: display, camera and measurements, with a live camera preview."""
 
 import logging
+from collections.abc import Callable
+from dataclasses import replace
 
 import pygame
 
@@ -11,32 +13,27 @@ from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.mat.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.mat.session import session_if_any
+from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.storage.messages import OperatorMessage
-from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST
-from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.text import fit_size, paragraph, text
 from pigaming_app.ui.i18n import english
-from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, heading
+from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 ROWS = ("display", "camera", "width", "lid", "by", "height", "begin")
 LIMITS = {"width": (500, 10000), "lid": (0, 300), "height": (500, 10000)}  # mm
 REPEAT_STEPS = ((40, 100), (14, 10), (0, 1))  # step in mm after this many auto-repeats
 DEFAULT_HEIGHT = 2500  # mm, initial height
-IDLE = 600.0  # seconds without input until the title
 SCAN_PERIOD = 2.0  # s between two scans for cameras
-SENTENCE_SECONDS = 5.0  # seconds for which a sentence is shown
 PICTURE = pygame.Rect(dials.PANEL.x + 20, dials.PANEL.y + 20, *SMALL)
 
 log = logging.getLogger("pigaming")
@@ -51,8 +48,11 @@ def site_of(context: Context) -> CalibrationSite:
         return RealCalibrationSite()  # without OpenCV there is none; the page shows the reason
 
 
-class CalibrationPage:
+class CalibrationPage(SettingsPage):
     """The page. `camera`: the initial one, else that of the settings."""
+
+    table = "calibrate"
+    idle, stay = 600.0, 5.0
 
     def __init__(self, context: Context, site: CalibrationSite | None = None, camera: int | None = None) -> None:
         self.context, self.site = context, site or site_of(context)
@@ -65,11 +65,8 @@ class CalibrationPage:
         self.since_scan = 0.0  # s since the last scan for cameras
         self.repeats = 0
         self._small: object = None
-        self._picture: pygame.Surface | None = None
-        self.focus = Focus(dials.spots(self._rows()))
-        hints = [(Button.RIGHT, "calibrate.hint_change"), (Button.FIRE, "calibrate.hint_ok")]
-        hints.append((Button.BACK, "calibrate.hint_back"))
-        self.navigation = Navigation(context, self.focus, hints, IDLE, SENTENCE_SECONDS)
+        self._shown: pygame.Surface | None = None
+        super().__init__(context, self._rows())
 
     def on_enter(self) -> None:
         """Open the camera, also when a calibration returns here."""
@@ -83,22 +80,12 @@ class CalibrationPage:
         if self.preview is not None:
             self.preview.close()
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """Up and down select a row, left and right change it; the last row starts the calibration."""
-        event = self.navigation.prompts.as_button(event)
-        if turn := self.navigation.handle(event):
-            return turn
-        by = dials.step_of(event, self.focus, self._value(self.focus.name))
-        if by:
-            self.repeats = self.repeats + 1 if event.repeat else 0
-            self._change(self.focus.name, by)
-        elif self.focus.activated(event) is not None and event.button is not Button.CLICK:
-            return self._accept(self.focus.name)
-        elif event.button is Button.CLICK and self.focus.spot_at(event) == "begin":
-            return self._accept("begin")
-        return None
+    def press(self, event: InputEvent) -> StackOperation:
+        """Lengths change faster, the longer the direction is held."""
+        self.repeats = self.repeats + 1 if event.repeat else 0
+        return super().press(event)
 
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         self.since_scan += seconds
         if self.since_scan > SCAN_PERIOD:
             self.since_scan, self.cameras = 0.0, self.site.cameras()
@@ -107,32 +94,23 @@ class CalibrationPage:
             self.preview.pump()
             if self.preview.size != self._state_of:
                 self._load_state(self.preview.size)
-        return self.navigation.update(seconds)
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
-        words = self.context.words
-        screen.blit(backdrop(), (0, 0))
-        heading(words("calibrate.title"), self.state, right_color=FOCUS if self.anyway else MIST).draw(screen)
-        black_out(screen, dials.PANEL)
-        dials.draw(
-            screen, self.context.words, self.focus, "calibrate", {name: self._value(name) for name in self._rows()}
-        )
-        frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
-        self._draw_camera(screen)
-        name = self.focus.name
-        text(words(f"calibrate.{name}"), LABEL, FOCUS, "head", "l", dials.PANEL.w - 40).draw(
-            screen, PICTURE.x, dials.PANEL.bottom - 216
-        )
-        for i, line in enumerate(paragraph(words(f"calibrate.{name}_line"), dials.PANEL.w - 40, 3, MIST)):
+    @property
+    def heading(self) -> LitImage:
+        return heading(self.context.words("calibrate.title"), self.state, right_color=FOCUS if self.anyway else MIST)
+
+    def describe(self, screen: pygame.Surface, name: str) -> None:
+        """Draw name and description of a row below the camera picture."""
+        label = text(self.label(name), LABEL, FOCUS, "head", "l", dials.PANEL.w - 40)
+        label.draw(screen, PICTURE.x, dials.PANEL.bottom - 216)
+        for i, line in enumerate(paragraph(self.line(name), dials.PANEL.w - 40, 3, MIST)):
             line.draw(screen, PICTURE.x, dials.PANEL.bottom - 156 + 50 * i)
-        if self.navigation.sentence:
-            call_to_action(self.navigation.sentence, "", BODY).draw(screen, 960, 916)
-        self.navigation.prompts.draw(screen)
 
     # ---- drawing
 
-    def _draw_camera(self, screen: pygame.Surface) -> None:
-        """The camera picture, or the reason for its absence."""
+    def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
+        """Draw the camera picture, or the reason for its absence."""
         preview, words = self.preview, self.context.words
         if preview is None:
             return
@@ -145,9 +123,9 @@ class CalibrationPage:
             pygame.draw.rect(screen, (58, 76, 112), PICTURE, 2)
             return
         if preview.small is not self._small:
-            self._small, self._picture = preview.small, grey_surface(preview.small)
-        if self._picture is not None:
-            screen.blit(self._picture, self._picture.get_rect(center=PICTURE.center))
+            self._small, self._shown = preview.small, grey_surface(preview.small)
+        if self._shown is not None:
+            screen.blit(self._shown, self._shown.get_rect(center=PICTURE.center))
         w, h = preview.size
         caption = words("calibrate.rate", width=w, height=h, rate=round(preview.rate)) if preview.rate else f"{w} × {h}"
         size = fit_size(caption, BODY, room, "body")
@@ -176,20 +154,18 @@ class CalibrationPage:
     def _rows(self) -> tuple[str, ...]:
         return ROWS if self.measures.height else tuple(name for name in ROWS if name != "height")
 
-    def _value(self, name: str) -> SettingValue:
-        words, measures = self.context.words, self.measures
+    def value(self, name: str) -> SettingValue:
+        words, measures, canvas = self.context.words, self.measures, self.context.canvas
         match name:
             case "display":
-                return SettingValue("arrows", tuple(self.context.canvas.displays()), self.context.canvas.display)
+                return SettingValue("arrows", tuple(canvas.displays()), canvas.display)
             case "camera":
                 return SettingValue("arrows", (self._camera(),))
             case "by":
-                choice = (words("calibrate.ruler"), words("calibrate.robot"))
-                return SettingValue("toggle", choice, int(not measures.height))
+                return SettingValue("toggle", (words("calibrate.ruler"), words("calibrate.robot")), not measures.height)
             case "begin":
-                return SettingValue("deed", (words("calibrate.start"),))
-        mm = {"width": measures.width, "lid": measures.lid, "height": measures.height}[name]
-        return SettingValue("arrows", (words("calibrate.mm", mm=f"{mm:.0f}"),))
+                return self.action("calibrate.start")
+        return SettingValue("arrows", (words("calibrate.mm", mm=f"{getattr(self.measures, name):.0f}"),))
 
     def _camera(self) -> str:
         words = self.context.words
@@ -198,41 +174,38 @@ class CalibrationPage:
         name = next((camera.name for camera in self.cameras if camera.number == self.number), "")
         return words("calibrate.camera_name", number=self.number, name=name) if name else str(self.number)
 
-    def _accept(self, name: str) -> StackOperation:
-        if name == "begin":
-            return self._begin()
-        if name in ("display", "camera", "by"):
-            self._change(name, 1, wrap=True)
-        return None
-
-    def _change(self, name: str, by: int, wrap: bool = False) -> None:
-        """Step a row's value."""
-        measures, canvas = self.measures, self.context.canvas
+    def step(self, name: str, by: int) -> None:
+        """Step a length or the camera; cameras go round."""
+        if name not in ("camera", *LIMITS):
+            super().step(name, by)
+            return
+        if name == "camera":
+            self._next_camera(by)
+        else:
+            self._measure(name, by)
         self.context.sounds.play("move")
-        match name:
-            case "display":
-                count = len(canvas.displays())
-                target = (canvas.display + by) % count if wrap else min(count - 1, max(0, canvas.display + by))
-                if target != canvas.display:
-                    self._show(target, canvas.fullscreen)
-            case "camera":
-                self._next_camera(by)
-            case "by":
-                robot = bool(measures.height) if wrap else by > 0
-                height = 0.0 if robot else measures.height or self.site.measures.height or DEFAULT_HEIGHT
-                self.measures = Measurements(measures.width, height, measures.lid)
-                self.focus.set_spots(dials.spots(self._rows()))
-            case "width" | "lid" | "height":
-                self._measure(name, by)
-        self._save()
+        self.save()
+
+    def fire(self, name: str, event: InputEvent) -> StackOperation:
+        """FIRE: the next camera; nothing happens to a length."""
+        if name == "camera":
+            self.step(name, 1)
+        return None if name in ("camera", *LIMITS) else super().fire(name, event)
+
+    def apply(self, name: str, chosen: int) -> None:
+        measures = self.measures
+        if name == "display":
+            self._show(chosen, self.context.canvas.fullscreen)
+        else:
+            height = 0.0 if chosen else self.site.measures.height or DEFAULT_HEIGHT
+            self.measures = Measurements(measures.width, height, measures.lid)
+            self.show_rows(self._rows())
 
     def _measure(self, name: str, by: int) -> None:
-        """Step a length; faster, the longer the direction is held."""
         low, high = LIMITS[name]
         step = next(step for count, step in REPEAT_STEPS if self.repeats >= count)
-        values = {"width": self.measures.width, "lid": self.measures.lid, "height": self.measures.height}
-        values[name] = min(high, max(low, round(values[name] / step + by) * step))
-        self.measures = Measurements(values["width"], values["height"], values["lid"])
+        new = min(high, max(low, round(getattr(self.measures, name) / step + by) * step))
+        self.measures = replace(self.measures, **{name: new})
 
     def _show(self, display: int, fullscreen: bool) -> None:
         """Move the picture; the calibration depends on the display."""
@@ -259,14 +232,14 @@ class CalibrationPage:
         self.preview = CameraPreview(self.site, self.number)
         self.preview.begin()
 
-    def _begin(self) -> StackOperation:
+    def activate(self, name: str, event: InputEvent) -> StackOperation:
         """Start the calibration, full screen."""
         self.context.sounds.play("accept")
         self.on_leave()
         canvas = self.context.canvas
         if self.site.name == "real" and not canvas.fullscreen and not canvas.headless:
             self._show(canvas.display, True)
-        self._save()
+        self.save()
         return Push(BoardsPage(self.context, self.site, self.number, self.measures))
 
     def _initial_measures(self) -> Measurements:
@@ -275,15 +248,11 @@ class CalibrationPage:
             return self.site.measures
         return Measurements(settings.arena_mm, settings.camera_mm, settings.lid_mm)
 
-    def _save(self) -> None:
+    def save(self, write: Callable[[], object] | None = None) -> bool:
         """Save the choices, except for an emulated arena."""
         settings, measures = self.context.settings, self.measures
         if self.site.name != "real":
-            return
+            return True
         settings.camera = self.number
         settings.arena_mm, settings.camera_mm, settings.lid_mm = measures.width, measures.height, measures.lid
-        try:
-            settings.save(folders().config)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
-            self.navigation.show_message(self.context.words("app.unsaved"))
+        return super().save(write)

@@ -13,52 +13,43 @@ from pigaming_app.hardware.robot_files import set_up_command
 from pigaming_app.hardware.robot_kinds import KINDS
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.mat.radio.sketches import sketch
 from pigaming_app.scenes.mat.session import session_of
+from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
-from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL
-from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.i18n import english
-from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.widgets.labels import black_out, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 XBEE_MODES = ("api2", "api1", "transparent")
 RADIO_ROWS = ("channel", "module", "write")
 KIND_ROWS = ("robot", "kind")
-IDLE = 600.0  # s without input before the return to the title
-MESSAGE_SECONDS = 12.0  # s, display time of a message
 FACT_X, FACT_Y = dials.spots(("",))[0].rect.x + 40, 830  # px, start of the line with the command or the network
 MESSAGE_Y, MESSAGE_PITCH = 796, 48  # px, of the message in its place
 
 log = logging.getLogger("pigaming")
 
 
-class RadioPage:
+class RadioPage(SettingsPage):
     """The page. Robots and camera stay closed, so that the radio's port is free."""
 
+    table, title = "arena_radio", "arena_radio.title"
+    idle, stay = 600.0, 12.0
+
     def __init__(self, context: Context) -> None:
-        self.context, self.session = context, session_of(context)
+        self.session = session_of(context)
         own = () if self.session.emulated else ("arena",)  # emulated robots were flashed with their arena's number
         xbees = RADIO_ROWS if context.settings.radio in XBEE_MODES else ()
-        self.focus = Focus(dials.spots((*own, *xbees, *KIND_ROWS)))
         self.module = 0  # radio to be written: of the computer, or of robot 1 to 4
         self.arena, self.robot = 0, 1  # robot whose kind is shown
         self._steps: Steps[None] | None = None  # of the writing in progress
-        hints = [
-            (Button.RIGHT, "calibrate.hint_change"),
-            (Button.FIRE, "robots.hint_ok"),
-            (Button.BACK, "robots.hint_back"),
-        ]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
+        super().__init__(context, (*own, *xbees, *KIND_ROWS))
 
     def on_enter(self) -> None:
         """Find the arena's number."""
@@ -77,21 +68,15 @@ class RadioPage:
         """Channel and PAN of the settings, or those of the arena's number."""
         return network_of(self.arena, self.context.settings.radio_channel, self.context.settings.radio_pan)
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """Up and down select, left and right change, FIRE runs; while a radio is written, only BACK counts."""
-        event = self.navigation.prompts.as_button(event)
-        if self._steps is not None and event.button is not Button.BACK:
-            return None
-        if turn := self.navigation.handle(event):
-            return turn
-        name = self.focus.name
-        if by := dials.step_of(event, self.focus, self._value(name)):
-            self._change(name, by)
-        elif self.focus.activated(event) and (event.button is not Button.CLICK or self._value(name).kind == "deed"):
-            self._run(name)
-        return None
+    @property
+    def subtitle(self) -> str:
+        return self.context.words("arena_radio.state", number=self.arena)
 
-    def update(self, seconds: float) -> StackOperation:
+    def press(self, event: InputEvent) -> StackOperation:
+        """While a radio is written, only BACK counts."""
+        return super().press(event) if self._steps is None else None
+
+    def advance(self, seconds: float) -> StackOperation:
         """Advance the writing of a radio."""
         self.session.advance(seconds)
         if self._steps is not None:
@@ -105,24 +90,19 @@ class RadioPage:
                 self._steps = None
                 self._show(error.message)
                 self.context.sounds.play("error")
-        return self.navigation.update(seconds)
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
-        words, name = self.context.words, self.focus.name
-        screen.blit(backdrop(), (0, 0))
-        heading(words("arena_radio.title"), words("arena_radio.state", number=self.arena)).draw(screen)
-        black_out(screen, dials.PANEL)
-        values = {spot.name: self._value(spot.name) for spot in self.focus.spots}
-        dials.draw(screen, words, self.focus, "arena_radio", values)
-        frame(*dials.PANEL.size).draw(screen, *dials.PANEL.topleft)
-        sketch(name, (self.robot if name in KIND_ROWS else self.module) - 1).draw(screen, *dials.CENTRE)
-        dials.describe(screen, words(f"arena_radio.{name}"), words(f"arena_radio.{name}_line"))
-        sentence = words("arena_radio.writing") if self._steps is not None else self.navigation.sentence
+    def picture(self, name: str, chosen: int) -> LitImage:
+        return sketch(name, (self.robot if name in KIND_ROWS else self.module) - 1)
+
+    def draw_foot(self, screen: pygame.Surface) -> None:
+        """Draw the message, or the fact about the focused row, below the rows."""
+        sentence = self.context.words("arena_radio.writing") if self._steps is not None else self.message
         if not sentence:
             text(self._fact(), LABEL, ICE, "body", "l", dials.W - 80).draw(screen, FACT_X, FACT_Y)
         for i, line in enumerate(paragraph(sentence, dials.W - 40, 3, FOCUS) if sentence else ()):
             line.draw(screen, FACT_X, MESSAGE_Y + MESSAGE_PITCH * i)
-        self.navigation.prompts.draw(screen)
+        self.prompts.draw(screen)
 
     # ---- inside
 
@@ -146,20 +126,17 @@ class RadioPage:
         return set_up_command(robot, self.arena, settings.radio, settings.kinds[robot - 1])
 
     def _say(self, key: str) -> None:
-        self.navigation.show_message(
-            self.context.words(f"arena_radio.{key}", robot=self.module, network=str(self.network))
-        )
+        self.show_message(self.context.words(f"arena_radio.{key}", robot=self.module, network=str(self.network)))
 
     def _show(self, message: OperatorMessage) -> None:
         log.warning("%s", english().long_sentence(message))
-        self.navigation.show_message(self.context.words.sentence(message))
+        self.show_message(self.context.words.sentence(message))
 
     # ---- rows
 
-    def _value(self, name: str) -> SettingValue:
-        words = self.context.words
+    def value(self, name: str) -> SettingValue:
         if name == "write":
-            return SettingValue("deed", (words("arena_radio.begin"),))
+            return self.action("arena_radio.begin")
         if name == "arena":
             return SettingValue("arrows", (str(self.arena),))
         values, now = self._choices(name)
@@ -181,55 +158,46 @@ class RadioPage:
         chosen = settings.kinds[self.robot - 1]
         return kinds, chosen if chosen in kinds else ""
 
-    def _change(self, name: str, delta: int) -> None:
-        """Step a row's value by `delta`."""
-        settings = self.context.settings
-        if name == "write":
-            return
+    def step(self, name: str, by: int) -> None:
+        """Step a value; the arena's numbers go round."""
         if name == "arena":
-            self._renumber(self.arena + delta)
+            self._renumber(self.arena + by)
         else:
-            values, now = self._choices(name)
-            keys = list(values)
-            new = keys[max(0, min(len(keys) - 1, keys.index(now) + delta))]
-            if name in ("module", "robot"):
-                setattr(self, name, new)
-            elif name == "channel":
-                settings.choose("radio_channel", new)
-            else:
-                settings.kinds = [*settings.kinds]
-                settings.kinds[self.robot - 1] = str(new)
-        self._save()
+            super().step(name, by)
+
+    def fire(self, name: str, event: InputEvent) -> StackOperation:
+        """FIRE on the arena's number draws another one."""
+        if name != "arena":
+            return super().fire(name, event)
+        self._renumber(1 + secrets.randbelow(LAST_ARENA))
+        return None
+
+    def apply(self, name: str, chosen: int) -> None:
+        settings, new = self.context.settings, list(self._choices(name)[0])[chosen]
+        if name in ("module", "robot"):
+            setattr(self, name, new)
+        elif name == "channel":
+            settings.choose("radio_channel", new)
+        else:
+            settings.kinds = [*settings.kinds]
+            settings.kinds[self.robot - 1] = str(new)
+
+    def activate(self, name: str, event: InputEvent) -> StackOperation:
+        """Begin to write the radio."""
+        settings = self.context.settings
+        mode, baud = ("api2", BAUD) if self.session.emulated else (settings.radio, settings.baud)
+        try:
+            wanted = parameters(self.module, self.network, mode, baud)
+            self._steps = XBeeSetup(self.session.carrier(self.module), wanted, baud).steps()
+        except RobotsUnavailable as error:
+            self._show(error.message)
+        except ValueError:
+            self._say("no_rate")
+        return None
 
     def _renumber(self, number: int) -> None:
+        """Change the arena's number, and save it."""
         self.context.settings.choose("arena_id", (number - 1) % LAST_ARENA + 1)
         self.arena = self.session.arena_id
-
-    def _run(self, name: str) -> None:
-        """Write the radio, draw another arena number, or step a row's value."""
-        if name == "arena":
-            self._renumber(1 + secrets.randbelow(LAST_ARENA))
-            self._save()
-        elif name == "write":
-            mode, baud = (
-                ("api2", BAUD) if self.session.emulated else (self.context.settings.radio, self.context.settings.baud)
-            )
-            try:
-                wanted = parameters(self.module, self.network, mode, baud)
-                self._steps = XBeeSetup(self.session.carrier(self.module), wanted, baud).steps()
-            except RobotsUnavailable as error:
-                self._show(error.message)
-            except ValueError:
-                self._say("no_rate")
-        else:
-            values, now = self._choices(name)
-            keys = list(values)
-            self._change(name, 1 if keys[-1] != now else -len(keys))
-
-    def _save(self) -> None:
         self.context.sounds.play("move")
-        try:
-            self.context.settings.save(folders().config)
-        except NotSaved as error:
-            log.warning("%s", error)
-            self.navigation.show_message(self.context.words("app.unsaved"))
+        self.save()

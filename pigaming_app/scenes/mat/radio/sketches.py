@@ -15,8 +15,10 @@ def sketch(name: str, robot: int) -> LitImage:
         _channels(ink)
     elif name in ("robot", "kind"):
         _kind(ink, robot)
-    else:
+    elif name in ("module", "write"):
         _module(ink, robot, writing=name == "write")
+    else:
+        raise KeyError(name)
     return LitImage(ink.lit(0.9), (-240, -170))
 
 

@@ -1,6 +1,5 @@
 """Fleet page: camera and radio selection, robot status, pairing and latency."""
 
-import logging
 from dataclasses import replace
 
 import pygame
@@ -9,7 +8,6 @@ from pigaming_app.hardware.radio.serial_line import ports
 from pigaming_app.hardware.session.robot_session import camera_warning
 from pigaming_app.hardware.vision.discovery import cameras
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.mat.robots.avoid_discs import BlockLayout
@@ -17,27 +15,23 @@ from pigaming_app.scenes.mat.robots.fleet_state import FleetState, worst_finding
 from pigaming_app.scenes.mat.robots.flood_light import FloodLight
 from pigaming_app.scenes.mat.robots.marker_discs import MarkerDiscs, tag
 from pigaming_app.scenes.mat.session import session_of
+from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.sim.world import ROBOTS
-from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import ALARM, FOCUS, GREEN, ICE, MIST, Color
-from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.button_prompts import places
-from pigaming_app.ui.widgets.focus import Focus
 from pigaming_app.ui.widgets.labels import blit_sprite, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
 RADIOS = ("api2", "api1", "transparent", "udp", "stock")
-DEEDS = ("pair", "latency")
-ROWS = ("mat", "camera", "port", "baud", "radio", *DEEDS)
+ACTIONS = ("pair", "latency")
+ROWS = ("mat", "camera", "port", "baud", "radio", *ACTIONS)
 REMEDIES = {"foreign": "elsewhere", "key": "copy"}  # text of the remedy by the reason of a misfit; else "flash"
 WEAK = 0.7  # share of reports below which a robot is marked
-IDLE = 600.0  # s without input before the return to the title
-MESSAGE_SECONDS = 8.0  # s, display time of a message
 REOPEN_DELAY = 0.8  # s after a change until all devices are reopened
 EVERY = 0.4  # s between two readings
 EVERYBODY = set(range(ROBOTS))
@@ -45,31 +39,23 @@ ROBOTS_H = 486  # px, height of the robots' frame
 MESSAGE = pygame.Rect(150, 858, 1620, 80)  # px, between description and prompts
 LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: description of the focused row
 
-log = logging.getLogger("pigaming")
 
-
-class FleetPage:
+class FleetPage(SettingsPage):
     """Fleet page, shown where robots are available."""
 
+    table = "fleet"
+    idle, stay = 600.0, 8.0
+
     def __init__(self, context: Context) -> None:
-        self.context = context
         session = session_of(context)
         self.check = FleetState(session, context.settings)
         self.flood = FloodLight()
         self.flood.level = 0.0
-        self.names = (
-            ROWS if session.radio and not session.emulated else ("radio", *DEEDS) if context.robots_problem else DEEDS
-        )
-        self.focus = Focus(dials.spots(self.names), "pair")
         self.reopen_in, self.age = 0.0, EVERY
         self.aside, self.sheet = BlockLayout(), pygame.Surface((1920, 1080))
         self.lines: list[tuple[str, Color, str, Color]] = []  # per robot: radio and vision status
-        hints = [
-            (Button.RIGHT, "calibrate.hint_change"),
-            (Button.FIRE, "robots.hint_ok"),
-            (Button.BACK, "robots.hint_back"),
-        ]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, MESSAGE_SECONDS)
+        real = session.radio and not session.emulated
+        super().__init__(context, ROWS if real else ("radio", *ACTIONS) if context.robots_problem else ACTIONS, "pair")
 
     def on_enter(self) -> None:
         """Open camera and radio."""
@@ -80,25 +66,17 @@ class FleetPage:
         self.check.end()
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """Up and down select, left and right change, FIRE runs; while robots move, any input stops them."""
-        event = self.navigation.prompts.as_button(self._to_sheet(event))
+        """Mouse events lie on the sheet; while robots move, any input stops them."""
+        event = replace(event, at=self.aside.back(event.at)) if event.at else event
         if self.check.busy and event.button not in (Button.POINT, Button.LOST, Button.FOUND):
             self.check.stop()
-            self.navigation.show_message(self.context.words("fleet.stopped"))
+            self.show_message(self.context.words("fleet.stopped"))
             return None
-        if turn := self.navigation.handle(event):
-            return turn
-        name = self.focus.name
-        if by := dials.step_of(event, self.focus, self._value(name)):
-            self._change(name, by, False)
-        elif self.focus.activated(event) and (event.button is not Button.CLICK or self._value(name).kind == "deed"):
-            self._run(name)
-        return None
+        return super().handle(event)
 
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         """Refresh the readings."""
         words = self.context.words
-        turn = self.navigation.update(seconds)
         self.age += seconds
         if self.reopen_in > 0.0:
             self.reopen_in -= seconds
@@ -111,27 +89,35 @@ class FleetPage:
             if pairing:
                 self._report_pairing()
             else:
-                self.navigation.show_message(words("fleet.measured" if self.check.latencies else "fleet.nobody"))
+                self.show_message(words("fleet.measured" if self.check.latencies else "fleet.nobody"))
             self.context.sounds.play("accept")
         if self.age >= EVERY:
             self.age = 0.0
             self.lines = [self._read(robot) for robot in range(ROBOTS)]
         self.aside.update(seconds, self._blocks(), self.discs.circles(EVERYBODY) if self.discs else ())
-        return turn
+        return None
 
     def draw(self, screen: pygame.Surface) -> None:
-        """Draw the page in blocks that avoid the discs, then the discs."""
-        words = self.context.words
+        """Draw the page, or the floodlight while markers are looked for."""
         if self.flood.full:
-            self.flood.draw(screen, words("fleet.looking"), words("fleet.any_stops"))
-            return
-        screen.blit(backdrop(), (0, 0))
-        heading(words("fleet.title"), self._state()).draw(screen)
+            self.flood.draw(screen, self.context.words("fleet.looking"), self.context.words("fleet.any_stops"))
+        else:
+            super().draw(screen)
+
+    @property
+    def heading(self) -> LitImage:
+        return heading(self.context.words("fleet.title"), self._state())
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the page in blocks that avoid the discs, then the discs."""
         self._draw_blocks(self.sheet)
         self.aside.draw(screen, self.sheet)
         self.flood.draw(screen, "")
         if self.discs:
             self.discs.draw(screen, EVERYBODY)
+
+    def draw_foot(self, screen: pygame.Surface) -> None:
+        """Prompts and message are blocks, too."""
 
     # ---- drawing
 
@@ -143,29 +129,25 @@ class FleetPage:
     def _blocks(self) -> list[pygame.Rect]:
         """Blocks of the page: rows, robots, description, prompts and faults."""
         low = self.focus.spots[-1].rect.bottom
-        ends = places(self.navigation.prompts.labels, self.navigation.prompts.room)
+        ends = places(self.prompts.labels, self.prompts_room)
         left, right = round(ends[0][0]) - 16, round(ends[-1][1]) + 16
         boxes = [
             pygame.Rect(72, 192, dials.PANEL.x - 12 - 72, low + 20 - 192),
             pygame.Rect(dials.PANEL.x - 8, dials.PANEL.y - 8, dials.PANEL.w + 16, ROBOTS_H + 16),
             pygame.Rect(dials.PANEL.x - 8, LINE_Y - 34, dials.PANEL.w + 16, MESSAGE.top - LINE_Y + 34),
-            pygame.Rect(left, self.navigation.prompts.y - 40, right - left, 80),
+            pygame.Rect(left, self.prompts_y - 40, right - left, 80),
         ]
-        return [*boxes, MESSAGE] if self._message() else boxes
+        return [*boxes, MESSAGE] if self._notice() else boxes
 
-    def _message(self) -> str:
+    def _notice(self) -> str:
         """Fault, result of the last action, or warning about the camera."""
-        return self._fault() or self.navigation.sentence or self._warning()
-
-    def _to_sheet(self, event: InputEvent) -> InputEvent:
-        """Map a mouse event from the canvas to the sheet."""
-        return replace(event, at=self.aside.back(event.at)) if event.at else event
+        return self._fault() or self.message or self._warning()
 
     def _draw_blocks(self, screen: pygame.Surface) -> None:
         """Draw everything below the heading on the sheet."""
         words = self.context.words
         screen.fill("black")
-        dials.draw(screen, self.context.words, self.focus, "fleet", {name: self._value(name) for name in self.names})
+        self.draw_rows(screen)
         frame(dials.PANEL.w, ROBOTS_H).draw(screen, *dials.PANEL.topleft)
         for robot, (heard, bright, seen, dim) in enumerate(self.lines):
             x, y = dials.PANEL.x + 60, dials.PANEL.y + 74 + 118 * robot
@@ -173,21 +155,21 @@ class FleetPage:
             text(heard, 40, bright, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y - 26)
             text(seen, 34, dim, "body", "l", dials.PANEL.w - 140).draw(screen, x + 60, y + 26)
         moving = self.check.moving
-        told = words("fleet.moving", robot=moving + 1) if moving is not None else self._line()
+        told = words("fleet.moving", robot=moving + 1) if moving is not None else self.line(self.focus.name)
         for i, line in enumerate(paragraph(told, dials.PANEL.w - 60, 3, FOCUS if moving is not None else MIST)):
             line.draw(screen, dials.PANEL.x + 30, LINE_Y + LINE_PITCH * i)
-        sentence = self._message()
+        sentence = self._notice()
         lines = paragraph(sentence, 1600, 2, FOCUS, "c") if sentence else []
         for i, line in enumerate(lines):
             line.draw(screen, 960, MESSAGE.centery + 44 * i - 22 * (len(lines) - 1))
-        self.navigation.prompts.draw(screen)
+        self.prompts.draw(screen)
 
     # ---- readings
 
-    def _line(self) -> str:
-        """Description of the focused row, or the reason why matches reject its value."""
-        reason = self.context.robots_problem if self.focus.name == "radio" else None
-        return self.context.words.sentence(reason) if reason else self.context.words(f"fleet.{self.focus.name}_line")
+    def line(self, name: str) -> str:
+        """Description of a row, or the reason why matches reject its value."""
+        reason = self.context.robots_problem if name == "radio" else None
+        return self.context.words.sentence(reason) if reason else super().line(name)
 
     def _state(self) -> str:
         """Camera status."""
@@ -241,13 +223,11 @@ class FleetPage:
 
     # ---- rows
 
-    def _value(self, name: str) -> SettingValue:
-        words, settings = self.context.words, self.context.settings
-        match name:
-            case "mat":
-                return SettingValue("toggle", (words("options.off"), words("options.on")), int(settings.mat))
-            case "pair" | "latency":
-                return SettingValue("deed", (words("fleet.begin"),))
+    def value(self, name: str) -> SettingValue:
+        if name == "mat":
+            return self.switch(self.context.settings.mat)
+        if name in ACTIONS:
+            return self.action("fleet.begin")
         values, now = self._choices(name)
         return SettingValue("arrows", tuple(values.values()), list(values).index(now))
 
@@ -267,45 +247,31 @@ class FleetPage:
             return {baud: str(baud) for baud in sorted({*BAUDS, settings.baud})}, settings.baud
         return {radio: words(f"fleet.{radio}") for radio in RADIOS}, settings.radio
 
-    def _change(self, name: str, delta: int, around: bool) -> None:
-        """Step a row's value by `delta`."""
-        settings = self.context.settings
-        if name in DEEDS:
-            return
+    def apply(self, name: str, chosen: int) -> None:
+        """Change a setting; all devices are opened again soon."""
         if name == "mat":
-            settings.mat = not settings.mat
+            self.context.settings.mat = bool(chosen)
         else:
-            values, now = self._choices(name)
-            keys = list(values)
-            at = keys.index(now) + delta
-            settings.choose(name, keys[at % len(keys) if around else max(0, min(len(keys) - 1, at))])
+            self.context.settings.choose(name, list(self._choices(name)[0])[chosen])
             self.reopen_in = REOPEN_DELAY
-        self.context.sounds.play("move")
-        try:
-            settings.save(folders().config)
-        except NotSaved as error:
-            log.warning("%s", error)
-            self.navigation.show_message(self.context.words("app.unsaved"))
 
-    def _run(self, name: str) -> None:
-        """Run a row's action, or step its value."""
-        if name not in DEEDS:
-            self._change(name, 1, True)
-            return
+    def activate(self, name: str, event: InputEvent) -> StackOperation:
+        """Begin to pair, or to measure the latency."""
         begun = self.check.pair() if name == "pair" else self.check.measure()
         self.context.sounds.play("accept" if begun else "error")
         if not begun:
-            self.navigation.show_message(self.context.words("fleet.nobody"))
+            self.show_message(self.context.words("fleet.nobody"))
+        return None
+
+    def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
+        """The readings of the robots take the place of pictures."""
 
     def _report_pairing(self) -> None:
-        """Report the result of the pairing."""
+        """Report the result of the pairing, and save it."""
         words, finding = self.context.words, worst_finding(self.check.findings)
         if finding is None:
-            self.navigation.show_message(words("fleet.paired"))
+            self.show_message(words("fleet.paired"))
         else:
             marker = 0 if finding.marker is None else finding.marker + 1
-            self.navigation.show_message(words(f"fleet.case_{finding.case}", radio=finding.channel + 1, marker=marker))
-        try:
-            self.context.settings.save(folders().config)
-        except NotSaved as error:
-            log.warning("%s", error)
+            self.show_message(words(f"fleet.case_{finding.case}", radio=finding.channel + 1, marker=marker))
+        self.save()

@@ -6,12 +6,11 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.scenes.flow.settings_page import IDLE
 from pigaming_app.scenes.kiosk.operator.chart import OTHERS, bars_of, games_of, step_of
 from pigaming_app.scenes.kiosk.operator.desk import HOLD, HOLD_IN_KIOSK, OperatorDesk
 from pigaming_app.scenes.kiosk.operator.figures_page import FOLDER, FiguresPage, _short
-from pigaming_app.scenes.kiosk.operator.page import END_SECONDS, LIMITS, ROWS, SAFE_START, OperatorPage
-from pigaming_app.scenes.options.page import FOR_CHILDREN, OptionsPage
+from pigaming_app.scenes.kiosk.operator.page import LIMITS, ROWS, SAFE_START, OperatorPage
+from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage import safe_start
@@ -57,7 +56,8 @@ def test_the_options_open_it_but_not_for_children(arcade: Arcade) -> None:
     arcade.shown(OperatorPage)
     arcade.press(Button.BACK)
     arcade.shown(OptionsPage)
-    assert "day" not in FOR_CHILDREN
+    arcade.context.kiosk = True
+    assert "day" not in OptionsPage(arcade.context).rows
 
 
 def test_quiet_hours_go_round_midnight_in_steps_of_half_an_hour(arcade: Arcade) -> None:
@@ -102,12 +102,12 @@ def test_holding_fire_on_a_pad_ends_all_matches_and_stops_robots_first(arcade: A
         arcade.open(OperatorPage(arcade.context, tuple(arcade.stack.scenes)))
         focus(arcade, "end_all")
         pad.press("a")
-        arcade.wait(END_SECONDS / 2)
+        arcade.wait(OperatorPage.hold / 2)
         pad.release("a")
         arcade.wait(1.0)
         assert isinstance(arcade.stack.top, OperatorPage)
         pad.press("a")
-        arcade.wait(END_SECONDS + 0.2)
+        arcade.wait(OperatorPage.hold + 0.2)
         pad.release("a")
     assert stopped == [4]  # all scenes were still there
     assert arcade.stack.top is arcade.title
@@ -122,7 +122,7 @@ def test_a_match_below_stands_still_and_goes_on(arcade: Arcade) -> None:
     arcade.open(OperatorPage(arcade.context, tuple(arcade.stack.scenes)))
     arcade.wait(1.0)
     assert match.match.state.tick == tick
-    arcade.context.idle = IDLE + 1.0
+    arcade.context.idle = OperatorPage.idle + 1.0
     arcade.frame()
     assert arcade.stack.top is match
     arcade.context.idle = 0.0

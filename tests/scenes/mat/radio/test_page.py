@@ -80,11 +80,11 @@ def test_radios_are_written_one_after_another_and_refusals_are_said(arcade: Arca
     arcade.until(lambda: page._steps is None, 10.0)
     assert session.module.saved[b"MY"] == 2
     assert session.module.network == page.network
-    assert "CH 13, ID 5267" in page.navigation.sentence
+    assert "CH 13, ID 5267" in page.message
     session.module = Module(2, 0, top_channel=0x10)
     arcade.press(Button.FIRE)
     arcade.until(lambda: page._steps is None, 10.0)
-    assert "CH 13" in page.navigation.sentence
+    assert "CH 13" in page.message
     arcade.frame(draw=True)
     arcade.press(Button.FIRE)
     arcade.press(Button.BACK)
@@ -97,5 +97,5 @@ def test_a_rate_that_no_xbee_has_is_said_before_anything_is_written(arcade: Arca
     arcade.context.settings.baud = 230400
     arcade.press(Button.FIRE)
     assert page._steps is None
-    assert page.navigation.sentence == arcade.context.words("arena_radio.no_rate")
+    assert page.message == arcade.context.words("arena_radio.no_rate")
     assert session.module.saved[b"ID"] != page.network.pan

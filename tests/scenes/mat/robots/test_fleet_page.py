@@ -55,9 +55,9 @@ def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: 
     arcade.open(page)
     arcade.press(Button.UP)
     assert page.focus.name == "radio"
-    assert "no deadman" in page._line()
+    assert "no deadman" in page.line("radio")
     arcade.press(Button.LEFT)
-    assert "no deadman" not in page._line()
+    assert "no deadman" not in page.line("radio")
 
 
 def test_the_exposure_is_shown_and_a_long_one_or_a_poor_calibration_warned_about(
@@ -65,16 +65,16 @@ def test_the_exposure_is_shown_and_a_long_one_or_a_poor_calibration_warned_about
 ) -> None:
     page = arcade.shown(FleetPage)
     assert page._state().endswith("1/167 s")
-    assert page._message() == ""
+    assert page._notice() == ""
     quality = mat.quality
     assert quality is not None
     mat.quality = replace(quality, detection=0.6, anyway=True)
-    assert page._message() == "Calibrated anyway: about 60 % of the markers are found."
+    assert page._notice() == "Calibrated anyway: about 60 % of the markers are found."
     camera = mat.arena.camera
     camera.traits, camera.manual = TRAITS["stubborn"], 1 / 30  # the driver has forgotten it
     arcade.wait(1.2, fps=50)
     assert page._state().endswith("1/30 s")
-    assert "smear at 1/30\u00a0s" in page._message()
+    assert "smear at 1/30\u00a0s" in page._notice()
     mat.quality, camera.traits, camera.manual = quality, TRAITS["good"], 0.006
 
 
@@ -164,7 +164,7 @@ def test_swapped_markers_are_found_and_remembered(arcade: Arcade, mat: EmulatedS
         idle(arcade, page)
         assert rig.channels[:2] == (1, 0)
         assert arcade.context.settings.radios == [2, 1, 3, 4]
-        assert "This is now saved" in page.navigation.sentence
+        assert "This is now saved" in page.message
         assert Settings.load(folders().config)[0].radios == [2, 1, 3, 4]
     finally:
         heard[0].robot, heard[1].robot = heard[1].robot, heard[0].robot

@@ -59,7 +59,7 @@ def test_the_sheet_is_written_and_it_says_where(arcade: Arcade, tmp_path: Path, 
     arcade.press(Button.FIRE)
     written = tmp_path / "data" / SHEET
     assert written.read_bytes().startswith(b"%PDF")
-    assert str(written) in arcade.shown(RobotsMenu).navigation.sentence
+    assert str(written) in arcade.shown(RobotsMenu).message
 
 
 def test_a_sheet_that_cannot_be_written_is_one_sentence(
@@ -68,14 +68,14 @@ def test_a_sheet_that_cannot_be_written_is_one_sentence(
     (tmp_path / "data" / SHEET).mkdir(parents=True)
     go(arcade, RobotsMenu, "sheet")
     arcade.press(Button.FIRE)
-    assert arcade.shown(RobotsMenu).navigation.sentence == arcade.context.words("app.unsaved")
+    assert arcade.shown(RobotsMenu).message == arcade.context.words("app.unsaved")
 
     def none(**_: object) -> bytes:
         raise OpenCVMissing(OperatorMessage("no_opencv"))
 
     monkeypatch.setattr("pigaming_app.hardware.calibration.marker_sheet.sheet", none)
     arcade.press(Button.FIRE)
-    assert arcade.shown(RobotsMenu).navigation.sentence == arcade.context.words("hardware.no_opencv")
+    assert arcade.shown(RobotsMenu).message == arcade.context.words("hardware.no_opencv")
 
 
 def test_children_in_a_kiosk_do_not_find_it(arcade: Arcade) -> None:
