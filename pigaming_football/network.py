@@ -13,6 +13,7 @@ from pigaming_app.api.networks import (
     At,
     Encoding,
     Found,
+    NetworkSenses,
     Subject,
     distance_of,
     encode_room,
@@ -57,12 +58,9 @@ LANE = 150.0  # px of clearance from which on a way counts as open
 
 
 @record
-class FootballSenses:
+class FootballSenses(NetworkSenses):
     """Parameters of the observation, and scratch space."""
 
-    delay: float  # s, age of the poses of others, and of the ball
-    error: float  # rad by which these appear beside where they are
-    thrift: float  # as in PiTanks; a shot costs nothing here
     x: float  # of the ball, px from the robot, as it appears
     y: float
 

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.kernel import kernel
 
 
@@ -24,7 +25,7 @@ class Tallies:
 
 
 @kernel
-def is_over(match: Any, seat: int) -> int:
+def is_over(match: MatchState, seat: int) -> int:
     """1 if the match is over."""
     return int(match.over)
 

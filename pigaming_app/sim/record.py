@@ -56,7 +56,7 @@ class Field:
             return self.kind(self.default)
         return self.kind() if self.count is None else [self.kind() for _ in range(self.count)]
 
-    def elements(self, owner: Any) -> Any:
+    def elements(self, owner: object) -> Any:
         value = getattr(owner, self.name)
         return (value,) if self.count is None else value
 
@@ -70,7 +70,7 @@ def record(cls: type[T]) -> type[T]:
     fields = tuple(Field(name, hint, defaults.get(name, 0)) for name, hint in hints.items())
     factories = tuple((field.name, field.fresh) for field in fields)
 
-    def init(self: Any) -> None:
+    def init(self: object) -> None:
         for name, factory in factories:
             setattr(self, name, factory())
 
@@ -93,7 +93,7 @@ def fields_of(kind: type) -> tuple[Field, ...]:
     return kind._fields  # type: ignore[attr-defined, no-any-return]
 
 
-def dtype(kind: Any) -> "np.dtype[Any]":
+def dtype(kind: type) -> "np.dtype[Any]":
     """The NumPy record type of a record: packed, little-endian, every number aligned to its size. Raises TypeError."""
     import numpy as np
 
@@ -110,9 +110,9 @@ def dtype(kind: Any) -> "np.dtype[Any]":
     return result
 
 
-def numbers(state: Any) -> Iterator[float]:
+def numbers(state: object) -> Iterator[float]:
     """Every number of a plain record, in memory order."""
-    for field in state._fields:
+    for field in fields_of(type(state)):
         if field.code:
             yield from field.elements(state)
         else:
@@ -120,8 +120,8 @@ def numbers(state: Any) -> Iterator[float]:
                 yield from numbers(element)
 
 
-def _layout(kind: Any) -> struct.Struct:
-    def codes(kind: Any) -> str:
+def _layout(kind: type) -> struct.Struct:
+    def codes(kind: type) -> str:
         parts = []
         for field in fields_of(kind):
             element = field.code or codes(field.kind)
@@ -133,7 +133,7 @@ def _layout(kind: Any) -> struct.Struct:
     return _LAYOUTS[kind]
 
 
-def to_bytes(state: Any) -> bytes:
+def to_bytes(state: object) -> bytes:
     """The bytes of the equivalent NumPy record."""
     return _layout(type(state)).pack(*numbers(state))
 
@@ -158,8 +158,8 @@ def from_bytes(kind: type[T], raw: bytes) -> T:
     return state
 
 
-def _fill(state: Any, stream: Iterator[float]) -> None:
-    for field in state._fields:
+def _fill(state: object, stream: Iterator[float]) -> None:
+    for field in fields_of(type(state)):
         if not field.code:
             for element in field.elements(state):
                 _fill(element, stream)
@@ -172,7 +172,7 @@ def _fill(state: Any, stream: Iterator[float]) -> None:
 def copy(state: T) -> T:
     """A deep copy of a plain record."""
     twin = type(state)()
-    for field in state._fields:  # type: ignore[attr-defined]
+    for field in fields_of(type(state)):
         value = getattr(state, field.name)
         if field.code:
             setattr(twin, field.name, value if field.count is None else list(value))

@@ -10,6 +10,7 @@ from functools import cache
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.kernel import inlined_kernel
 from pigaming_app.sim.record import packed, record
 from pigaming_app.sim.world import ROBOTS
@@ -98,12 +99,12 @@ def dispatcher(families: tuple[Family, ...]) -> Think:
 
 
 @inlined_kernel
-def _nobody(match: Any, seat: int, mind: Any, weights: Any) -> None:
+def _nobody(match: MatchState, seat: int, mind: Any, weights: Any) -> None:
     """The end of the chain: no family is in charge."""
 
 
 def _branch(number: int, field: str, think: Think, otherwise: Think) -> Think:
-    def choose(match: Any, seat: int, mind: Any, weights: Any) -> None:
+    def choose(match: MatchState, seat: int, mind: Any, weights: Any) -> None:
         if mind.family == number:
             think(match, seat, getattr(mind, field), weights[number][mind.row])
         else:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 from math import sqrt
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from pigaming_app.ai.brain_files import is_path, stem_of
 from pigaming_app.ai.experiments.ratings import Rating, ratings
@@ -21,6 +21,7 @@ from pigaming_app.ai.registry import BRAINS, find_brain, known_brains
 from pigaming_app.games.game import ALLIES, PAIRS, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, make_setup, require_game, require_one_of
+from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import ROBOTS
 
@@ -270,7 +271,7 @@ def _allied_ends(game: str, lefts: Batch, rights: Batch) -> Iterator[Ending]:
         yield Ending(*keys, _score(left, 0), _score(right, 0))
 
 
-def _score(state: Any, seat: int) -> int:
+def _score(state: MatchState, seat: int) -> int:
     """Score of the seat's team."""
     team = state.robots[seat].team
     return sum(robot.score for robot in state.robots if robot.present and robot.team == team)

@@ -9,14 +9,28 @@ from dataclasses import dataclass
 from math import floor
 from typing import Any
 
+from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.record import record
+from pigaming_app.sim.world import ROBOTS, Robot
 
 UNIT = 256.0  # 1.0 in inputs, activations and weights
 STEP = 40.0  # px, by which a robot looks for room to drive
 ANYWHERE = 1e18  # px², more than any distance
+Inputs = list[float]  # of a network, of the length `Encoding.size`
+
 PERIOD = 5  # ticks between decisions: 10 Hz
+
+
+@record
+class NetworkSenses:
+    """Parameters of a network's observation; those of a game add memory between decisions."""
+
+    delay: float  # s, age of the poses of others
+    error: float  # rad by which others appear beside where they are
+    thrift: float  # cost of a shot, in points, that it has in mind; nothing in a game without shots
+    turns: float  # s for which it goes for one opponent at most, before the next has its turn; 0: no turns
 
 
 @dataclass(frozen=True)
@@ -30,7 +44,7 @@ class Encoding:
     game: str
     groups: tuple[tuple[str, int], ...]  # names and lengths of the groups of inputs, in order
     heads: tuple[tuple[str, int], ...]  # names and numbers of choices, in order
-    senses: type  # record: parameters of the observation, and memory between decisions; has `delay`, `error`, `thrift`
+    senses: type[NetworkSenses]
     encode: Callable[[Any, int, Any, Any], None]
     act: Callable[[Any, int, Any], None]
 
@@ -66,7 +80,7 @@ def saturating(value: float) -> float:
 
 
 @kernel
-def nearest_robot(match: Any, seat: int, told: int, within2: float) -> int:
+def nearest_robot(match: MatchState, seat: int, told: int, within2: float) -> int:
     """The nearest of the other robots whose bit in `told` is 0, -1 if none; `within2`: square of the range, px²."""
     me = match.robots[seat]
     best, nearest2 = -1, within2
@@ -82,8 +96,8 @@ def nearest_robot(match: Any, seat: int, told: int, within2: float) -> int:
 
 @kernel
 def encode_room(
-    match: Any,
-    me: Any,
+    match: MatchState,
+    me: Robot,
     ahead_x: float,
     ahead_y: float,
     rays: int,
@@ -91,7 +105,7 @@ def encode_room(
     turn_cos: float,
     turn_sin: float,
     k: int,
-    inputs: Any,
+    inputs: Inputs,
 ) -> None:
     """The room to drive in some directions, clockwise from ahead, from input k on. Neighbours differ by the turn."""
     x, y = STEP * ahead_x, STEP * ahead_y

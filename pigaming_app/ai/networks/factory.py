@@ -6,18 +6,17 @@ are pallets to lift, else places for the load. A warehouse counts once, by its b
 """
 
 from math import cos, sin, sqrt
-from typing import Any
 
-from pigaming_app.ai.networks.encoding import ANYWHERE, Encoding, encode_room, nearest_robot, saturating, whole
+from pigaming_app.ai.networks.encoding import ANYWHERE, Encoding, Inputs, encode_room, nearest_robot, saturating, whole
 from pigaming_app.ai.networks.factory_targets import CHOSEN, STALLED, FactorySenses, find_targets, is_left_to_mate
 from pigaming_app.games.factory.rules import slot_for
-from pigaming_app.games.factory.state import INPUT, MACHINE_SLOTS, MACHINES, WORKERS, WORKING, A, B
+from pigaming_app.games.factory.state import INPUT, MACHINE_SLOTS, MACHINES, WORKERS, WORKING, A, B, Factory
 from pigaming_app.games.factory.workers import fits
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.flow_field import update_route
 from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.world import CELL, HEIGHT, HZ, ROBOTS, WIDTH
+from pigaming_app.sim.world import CELL, HEIGHT, HZ, ROBOTS, WIDTH, Robot
 
 GROUPS = (
     ("motion", 5),
@@ -48,7 +47,7 @@ DIAGONAL = 0.7071067811865476
 
 
 @kernel
-def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
+def encode(match: Factory, seat: int, senses: FactorySenses, inputs: Inputs) -> None:
     """Fill in the inputs of one seat."""
     for i in range(SIZE):
         inputs[i] = 0.0
@@ -68,7 +67,9 @@ def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
 
 
 @kernel
-def encode_self(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+def encode_self(
+    match: Factory, seat: int, senses: FactorySenses, ahead_x: float, ahead_y: float, inputs: Inputs
+) -> None:
     """The own robot, its load, and what its fork would do now."""
     me, load, rules = match.robots[seat], match.loads[seat], match.rules
     inputs[MOTION], inputs[MOTION + 1] = whole(me.linear / 400.0), whole(me.angular / rules.turn_rate)
@@ -90,7 +91,7 @@ def encode_self(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: flo
 
 
 @kernel
-def encode_score(match: Any, seat: int, inputs: Any) -> None:
+def encode_score(match: Factory, seat: int, inputs: Inputs) -> None:
     """Deliveries or points, the clock and the stars it still allows, and the rules."""
     team, rules = match.robots[seat].team, match.rules
     ours, theirs = match.delivered[team], match.delivered[1 - team]
@@ -111,7 +112,7 @@ def encode_score(match: Any, seat: int, inputs: Any) -> None:
 
 
 @kernel
-def encode_target(match: Any, seat: int, s: int, ahead_x: float, ahead_y: float, k: int, inputs: Any) -> None:
+def encode_target(match: Factory, seat: int, s: int, ahead_x: float, ahead_y: float, k: int, inputs: Inputs) -> None:
     """Slot s as a target, from input k on."""
     me, slot, rules = match.robots[seat], match.slots[s], match.rules
     dx, dy = slot.x - me.x, slot.y - me.y
@@ -137,7 +138,9 @@ def encode_target(match: Any, seat: int, s: int, ahead_x: float, ahead_y: float,
 
 
 @kernel
-def encode_way(match: Any, me: Any, senses: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+def encode_way(
+    match: Factory, me: Robot, senses: FactorySenses, ahead_x: float, ahead_y: float, inputs: Inputs
+) -> None:
     """The way to the first target."""
     if senses.slots[0] < 0:
         return
@@ -156,7 +159,7 @@ def encode_way(match: Any, me: Any, senses: Any, ahead_x: float, ahead_y: float,
 
 
 @kernel
-def encode_machines(match: Any, seat: int, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+def encode_machines(match: Factory, seat: int, ahead_x: float, ahead_y: float, inputs: Inputs) -> None:
     """All machines: the nearer and the farther one of kind A, then those of kind B."""
     me = match.robots[seat]
     for kind in (A, B):
@@ -176,7 +179,7 @@ def encode_machines(match: Any, seat: int, ahead_x: float, ahead_y: float, input
 
 
 @kernel
-def encode_machine(match: Any, me: Any, m: int, ahead_x: float, ahead_y: float, k: int, inputs: Any) -> None:
+def encode_machine(match: Factory, me: Robot, m: int, ahead_x: float, ahead_y: float, k: int, inputs: Inputs) -> None:
     """Machine m, from input k on."""
     machine, rules = match.machines[m], match.rules
     dx, dy = machine.x - me.x, machine.y - me.y
@@ -199,7 +202,9 @@ def encode_machine(match: Any, me: Any, m: int, ahead_x: float, ahead_y: float, 
 
 
 @kernel
-def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+def encode_others(
+    match: Factory, seat: int, senses: FactorySenses, ahead_x: float, ahead_y: float, inputs: Inputs
+) -> None:
     """The other robots, the nearest first."""
     told = 0
     for place in range(ROBOTS - 1):
@@ -211,7 +216,16 @@ def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: f
 
 
 @kernel
-def encode_other(match: Any, me: Any, j: int, senses: Any, ahead_x: float, ahead_y: float, k: int, inputs: Any) -> None:
+def encode_other(
+    match: Factory,
+    me: Robot,
+    j: int,
+    senses: FactorySenses,
+    ahead_x: float,
+    ahead_y: float,
+    k: int,
+    inputs: Inputs,
+) -> None:
     """Robot j, from input k on."""
     robot, load = match.robots[j], match.loads[j]
     heading = robot.heading - senses.delay * robot.angular
@@ -230,7 +244,7 @@ def encode_other(match: Any, me: Any, j: int, senses: Any, ahead_x: float, ahead
 
 
 @kernel
-def encode_people(match: Any, me: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+def encode_people(match: Factory, me: Robot, ahead_x: float, ahead_y: float, inputs: Inputs) -> None:
     """The workers, the nearest first: how near they are, where, and how directly they walk towards the robot."""
     told = 0
     for place in range(WORKERS):
@@ -250,7 +264,7 @@ def encode_people(match: Any, me: Any, ahead_x: float, ahead_y: float, inputs: A
 
 
 @kernel
-def act(match: Any, seat: int, choices: Any) -> None:
+def act(match: Factory, seat: int, choices: list[int]) -> None:
     """Stick and buttons from the choices of the four heads."""
     set_action(match.actions[seat], choices[0] - 1.0, TURNS[choices[1]], choices[2], choices[3])
 

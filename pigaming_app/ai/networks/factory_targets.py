@@ -5,8 +5,9 @@ are in px of driving; waiting times count as the way that a robot drives in them
 """
 
 from math import sqrt
-from typing import Annotated, Any
+from typing import Annotated
 
+from pigaming_app.ai.networks.encoding import NetworkSenses
 from pigaming_app.games.factory.rules import may_lift
 from pigaming_app.games.factory.state import (
     DAMAGED,
@@ -21,6 +22,7 @@ from pigaming_app.games.factory.state import (
     SHELVES,
     TEAMS,
     A,
+    Factory,
 )
 from pigaming_app.games.factory.workers import fits
 from pigaming_app.sim.flow_field import Route
@@ -39,19 +41,16 @@ STALLED = 12.0  # s without a worker after which a machine counts as out of orde
 
 
 @record
-class FactorySenses:
+class FactorySenses(NetworkSenses):
     """Parameters of the observation, the targets of the moment, and the route to the first of them."""
 
-    delay: float  # s, age of the poses of others
-    error: float  # rad by which others appear beside where they are
-    thrift: float  # as in PiTanks; there are no shots here
     slots: Annotated[list[int], CHOSEN]  # the targets, -1: none
     costs: Annotated[list[float], CHOSEN]  # px
     route: Route
 
 
 @kernel
-def find_targets(match: Any, seat: int, senses: Any) -> None:
+def find_targets(match: Factory, seat: int, senses: FactorySenses) -> None:
     """Choose the targets of a seat."""
     for i in range(CHOSEN):
         senses.slots[i], senses.costs[i] = -1, NONE
@@ -62,7 +61,7 @@ def find_targets(match: Any, seat: int, senses: Any) -> None:
 
 
 @kernel
-def find_pallets(match: Any, seat: int, senses: Any) -> None:
+def find_pallets(match: Factory, seat: int, senses: FactorySenses) -> None:
     """Choose targets for an empty fork: pallets that it may lift, and those about to leave a machine."""
     after_raw, after_half = FULL, FULL  # px, if a raw or a half-done pallet has no free place
     for m in range(MACHINES):
@@ -94,7 +93,7 @@ def find_pallets(match: Any, seat: int, senses: Any) -> None:
 
 
 @kernel
-def find_places(match: Any, seat: int, senses: Any) -> None:
+def find_places(match: Factory, seat: int, senses: FactorySenses) -> None:
     """Choose targets for a loaded fork: where its pallet belongs."""
     state, team = match.pallets[match.loads[seat].pallet - 1].state, match.robots[seat].team
     if state in (RAW, HALF):
@@ -119,7 +118,7 @@ def find_places(match: Any, seat: int, senses: Any) -> None:
 
 
 @kernel
-def cost_of_pallet(match: Any, seat: int, s: int, after_raw: float, after_half: float) -> float:
+def cost_of_pallet(match: Factory, seat: int, s: int, after_raw: float, after_half: float) -> float:
     """Cost of lifting the pallet of slot s next, px; NONE for a damaged one."""
     state = match.pallets[match.slots[s].pallet - 1].state
     if state == DAMAGED:
@@ -133,14 +132,14 @@ def cost_of_pallet(match: Any, seat: int, s: int, after_raw: float, after_half: 
 
 
 @kernel
-def cost_of_way(match: Any, seat: int, s: int) -> float:
+def cost_of_way(match: Factory, seat: int, s: int) -> float:
     """Distance from a seat's robot to slot s, more if a mate will be there first, px."""
     dx, dy = match.slots[s].x - match.robots[seat].x, match.slots[s].y - match.robots[seat].y
     return sqrt(dx * dx + dy * dy) + (TAKEN if is_left_to_mate(match, seat, s) else 0.0)
 
 
 @kernel
-def is_left_to_mate(match: Any, seat: int, s: int) -> bool:
+def is_left_to_mate(match: Factory, seat: int, s: int) -> bool:
     """True if a mate with the same need of slot s is nearer to it, or has announced it."""
     me, slot = match.robots[seat], match.slots[s]
     loaded = match.loads[seat].pallet > 0
@@ -159,14 +158,14 @@ def is_left_to_mate(match: Any, seat: int, s: int) -> bool:
 
 
 @kernel
-def stall(match: Any, m: int) -> float:
+def stall(match: Factory, m: int) -> float:
     """Time for which machine m has had work and no worker, s; short times are common and count as 0."""
     seconds = match.machines[m].stalled / HZ
     return seconds if seconds > 0.5 * STALLED else 0.0
 
 
 @kernel
-def consider(senses: Any, s: int, cost: float) -> None:
+def consider(senses: FactorySenses, s: int, cost: float) -> None:
     """Sort slot s among the targets, if it is one of the cheapest."""
     if cost >= senses.costs[CHOSEN - 1]:
         return

@@ -31,7 +31,7 @@ class Layers:
         logits: list[list[float]] = self._sums(rows).tolist()
         return logits
 
-    def _sums(self, inputs: Any) -> Any:
+    def _sums(self, inputs: Sequence[Any]) -> Any:
         (first, second, last), (first_bias, second_bias, last_bias) = self.matrices, self.biases
         x = np.array(inputs) @ first
         x += first_bias
@@ -47,7 +47,7 @@ class Layers:
         return max(float((UNIT * np.abs(matrix).sum(axis=0) + np.abs(bias)).max()) for matrix, bias in sums)
 
 
-def squash_all(x: Any) -> Any:
+def squash_all(x: np.ndarray) -> Any:
     """`policy.squash` of an array, in place: the same operations in the same order."""
     x *= LOGIT / 3.0
     np.minimum(x, 1.0, out=x)

@@ -1,16 +1,17 @@
 """The subjects of all games: topics of the inputs, and the places of perceived things."""
 
 from collections.abc import Sequence
-from typing import Any
 
 from pigaming_app.ai.brain.thoughts import BULLET, GOAL, MATE, OPPONENT, PERSON, PRIZE, WAY, Percept
 from pigaming_app.ai.networks import factory, pitanks, race
 from pigaming_app.ai.networks.pitanks_things import MINE_NEAR
 from pigaming_app.ai.networks.subject import At, Found, Subject, distance_of
+from pigaming_app.games.pitanks.state import PiTanks
+from pigaming_app.games.simple import MatchState
 from pigaming_app.storage.plugins.parts import Registry
 
 
-def in_pitanks(match: Any, inputs: Sequence[float], at: At) -> Found:
+def in_pitanks(match: PiTanks, inputs: Sequence[float], at: At) -> Found:
     """Robots, bullets, pick-up and mine. A bullet so far aside that its distance saturates has no place."""
     for k in range(pitanks.OTHERS, pitanks.PICKUP, pitanks.OTHER):
         if inputs[k]:
@@ -30,7 +31,7 @@ def in_pitanks(match: Any, inputs: Sequence[float], at: At) -> Found:
         yield "mines", Percept(BULLET, *at(MINE_NEAR * (1.0 - inputs[k + 2]), inputs[k], inputs[k + 1]))
 
 
-def in_factory(match: Any, inputs: Sequence[float], at: At) -> Found:
+def in_factory(match: MatchState, inputs: Sequence[float], at: At) -> Found:
     """The first target and the way to it, robots and people."""
     k = factory.TARGETS
     if inputs[k]:
@@ -46,7 +47,7 @@ def in_factory(match: Any, inputs: Sequence[float], at: At) -> Found:
         yield "people", Percept(PERSON, *at(distance_of(inputs[k], 150.0), inputs[k + 1], inputs[k + 2]))
 
 
-def in_race(match: Any, inputs: Sequence[float], at: At) -> Found:
+def in_race(match: MatchState, inputs: Sequence[float], at: At) -> Found:
     """Robots, and the point of the fastest line some way ahead."""
     for k in range(race.OTHERS, race.OILS, race.OTHER):
         if any(inputs[k : k + race.OTHER]) and abs(inputs[k + 2]) < 1.0:

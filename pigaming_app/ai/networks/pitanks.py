@@ -7,9 +7,9 @@ far away and hardly at close range.
 """
 
 from math import cos, sin, sqrt
-from typing import Annotated, Any
+from typing import Annotated
 
-from pigaming_app.ai.networks.encoding import PERIOD, Encoding, encode_room, saturating, whole
+from pigaming_app.ai.networks.encoding import PERIOD, Encoding, Inputs, NetworkSenses, encode_room, saturating, whole
 from pigaming_app.ai.networks.pitanks_things import (
     RANGE,
     encode_bullets,
@@ -19,14 +19,14 @@ from pigaming_app.ai.networks.pitanks_things import (
     first_wall,
 )
 from pigaming_app.games.pitanks.scoring import is_finale, is_overtime, lead
-from pigaming_app.games.pitanks.state import OWN_BULLETS
+from pigaming_app.games.pitanks.state import OWN_BULLETS, PiTanks
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.flow_field import Route, descend, free_node, update_route
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, HZ, ROBOTS, SOLID, WIDTH
+from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, HZ, ROBOTS, SOLID, WIDTH, Robot
 
 GROUPS = (
     ("motion", 5),
@@ -62,12 +62,9 @@ COS30, SIN30 = 0.8660254037844386, 0.5
 
 
 @record
-class PiTanksSenses:
+class PiTanksSenses(NetworkSenses):
     """Parameters of the observation, the poses at the last look, and the route to the nearest opponent."""
 
-    delay: float  # s, age of the poses of others
-    error: float  # rad by which others appear beside where they are
-    thrift: float  # cost of a shot, in points, that it has in mind
     clears: int  # bit j: robot j is in the line of fire
     looked: int  # tick after the last look, 0 before the first
     x: Annotated[list[float], ROBOTS]  # px
@@ -75,7 +72,6 @@ class PiTanksSenses:
     vx: Annotated[list[float], ROBOTS]  # px/s, since the look before
     vy: Annotated[list[float], ROBOTS]
     route: Route
-    turns: float  # s for which it goes for one opponent at most, before the next has its turn; 0: no turns
     target: int  # 1 + seat of the opponent whose turn it is; 0: none yet
     until: int  # tick at which that turn ends
     taken: int  # hits that this opponent had taken when that turn began
@@ -83,7 +79,7 @@ class PiTanksSenses:
 
 
 @kernel
-def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
+def encode(match: PiTanks, seat: int, senses: PiTanksSenses, inputs: Inputs) -> None:
     """Fill in the inputs of one seat."""
     for i in range(SIZE):
         inputs[i] = 0.0
@@ -105,7 +101,7 @@ def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
 
 
 @kernel
-def encode_self(match: Any, seat: int, inputs: Any) -> None:
+def encode_self(match: PiTanks, seat: int, inputs: Inputs) -> None:
     """The own robot, the score and the rules."""
     me, tank, rules = match.robots[seat], match.tanks[seat], match.rules
     inputs[MOTION] = whole(me.linear / 400.0)
@@ -133,7 +129,7 @@ def encode_self(match: Any, seat: int, inputs: Any) -> None:
 
 
 @kernel
-def track(match: Any, senses: Any) -> None:
+def track(match: PiTanks, senses: PiTanksSenses) -> None:
     """The velocities of all robots, from their displacement since the last look, as a camera measures them.
 
     The speed of a robot's motors says nothing about one that pushes against a wall.
@@ -154,7 +150,9 @@ def track(match: Any, senses: Any) -> None:
 
 
 @kernel
-def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+def encode_others(
+    match: PiTanks, seat: int, senses: PiTanksSenses, ahead_x: float, ahead_y: float, inputs: Inputs
+) -> None:
     """The other robots, the most pressing first, and the way to the nearest opponent."""
     me, radius = match.robots[seat], match.rules.bullet_radius
     senses.clears = 0
@@ -218,7 +216,7 @@ def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: f
 
 
 @kernel
-def take_turns(match: Any, seat: int, senses: Any) -> int:
+def take_turns(match: PiTanks, seat: int, senses: PiTanksSenses) -> int:
     """The opponent whose turn it is. Its turn ends when it is hit, or when the time of the turn is over.
 
     The next is the opponent that has had the fewest turns, never the same again while there are others; of several one
@@ -249,7 +247,7 @@ def take_turns(match: Any, seat: int, senses: Any) -> int:
 
 
 @kernel
-def towards(me: Any, x: float, y: float, ahead_x: float, ahead_y: float, k: int, inputs: Any) -> None:
+def towards(me: Robot, x: float, y: float, ahead_x: float, ahead_y: float, k: int, inputs: Inputs) -> None:
     """Direction and distance of a point, in three inputs from k on."""
     dx, dy = x - me.x, y - me.y
     distance = sqrt(dx * dx + dy * dy) + 1e-9
@@ -260,7 +258,14 @@ def towards(me: Any, x: float, y: float, ahead_x: float, ahead_y: float, k: int,
 
 @kernel
 def encode_other(
-    match: Any, seat: int, j: int, senses: Any, ahead_x: float, ahead_y: float, k: int, inputs: Any
+    match: PiTanks,
+    seat: int,
+    j: int,
+    senses: PiTanksSenses,
+    ahead_x: float,
+    ahead_y: float,
+    k: int,
+    inputs: Inputs,
 ) -> None:
     """Robot j, from input k on."""
     me, robot, tank = match.robots[seat], match.robots[j], match.tanks[j]
@@ -301,7 +306,7 @@ def in_sizes(along: float, across: float, size: float) -> float:
 
 
 @kernel
-def act(match: Any, seat: int, choices: Any) -> None:
+def act(match: PiTanks, seat: int, choices: list[int]) -> None:
     """Stick and buttons from the choices of the four heads."""
     set_action(match.actions[seat], choices[0] - 1.0, TURNS[choices[1]], choices[2], choices[3])
 

@@ -1,13 +1,12 @@
 """What lies or flies about in PiTanks, as a network sees it: bullets, pick-up, mine, and walls in the line of fire."""
 
 from math import sqrt
-from typing import Any
 
-from pigaming_app.ai.networks.encoding import whole
-from pigaming_app.games.pitanks.state import MINES, OWN_BULLETS, OWN_MINES
+from pigaming_app.ai.networks.encoding import Inputs, whole
+from pigaming_app.games.pitanks.state import MINES, OWN_BULLETS, OWN_MINES, PiTanks
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.sweep import is_aside, wall_contact
-from pigaming_app.sim.world import ROBOTS, SOLID
+from pigaming_app.sim.world import ROBOTS, SOLID, Robot
 
 SOON = 1.6  # s; bullets that pass later are left out
 PASSING = 130.0  # px; so are those that pass farther away
@@ -16,7 +15,9 @@ RANGE = 1200.0  # px within which walls in the line of fire count
 
 
 @kernel
-def encode_bullets(match: Any, seat: int, delay: float, ahead_x: float, ahead_y: float, k: int, inputs: Any) -> None:
+def encode_bullets(
+    match: PiTanks, seat: int, delay: float, ahead_x: float, ahead_y: float, k: int, inputs: Inputs
+) -> None:
     """The three bullets of opponents that pass soonest, in 15 inputs from k on."""
     me, speed = match.robots[seat], match.rules.bullet_speed
     first, second, third = -1, -1, -1
@@ -51,7 +52,7 @@ def encode_bullets(match: Any, seat: int, delay: float, ahead_x: float, ahead_y:
 
 @kernel
 def encode_bullet(
-    match: Any, me: Any, i: int, seconds: float, ahead_x: float, ahead_y: float, k: int, inputs: Any
+    match: PiTanks, me: Robot, i: int, seconds: float, ahead_x: float, ahead_y: float, k: int, inputs: Inputs
 ) -> None:
     """Bullet i, which passes in some seconds, from input k on."""
     bullet, speed = match.bullets[i], match.rules.bullet_speed
@@ -63,7 +64,7 @@ def encode_bullet(
 
 
 @kernel
-def encode_pickup(match: Any, me: Any, ahead_x: float, ahead_y: float, k: int, inputs: Any) -> None:
+def encode_pickup(match: PiTanks, me: Robot, ahead_x: float, ahead_y: float, k: int, inputs: Inputs) -> None:
     """The nearest pick-up, in three inputs from k on."""
     to_x, to_y, nearest2 = 0.0, 0.0, 1e18
     for pickup in match.pickups:
@@ -78,7 +79,7 @@ def encode_pickup(match: Any, me: Any, ahead_x: float, ahead_y: float, k: int, i
 
 
 @kernel
-def encode_mine(match: Any, me: Any, ahead_x: float, ahead_y: float, k: int, inputs: Any) -> None:
+def encode_mine(match: PiTanks, me: Robot, ahead_x: float, ahead_y: float, k: int, inputs: Inputs) -> None:
     """The nearest mine of an opponent, in three inputs from k on."""
     to_x, to_y, nearest2 = 0.0, 0.0, MINE_NEAR * MINE_NEAR
     for i in range(MINES):
@@ -95,7 +96,7 @@ def encode_mine(match: Any, me: Any, ahead_x: float, ahead_y: float, k: int, inp
 
 
 @kernel
-def encode_wall(match: Any, me: Any, dx: float, dy: float, k: int, inputs: Any) -> None:
+def encode_wall(match: PiTanks, me: Robot, dx: float, dy: float, k: int, inputs: Inputs) -> None:
     """The inner wall that a shot along (dx, dy) would hit, in three inputs from k on: nearness, health, solid."""
     wall, when = first_wall(match, me.x, me.y, dx, dy)
     if wall >= 0:
@@ -105,7 +106,7 @@ def encode_wall(match: Any, me: Any, dx: float, dy: float, k: int, inputs: Any) 
 
 
 @kernel
-def first_wall(match: Any, x: float, y: float, dx: float, dy: float) -> tuple[int, float]:
+def first_wall(match: PiTanks, x: float, y: float, dx: float, dy: float) -> tuple[int, float]:
     """The first inner wall that a bullet moving by (dx, dy) would hit, -1 if none, and the share of the way to it."""
     radius, first, found = match.rules.bullet_radius, 1.0, -1
     length = sqrt(dx * dx + dy * dy)

@@ -13,7 +13,8 @@ from math import floor
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.networks.encoding import PERIOD, UNIT, Encoding
+from pigaming_app.ai.networks.encoding import PERIOD, UNIT, Encoding, NetworkSenses
+from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.action import quantise
 from pigaming_app.sim.kernel import kernel, kernel_with_loops
 from pigaming_app.sim.record import dtype, record
@@ -58,26 +59,36 @@ def weights_record(size: int, outputs: int) -> type:
     return record(type("NetworkWeights", (), {"__annotations__": hints, "__module__": __name__}))
 
 
+@record
+class NetworkMind:
+    """A network's memory, with lists as long as `mind_record` makes them: those of the last decision."""
+
+    senses: NetworkSenses
+    wait: int  # ticks until the next decision
+    random: int
+    error: float  # see Handicap
+    sharpness: float
+    speed: float  # share of full speed in this match
+    error_left: int  # ticks until the aiming error is redrawn
+    inputs: Annotated[list[float], 2, "f"]
+    hidden: Annotated[list[float], 2 * HIDDEN, "f"]  # scratch space of compiled code, else 0
+    logits: Annotated[list[float], 2, "f"]
+    choices: Annotated[list[int], 1]
+
+
 @cache
-def mind_record(encoding: Encoding) -> type:
-    """The record of a network's memory. Inputs, logits and choices are those of the last decision."""
+def mind_record(encoding: Encoding) -> type[NetworkMind]:
+    """The record of the memory of a game's networks."""
     hints = {
         "senses": encoding.senses,
-        "wait": int,  # ticks until the next decision
-        "random": int,
-        "error": float,  # see Handicap
-        "sharpness": float,
-        "speed": float,  # share of full speed in this match
-        "error_left": int,  # ticks until the aiming error is redrawn
         "inputs": Annotated[list[float], encoding.size, "f"],
-        "hidden": Annotated[list[float], 2 * HIDDEN, "f"],  # scratch space of compiled code, else 0
         "logits": Annotated[list[float], encoding.outputs, "f"],
         "choices": Annotated[list[int], len(encoding.heads)],
     }
-    return record(type("NetworkMind", (), {"__annotations__": hints, "__module__": __name__}))
+    return record(type("NetworkMind", (NetworkMind,), {"__annotations__": hints, "__module__": __name__}))
 
 
-def _forward_loops(mind: Any, weights: Any) -> None:
+def _forward_loops(mind: NetworkMind, weights: Any) -> None:
     """`forward` in compiled code: no sum over a row, so that the inner loops are vectorised as they stand."""
     inputs, hidden, logits = mind.inputs, mind.hidden, mind.logits
     size, outputs = len(inputs), len(logits)
@@ -120,7 +131,7 @@ def squash(total: float) -> float:
 
 
 @kernel_with_loops(_forward_loops)
-def forward(mind: Any, weights: Any) -> None:
+def forward(mind: NetworkMind, weights: "Layers") -> None:
     """Fill in the logits from the inputs."""
     mind.logits[:] = weights.logits(mind.inputs)
 
@@ -137,7 +148,7 @@ def odds(logit: float, best: float, sharpness: float) -> float:
 
 
 @kernel
-def draw(mind: Any, first: int, count: int) -> int:
+def draw(mind: NetworkMind, first: int, count: int) -> int:
     """A choice of the head whose logits begin at `first`."""
     best = mind.logits[first]
     for i in range(1, count):
@@ -155,7 +166,7 @@ def draw(mind: Any, first: int, count: int) -> int:
 
 
 @kernel
-def misjudge(mind: Any) -> None:
+def misjudge(mind: NetworkMind) -> None:
     """Redraw the aiming error when its time is over."""
     mind.error_left -= PERIOD
     if mind.error_left <= 0:
@@ -170,7 +181,7 @@ def make_think(encoding: Encoding) -> Callable[[Any, int, Any, Any], None]:
     counts = tuple(choices for _, choices in encoding.heads)
     heads = len(counts)
 
-    def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
+    def think(match: MatchState, seat: int, mind: NetworkMind, weights: Any) -> None:
         mind.wait -= 1
         if mind.wait > 0:
             return
@@ -222,11 +233,9 @@ def network_brain(
 ) -> BrainKind:
     """A brain that plays by a network."""
 
-    def reset(mind: Any, seed: int) -> None:
+    def reset(mind: NetworkMind, seed: int) -> None:
         mind.random, mind.sharpness, mind.error = seeded(seed), handicap.sharpness, handicap.error
-        mind.senses.delay, mind.senses.thrift = handicap.delay, handicap.thrift
-        if handicap.turns:
-            mind.senses.turns = handicap.turns
+        mind.senses.delay, mind.senses.thrift, mind.senses.turns = handicap.delay, handicap.thrift, handicap.turns
         mind.wait = 1 + int(uniform(mind) * PERIOD)
         mind.speed = handicap.speed * (1.0 - handicap.form * uniform(mind))
 

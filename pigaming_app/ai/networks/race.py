@@ -6,16 +6,16 @@ the course and across it, relative to the robot.
 """
 
 from math import cos, sin, sqrt
-from typing import Annotated, Any
+from typing import Annotated
 
-from pigaming_app.ai.networks.encoding import Encoding, nearest_robot, saturating, whole
+from pigaming_app.ai.networks.encoding import Encoding, Inputs, NetworkSenses, nearest_robot, saturating, whole
 from pigaming_app.games.race.course import CoursePosition, locate, segment_at
 from pigaming_app.games.race.observation import SIGHT, SLICKS, Feature, observe_features, observe_next_line
-from pigaming_app.games.race.state import OIL, SHIELD, TURBO
+from pigaming_app.games.race.state import OIL, SHIELD, TURBO, Race
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import ROBOTS, Robot
 
 GROUPS = (
     ("motion", 5),
@@ -45,12 +45,9 @@ NEAR = 400.0  # px, within which others are seen
 
 
 @record
-class RaceSenses:
+class RaceSenses(NetworkSenses):
     """Parameters of the observation, and scratch space."""
 
-    delay: float  # s, age of the poses of others
-    error: float  # rad by which others appear beside where they are
-    thrift: float  # as in PiTanks; there are no shots here
     aside: float  # px right of the middle of the course
     past: float  # px past the next line; negative: before it
     return_x: float  # waypoint on the way back before that line
@@ -62,7 +59,7 @@ class RaceSenses:
 
 
 @kernel
-def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
+def encode(match: Race, seat: int, senses: RaceSenses, inputs: Inputs) -> None:
     """Fill in the inputs of one seat."""
     for i in range(SIZE):
         inputs[i] = 0.0
@@ -83,7 +80,7 @@ def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
 
 
 @kernel
-def encode_self(match: Any, seat: int, inputs: Any) -> None:
+def encode_self(match: Race, seat: int, inputs: Inputs) -> None:
     """The own robot, its powers and the state of the race."""
     robot, racer, rules = match.robots[seat], match.racers[seat], match.rules
     inputs[MOTION] = whole(robot.linear / FASTEST)
@@ -107,7 +104,7 @@ def encode_self(match: Any, seat: int, inputs: Any) -> None:
 
 
 @kernel
-def encode_place(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+def encode_place(match: Race, seat: int, senses: RaceSenses, ahead_x: float, ahead_y: float, inputs: Inputs) -> None:
     """The place across the course, and the way back to a missed line or out of trouble."""
     robot, racer, place = match.robots[seat], match.racers[seat], senses.place
     senses.aside = place.aside
@@ -133,7 +130,7 @@ def encode_place(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: fl
 
 
 @kernel
-def encode_course(match: Any, robot: Any, along: float, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+def encode_course(match: Race, robot: Robot, along: float, ahead_x: float, ahead_y: float, inputs: Inputs) -> None:
     """Points of the fastest line ahead: where, direction, distance to the edges, and the speed of that line."""
     course = match.course
     n = COURSE
@@ -157,7 +154,7 @@ def encode_course(match: Any, robot: Any, along: float, ahead_x: float, ahead_y:
 
 
 @kernel
-def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+def encode_others(match: Race, seat: int, senses: RaceSenses, ahead_x: float, ahead_y: float, inputs: Inputs) -> None:
     """The other robots, the nearest first."""
     told = 0
     for place in range(ROBOTS - 1):
@@ -170,7 +167,7 @@ def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: f
 
 @kernel
 def encode_other(
-    match: Any, seat: int, j: int, senses: Any, ahead_x: float, ahead_y: float, k: int, inputs: Any
+    match: Race, seat: int, j: int, senses: RaceSenses, ahead_x: float, ahead_y: float, k: int, inputs: Inputs
 ) -> None:
     """Robot j, from input k on."""
     me, robot, racer = match.robots[seat], match.robots[j], match.racers[j]
@@ -191,7 +188,7 @@ def encode_other(
 
 
 @kernel
-def encode_feature(feature: Any, aside: float, k: int, inputs: Any) -> None:
+def encode_feature(feature: Feature, aside: float, k: int, inputs: Inputs) -> None:
     """Something on the course ahead, from input k on."""
     if feature.present:
         inputs[k] = whole(1.0)
@@ -200,7 +197,7 @@ def encode_feature(feature: Any, aside: float, k: int, inputs: Any) -> None:
 
 
 @kernel
-def act(match: Any, seat: int, choices: Any) -> None:
+def act(match: Race, seat: int, choices: list[int]) -> None:
     """Stick and buttons from the choices of the four heads. FIRE counts as it goes down, so it is never held."""
     fire = 1 if choices[2] and not match.racers[seat].fire_held else 0
     set_action(match.actions[seat], DRIVES[choices[0]], TURNS[choices[1]], fire, choices[3])

@@ -7,6 +7,7 @@ from typing import Any
 
 from pigaming_app.ai.brain.thoughts import Percept
 from pigaming_app.ai.networks.encoding import UNIT
+from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 Point = tuple[float, float]
@@ -31,7 +32,7 @@ class Subject:
     turned: Callable[[Any, int], bool] = lambda match, seat: False  # whether a seat's place is turned by half a circle
 
 
-def perceived(subject: Subject, match: Any, seat: int, inputs: Sequence[float]) -> Found:
+def perceived(subject: Subject, match: MatchState, seat: int, inputs: Sequence[float]) -> Found:
     """Topics and things in a network's inputs; positions in arena px."""
     known, robot = [value / UNIT for value in inputs], match.robots[seat]
     if subject.place is None:

@@ -9,13 +9,17 @@ it is largest. It is exact for this one decision, but blind to topics that repla
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from math import pi
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pigaming_app.ai.brain.thoughts import Thoughts, behaviour_of, blend, towards
 from pigaming_app.ai.networks.encoding import Encoding
 from pigaming_app.ai.networks.percepts import SUBJECTS
-from pigaming_app.ai.networks.policy import LOGIT
+from pigaming_app.ai.networks.policy import LOGIT, NetworkMind
 from pigaming_app.ai.networks.subject import Subject, perceived
+from pigaming_app.games.simple import MatchState
+
+if TYPE_CHECKING:
+    from pigaming_app.ai.networks.layers import Layers
 
 Explain = Callable[[Any, int, Any, Any], Thoughts]
 
@@ -30,7 +34,7 @@ def make_explain(encoding: Encoding) -> Explain:
     shoots = subject.fire == "shoot"  # elsewhere a press may be without effect
     names = [subject.fire if name == "fire" else name for name, _ in encoding.heads]
 
-    def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
+    def explain(match: MatchState, seat: int, mind: NetworkMind, weights: "Layers") -> Thoughts:
         if not any(mind.inputs):
             return Thoughts("starts")
         chances = probabilities(encoding, mind.logits, mind.sharpness)
@@ -77,7 +81,11 @@ def probabilities(encoding: Encoding, logits: Sequence[float], sharpness: float)
 
 
 def _shares(
-    encoding: Encoding, topics: Mapping[str, Sequence[range]], chances: list[list[float]], mind: Any, weights: Any
+    encoding: Encoding,
+    topics: Mapping[str, Sequence[range]],
+    chances: list[list[float]],
+    mind: NetworkMind,
+    weights: "Layers",
 ) -> dict[str, float]:
     """Dependence of the choices on each topic; topics whose inputs are 0 anyway are not computed."""
     shares, rows = dict.fromkeys(topics, 0.0), {}

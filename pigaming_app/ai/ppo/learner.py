@@ -73,7 +73,7 @@ class Network:
         self.squares = [np.zeros_like(matrix) for matrix in self.weights]
         self.steps = 0
 
-    def forward(self, x: Any) -> tuple[Any, Trail]:
+    def forward(self, x: np.ndarray) -> tuple[Any, Trail]:
         """The outputs (outputs, n) for inputs (n, inputs + 1), whose last column is 1; and a trail for `gradient`.
 
         Activations lie in rows (units + 1, n), whose last is 1 for the biases.
@@ -94,7 +94,7 @@ class Network:
             x = y
         return self.weights[-1].T @ x, [*trail, (x, None)]
 
-    def gradient(self, slopes: Any, trail: Trail) -> list[Any]:
+    def gradient(self, slopes: np.ndarray, trail: Trail) -> list[Any]:
         """The gradient of a loss by the weights, from its derivative by the outputs; overwrites both arguments."""
         gradients: list[Any] = []
         for matrix, (x, bend) in zip(reversed(self.weights), reversed(trail), strict=True):
@@ -132,7 +132,9 @@ def _orthogonal(inputs: int, outputs: int, gain: float, random: np.random.Genera
     return np.vstack([matrix, np.zeros((1, outputs))]).astype(F)
 
 
-def advantages(rewards: Any, values: Any, valid: Any, over: Any, discount: float, trace: float) -> Any:
+def advantages(
+    rewards: np.ndarray, values: np.ndarray, valid: np.ndarray, over: np.ndarray, discount: float, trace: float
+) -> Any:
     """Generalised advantages (T, S) of `rewards` (T, S); `values` (T + 1, S).
 
     A match that is `over` (S,) has no value after its last valid decision.
@@ -149,7 +151,13 @@ def advantages(rewards: Any, values: Any, valid: Any, over: Any, discount: float
 
 
 def policy_slopes(
-    logits: Any, counts: Sequence[int], choices: Any, before: Any, gains: Any, clip: float, entropy: float
+    logits: np.ndarray,
+    counts: Sequence[int],
+    choices: np.ndarray,
+    before: np.ndarray,
+    gains: np.ndarray,
+    clip: float,
+    entropy: float,
 ) -> tuple[Any, float]:
     """Derivative of the clipped objective less the entropy's share by the logits (outputs, n), and mean entropy.
 
@@ -223,7 +231,7 @@ class Learner:
                 self.policy.descend(self.policy.gradient(slopes, trail), hyper.rate_at(share), hyper.steepest)
         return found
 
-    def _estimate(self, inputs: Any, returns: Any, orders: list[Any], share: float) -> None:
+    def _estimate(self, inputs: np.ndarray, returns: np.ndarray, orders: list[Any], share: float) -> None:
         """Improve the value function."""
         for order in orders:
             for first in range(0, len(order), self.hyper.minibatch):

@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.networks.encoding import UNIT
+from pigaming_app.ai.networks.encoding import UNIT, Inputs
 from pigaming_app.ai.networks.pitanks import ENCODING, GUN, HABITS, OTHER, OTHERS, WAY
 from pigaming_app.ai.ppo.learner import Hyper
 from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, OFF, POOL, LineUp, Task
 from pigaming_app.games.pitanks.scoring import lead
+from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.kernel import kernel
 
 POINTS, TAKEN, SHOTS, POTENTIAL = range(4)  # gauges
@@ -33,7 +34,7 @@ WALLED = ("labyrinth", "trenches")  # arenas in which somebody who waits must be
 
 
 @kernel
-def gauge(match: Any, seat: int, inputs: Any, gauges: Any) -> None:
+def gauge(match: PiTanks, seat: int, inputs: Inputs, gauges: list[float]) -> None:
     """Points made, hits taken, shots, and how well the first of the others can be fought."""
     tank = match.tanks[seat]
     gauges[POINTS] = match.robots[seat].score + match.rules.penalty * tank.taken
@@ -45,13 +46,13 @@ def gauge(match: Any, seat: int, inputs: Any, gauges: Any) -> None:
 
 
 @kernel
-def result(match: Any, seat: int) -> float:
+def result(match: PiTanks, seat: int) -> float:
     """Reward of the end of a match."""
     ahead = lead(match, seat)
     return WIN if ahead > 0 else -WIN if ahead < 0 else -0.5 * WIN
 
 
-def reward(gains: Any, inputs: Any, choices: Any, share: float) -> Any:
+def reward(gains: np.ndarray, inputs: np.ndarray, choices: np.ndarray, share: float) -> Any:
     """Rewards (T, S) of the decisions."""
     care = min(FULL_CARE, CARE + (FULL_CARE - CARE) * share / 0.5)
     shaping = SHAPING + (SHAPED - SHAPING) * share
@@ -72,7 +73,7 @@ def reward(gains: Any, inputs: Any, choices: Any, share: float) -> Any:
     ).astype(np.float32)
 
 
-def habits(random: Any) -> dict[str, float]:
+def habits(random: np.random.Generator) -> dict[str, float]:
     """How sparing of shots a network is in a match, and how late it sees others."""
     thrift = random.random() * MOST_THRIFT if random.random() < THRIFTY else 0.0
     delay = random.random() * LATEST if random.random() < LATE else 0.0

@@ -8,9 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from pigaming_app.ai.networks.encoding import Inputs
 from pigaming_app.ai.networks.race import ENCODING
 from pigaming_app.ai.ppo.learner import Hyper
 from pigaming_app.ai.ppo.task import LEARNER, OFF, POOL, LineUp, Task
+from pigaming_app.games.race.state import Race
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.world import ROBOTS
 
@@ -22,7 +24,7 @@ FINISH, WIN = 0.1, 0.5  # reward for each place up to the last at the finish, an
 
 
 @kernel
-def gauge(match: Any, seat: int, inputs: Any, gauges: Any) -> None:
+def gauge(match: Race, seat: int, inputs: Inputs, gauges: list[float]) -> None:
     """Progress, lead over the best of the others, and, once at the finish, the worth of the place."""
     racer, best, others = match.racers[seat], 0.0, 0
     for j in range(ROBOTS):
@@ -37,12 +39,12 @@ def gauge(match: Any, seat: int, inputs: Any, gauges: Any) -> None:
 
 
 @kernel
-def result(match: Any, seat: int) -> float:
+def result(match: Race, seat: int) -> float:
     """No reward at the end of a match: places count at the finish."""
     return 0.0
 
 
-def reward(gains: Any, inputs: Any, choices: Any, share: float) -> Any:
+def reward(gains: np.ndarray, inputs: np.ndarray, choices: np.ndarray, share: float) -> Any:
     """Rewards (T, S) of the decisions."""
     ahead = np.clip(gains[..., :PLACE], -LONGEST, LONGEST) / np.float32(STRIDE)
     return (ahead[..., PROGRESS] + LEADING * ahead[..., LEAD] + np.maximum(gains[..., PLACE], 0.0)).astype(np.float32)

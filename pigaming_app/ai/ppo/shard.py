@@ -36,14 +36,16 @@ MINDS = 8  # prepared minds of every brain
 class Experience(NamedTuple):
     """What a shard has played: T decisions in S streams. A stream is a seat with a learner."""
 
-    inputs: Any  # (T + 1, S, inputs + 1) float32; the last row is the situation after the last decision; see Network
-    choices: Any  # (T, S, heads) int64
-    log_odds: Any  # (T, S) float32, logarithm of the probability of the choices
-    gauges: Any  # (T + 1, S, gauges) float32
-    valid: Any  # (T, S) bool; False after the end of a match
-    over: Any  # (S,) bool; the match has ended
-    results: Any  # (S,) float32, reward of its end
-    players: Any  # (S,) int64, the learner: its place in `Task.learners`
+    inputs: (
+        np.ndarray
+    )  # (T + 1, S, inputs + 1) float32; the last row is the situation after the last decision; see Network
+    choices: np.ndarray  # (T, S, heads) int64
+    log_odds: np.ndarray  # (T, S) float32, logarithm of the probability of the choices
+    gauges: np.ndarray  # (T + 1, S, gauges) float32
+    valid: np.ndarray  # (T, S) bool; False after the end of a match
+    over: np.ndarray  # (S,) bool; the match has ended
+    results: np.ndarray  # (S,) float32, reward of its end
+    players: np.ndarray  # (S,) int64, the learner: its place in `Task.learners`
 
 
 class ShardState(NamedTuple):
@@ -68,21 +70,21 @@ def make_collect(task: Task, think: Callable[..., None], field: str) -> Callable
     last_layer = make_layer(HIDDEN, outputs)
 
     def collect(
-        matches: Any,
-        minds: Any,
-        weights: Any,
-        streams: Any,
-        first_matrices: Any,
-        second_matrices: Any,
-        last_matrices: Any,
-        inputs: Any,
-        choices: Any,
-        log_odds: Any,
-        gauges: Any,
-        valid: Any,
-        over: Any,
-        results: Any,
-        players: Any,
+        matches: np.ndarray,
+        minds: np.ndarray,
+        weights: np.ndarray,
+        streams: np.ndarray,
+        first_matrices: np.ndarray,
+        second_matrices: np.ndarray,
+        last_matrices: np.ndarray,
+        inputs: np.ndarray,
+        choices: np.ndarray,
+        log_odds: np.ndarray,
+        gauges: np.ndarray,
+        valid: np.ndarray,
+        over: np.ndarray,
+        results: np.ndarray,
+        players: np.ndarray,
     ) -> None:
         one, two, logits = np.zeros(HIDDEN, np.float32), np.zeros(HIDDEN, np.float32), np.zeros(outputs, np.float32)
         decisions = len(choices)
@@ -205,7 +207,7 @@ class Shard:
         self._count_streams()
         return experience
 
-    def _check_length(self, ended: Any, ticks: int) -> None:
+    def _check_length(self, ended: np.ndarray, ticks: int) -> None:
         """Count the ticks of matches that go on. Raises GameFault for a plug-in's match that does not end."""
         self._played = np.where(ended, 0, self._played + ticks)
         variants, game = games()[self.task.game].variants, self.task.game

@@ -5,13 +5,12 @@ centred straight ahead, numbers increase clockwise, and NONE marks an absent obj
 """
 
 from math import atan2, sqrt, tau
-from typing import Any
 
-from pigaming_app.games.pitanks.state import OWN_BULLETS
+from pigaming_app.games.pitanks.state import OWN_BULLETS, PiTanks
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.sweep import offset_from_wall
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import ROBOTS, Robot
 
 SECTORS = 16
 NONE = 16  # no wall left standing, or no incoming bullet
@@ -51,7 +50,7 @@ def sector(dx: float, dy: float, heading: float) -> int:
 
 
 @kernel
-def nearest_opponent(match: Any, seat: int) -> int:
+def nearest_opponent(match: PiTanks, seat: int) -> int:
     """Seat of the nearest robot of another team, which the learner treats as its only opponent; -1 if none."""
     robot = match.robots[seat]
     best, least = -1, 1e18
@@ -66,7 +65,7 @@ def nearest_opponent(match: Any, seat: int) -> int:
 
 
 @kernel
-def situation(match: Any, seat: int, opponent: int, incoming: int) -> int:
+def situation(match: PiTanks, seat: int, opponent: int, incoming: int) -> int:
     """State of the robot on `seat` with regard to the seat `opponent`.
 
     `incoming`: 1: only approaching bullets count; 0: all bullets of other teams.
@@ -77,7 +76,7 @@ def situation(match: Any, seat: int, opponent: int, incoming: int) -> int:
 
 
 @kernel
-def wall_sector(match: Any, robot: Any) -> int:
+def wall_sector(match: PiTanks, robot: Robot) -> int:
     """Sector of the closest point of any standing inner wall, or NONE."""
     closest, least = NONE, 1e18
     for i in range(match.wall_count):
@@ -92,7 +91,7 @@ def wall_sector(match: Any, robot: Any) -> int:
 
 
 @kernel
-def bullet_sector(match: Any, robot: Any, incoming: int) -> int:
+def bullet_sector(match: PiTanks, robot: Robot, incoming: int) -> int:
     """Sector of the closest bullet of another team, or NONE.
 
     `incoming`: 1: only approaching ones, whose offset times velocity (dot product) is below 0.

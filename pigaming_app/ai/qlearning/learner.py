@@ -6,15 +6,17 @@ temperature.
 """
 
 from math import exp
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 from pigaming_app.ai.brain.unstick import Reflex
 from pigaming_app.ai.qlearning.features import STATES, nearest_opponent, situation
 from pigaming_app.ai.qlearning.rewards import RecipeRecord, action_reward, transition_reward
+from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import uniform
+from pigaming_app.sim.rng import Rng, uniform
+from pigaming_app.sim.world import Action
 
 ACTIONS = 18
 PAIRS = STATES * ACTIONS  # of state and action
@@ -58,7 +60,7 @@ class LearnerMind:
 
 
 @kernel
-def learn(match: Any, seat: int, mind: Any, table: Any) -> None:
+def learn(match: PiTanks, seat: int, mind: LearnerMind, table: QTable) -> None:
     """One tick of a learner: at every decision update the table for the last one, then draw the next move."""
     knobs = table.knobs
     if match.tick % knobs.period:
@@ -74,7 +76,7 @@ def learn(match: Any, seat: int, mind: Any, table: Any) -> None:
 
 
 @kernel
-def learn_last(match: Any, seat: int, mind: Any, table: Any) -> None:
+def learn_last(match: PiTanks, seat: int, mind: LearnerMind, table: QTable) -> None:
     """Update the table at the end of a match: a truncation, so the last decision bootstraps like any other."""
     if mind.begun and table.knobs.last:
         update(table, mind, situation(match, seat, nearest_opponent(match, seat), table.knobs.incoming))
@@ -82,7 +84,7 @@ def learn_last(match: Any, seat: int, mind: Any, table: Any) -> None:
 
 
 @kernel
-def update(table: Any, mind: Any, here: int) -> None:
+def update(table: QTable, mind: LearnerMind, here: int) -> None:
     """One update: Q(x, a) += (r + gamma max Q(y, b) - Q(x, a)) / n(x, a), with y the state `here`."""
     knobs, pair = table.knobs, mind.state * ACTIONS + mind.move
     if table.n[pair] == 0:
@@ -97,7 +99,7 @@ def update(table: Any, mind: Any, here: int) -> None:
 
 
 @kernel
-def is_unvisited(table: Any, state: int) -> int:
+def is_unvisited(table: QTable, state: int) -> int:
     """1 if no action was ever tried in the state."""
     for k in range(state * ACTIONS, (state + 1) * ACTIONS):
         if table.n[k]:
@@ -106,7 +108,7 @@ def is_unvisited(table: Any, state: int) -> int:
 
 
 @kernel
-def max_value(table: Any, state: int) -> float:
+def max_value(table: QTable, state: int) -> float:
     """Highest Q of a state."""
     highest: float = table.q[state * ACTIONS]
     for k in range(state * ACTIONS + 1, (state + 1) * ACTIONS):
@@ -116,7 +118,7 @@ def max_value(table: Any, state: int) -> float:
 
 
 @kernel
-def temperature(table: Any) -> float:
+def temperature(table: QTable) -> float:
     """Present temperature: falls from `hot` to `cold` linearly (`ramp`) or in one step at `ceiling` experiences."""
     knobs = table.knobs
     share = table.experiences / knobs.ceiling if knobs.ramp else 0.0
@@ -128,7 +130,7 @@ def temperature(table: Any) -> float:
 
 
 @kernel
-def sample_move(table: Any, state: int, heat: float, owner: Any) -> int:
+def sample_move(table: QTable, state: int, heat: float, owner: Rng) -> int:
     """Draw a move with probability proportional to exp((Q - max Q) / T), T = `heat`, by the generator of `owner`."""
     first = state * ACTIONS
     highest = max_value(table, state)
@@ -144,12 +146,12 @@ def sample_move(table: Any, state: int, heat: float, owner: Any) -> int:
 
 
 @kernel
-def apply_move(action: Any, move: int) -> None:
+def apply_move(action: Action, move: int) -> None:
     """Set stick and fire button to one of the 18 moves."""
     set_action(action, float(move // 6 - 1), float(move // 2 % 3 - 1), move % 2, 0)
 
 
-def move_probabilities(table: Any, state: int, heat: float) -> list[float]:
+def move_probabilities(table: QTable, state: int, heat: float) -> list[float]:
     """Probabilities of the 18 moves in a state at temperature `heat`; `table` is a plain or NumPy record."""
     values = [float(q) for q in table.q[state * ACTIONS : (state + 1) * ACTIONS]]
     highest = max(values)

@@ -8,13 +8,14 @@ from pigaming_app.ai.brain.unstick import act_on_reflex
 from pigaming_app.ai.qlearning.features import nearest_opponent, situation
 from pigaming_app.ai.qlearning.learner import LearnerMind, QTable, apply_move, sample_move
 from pigaming_app.ai.qlearning.thoughts import explain
+from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import packed, unpack
 from pigaming_app.sim.rng import seeded
 
 
 @kernel
-def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
+def think(match: PiTanks, seat: int, mind: LearnerMind, weights: QTable) -> None:
     """At every decision draw a move at the final temperature, unless the reflex overrides it."""
     if match.tick % weights.knobs.period:
         return
@@ -25,12 +26,12 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
         apply_move(match.actions[seat], mind.move)
 
 
-def reset(mind: Any, seed: int) -> None:
+def reset(mind: LearnerMind, seed: int) -> None:
     """Initialise a mind that follows the table alone."""
     mind.random = seeded(seed)
 
 
-def reset_with_reflex(mind: Any, seed: int) -> None:
+def reset_with_reflex(mind: LearnerMind, seed: int) -> None:
     """Initialise a mind whose reflex frees the robot when it is stuck."""
     reset(mind, seed)
     mind.reflex.on = 1
@@ -39,7 +40,7 @@ def reset_with_reflex(mind: Any, seed: int) -> None:
 class Learned:
     """A trained table as the `weights` of a brain. The NumPy or plain copy is made on first use and cached."""
 
-    def __init__(self, table: Any) -> None:
+    def __init__(self, table: QTable) -> None:
         """`table`: a plain record, or a row of one NumPy record."""
         plain = isinstance(table, QTable)
         self.bodies: dict[bool, Any] = {not plain: [table] if plain else table}

@@ -5,10 +5,9 @@ of a trained robot: probabilities proportional to exp(Q / T) at the final temper
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 from pigaming_app.ai.qlearning.features import PLACES
-from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES
+from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, QTable
 
 STATES = PLACES * PLACES  # states per direction
 CLEAR = 0.05  # excess over a uniform policy that counts as a preference
@@ -50,7 +49,7 @@ def action_name(linear: float, angular: float, fire: int) -> str:
 ACTION_NAMES = tuple(action_name(move.linear, move.angular, move.fire) for move in MOVES)
 
 
-def direction(table: Any, sector: int, cold: float) -> Direction:
+def direction(table: QTable, sector: int, cold: float) -> Direction:
     """Summary of a table (plain or NumPy record) for the opponent in `sector`, 0..15; `cold`: final temperature."""
     import numpy as np
 

@@ -13,13 +13,14 @@ docs/thesis.md has the results of both readings.
 """
 
 from dataclasses import dataclass, fields, replace
-from typing import Any
 
 from pigaming_app.ai.qlearning.features import SECTORS, opponent_of, wall_of
+from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.toml_table import quote
+from pigaming_app.sim.world import Action
 
 CREEP = 10.0  # px/s; a slower robot counts as standing
 
@@ -91,7 +92,7 @@ RECIPES = {1: Recipe(), 2: replace(Recipe(), behind_always=1, still=-10.0)}
 
 
 @kernel
-def action_reward(match: Any, seat: int, opponent: int, state: int, action: Any, knobs: Any) -> float:
+def action_reward(match: PiTanks, seat: int, opponent: int, state: int, action: Action, knobs: RecipeRecord) -> float:
     """Immediate reward for choosing `action` in `state`, points."""
     reward = 0.0
     if action.fire and not (knobs.loaded and match.tanks[seat].cooldown):
@@ -109,7 +110,7 @@ def action_reward(match: Any, seat: int, opponent: int, state: int, action: Any,
 
 
 @kernel
-def transition_reward(before: int, after: int, knobs: Any) -> float:
+def transition_reward(before: int, after: int, knobs: RecipeRecord) -> float:
     """Reward for the transition from one decision's state to the next one's, points."""
     begun = exposed(before, knobs) if knobs.exposure else opponent_behind(before, knobs)
     reward: float = knobs.behind if exposed(after, knobs) and (knobs.behind_always or not begun) else 0.0
@@ -117,12 +118,12 @@ def transition_reward(before: int, after: int, knobs: Any) -> float:
 
 
 @kernel
-def exposed(state: int, knobs: Any) -> int:
+def exposed(state: int, knobs: RecipeRecord) -> int:
     """1 if the opponent is behind and the closest wall is in another direction."""
     return 1 if opponent_behind(state, knobs) and wall_of(state) != opponent_of(state) else 0
 
 
 @kernel
-def opponent_behind(state: int, knobs: Any) -> int:
+def opponent_behind(state: int, knobs: RecipeRecord) -> int:
     """1 if the direction of the opponent counts as behind."""
     return 1 if knobs.behind_from <= opponent_of(state) <= knobs.behind_to else 0

@@ -5,7 +5,6 @@ Each petal of the rose is the value of the state with the opponent in that direc
 
 from collections.abc import Iterator
 from math import copysign, cos, sin, sqrt
-from typing import Any
 
 from pigaming_app.ai.brain.thoughts import BULLET, OPPONENT, WALL, MoveKey, Percept, Thoughts, behaviour_of
 from pigaming_app.ai.qlearning.features import (
@@ -18,12 +17,13 @@ from pigaming_app.ai.qlearning.features import (
     state,
     wall_of,
 )
-from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, max_value, move_probabilities
+from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, LearnerMind, QTable, max_value, move_probabilities
+from pigaming_app.games.pitanks.state import PiTanks
 
 SIGHT = 190.0  # px at which walls and bullets are marked, as features hold directions without distances
 
 
-def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
+def explain(match: PiTanks, seat: int, mind: LearnerMind, weights: QTable) -> Thoughts:
     """Thoughts of the player with a table on `seat`."""
     opponent = nearest_opponent(match, seat)
     if match.tick == 0 or opponent < 0:
@@ -62,7 +62,7 @@ def _scaled(values: list[float]) -> list[float]:
     return [copysign(sqrt(abs(value) / largest), value) if largest else 0.0 for value in values]
 
 
-def _percepts(match: Any, seat: int, opponent: int, here: int) -> Iterator[Percept]:
+def _percepts(match: PiTanks, seat: int, opponent: int, here: int) -> Iterator[Percept]:
     """The opponent, and the directions of the wall and the bullet."""
     robot, other = match.robots[seat], match.robots[opponent]
     yield Percept(OPPONENT, other.x, other.y)

@@ -5,7 +5,7 @@ px, forward positive. Positions of others are extrapolated back by `delay` secon
 """
 
 from math import atan2, cos, sin, sqrt
-from typing import Annotated
+from typing import Annotated, Protocol
 
 from pigaming_app.games.race.course import Course, CoursePosition, distance_ahead, locate, point_at, segment_at
 from pigaming_app.games.race.laps import stretch
@@ -116,6 +116,18 @@ class Observation:
     box: Feature  # the nearest that is there; of two side by side the one less far to the side
 
 
+class RoadView(Protocol):
+    """The part of an Observation that is about the next line and the features of the course."""
+
+    aside: float
+    past: float
+    return_x: float
+    return_y: float
+    oils: list[Feature]
+    pad: Feature
+    box: Feature
+
+
 @kernel
 def observe(match: Race, seat: int, senses: Senses, obs: Observation) -> None:
     """Fill in the observation of one seat."""
@@ -201,7 +213,7 @@ def observe_passage(match: Race, last: int, mark: TrackPoint) -> None:
 
 
 @kernel
-def observe_next_line(match: Race, seat: int, along: float, obs: Observation) -> None:
+def observe_next_line(match: Race, seat: int, along: float, obs: RoadView) -> None:
     """Fill in the distance past the robot's next line, and the waypoint back to it."""
     racer, course = match.racers[seat], match.course
     here, gap = stretch(match, racer)
@@ -238,7 +250,7 @@ def observe_other(match: Race, robot: Robot, j: int, along: float, senses: Sense
 
 
 @kernel
-def observe_features(match: Race, along: float, place: CoursePosition, obs: Observation) -> None:
+def observe_features(match: Race, along: float, place: CoursePosition, obs: RoadView) -> None:
     """Fill in oil, boost pad and item box ahead."""
     course, aside = match.course, obs.aside
     obs.pad.present, obs.box.present = 0, 0

@@ -24,6 +24,7 @@ from pigaming_app.ai.networks.onnx.process import NO_MODEL, TOO_LONG, ModelFails
 from pigaming_app.ai.networks.policy import network_brain
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.networks.thoughts import make_explain
+from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.action import set_action
 
 MAX_BYTES = 20_000_000
@@ -108,7 +109,7 @@ def read_model(path: Path, game: str) -> BrainKind:
 def _idling(think: Callable[[Any, int, Any, Any], None]) -> Callable[[Any, int, Any, Any], None]:
     """A decision function that leaves the seat idle once the model has failed."""
 
-    def think_or_idle(match: Any, seat: int, mind: Any, weights: Any) -> None:
+    def think_or_idle(match: MatchState, seat: int, mind: Any, weights: Any) -> None:
         if not weights.idle:
             think(match, seat, mind, weights)
         if weights.idle:

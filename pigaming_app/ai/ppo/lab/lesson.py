@@ -107,7 +107,7 @@ class Situations:
     def __init__(self) -> None:
         self.known = [np.zeros((0, ENCODING.size + 1), np.float32) for _ in range(SECTORS)]
 
-    def add(self, inputs: Any) -> None:
+    def add(self, inputs: np.ndarray) -> None:
         """Add situations (n, inputs + 1); the last input is 1."""
         angles = np.arctan2(inputs[:, OTHERS + 5], inputs[:, OTHERS + 4])
         sectors = np.rint(angles * (SECTORS / (2.0 * np.pi))).astype(int) % SECTORS
@@ -131,14 +131,14 @@ class Situations:
         return [slice(end - len(known), end) for end, known in zip(ends, self.known, strict=True)]
 
 
-def probabilities(logits: Any) -> Any:
+def probabilities(logits: np.ndarray) -> Any:
     """Probabilities of the choices of all heads (n, outputs), from their logits."""
     parts = np.split(logits, np.cumsum([choices for _, choices in ENCODING.heads])[:-1], axis=1)
     powers = [np.exp(part - part.max(axis=1, keepdims=True)) for part in parts]
     return np.hstack([power / power.sum(axis=1, keepdims=True) for power in powers])
 
 
-def action_of(chances: Any, inputs: Any) -> str:
+def action_of(chances: np.ndarray, inputs: np.ndarray) -> str:
     """The action that exceeds random play most, from probabilities (n, outputs) in situations (n, inputs)."""
     drive, turn, fire = chances[:, :3], chances[:, 3:10], chances[:, 10:12]
     loaded = inputs[:, GUN] < RELOADED

@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.networks.encoding import UNIT
+from pigaming_app.ai.networks.encoding import UNIT, Inputs
 from pigaming_app.ai.networks.pitanks import ENCODING, GUN, OTHERS, WAY
 from pigaming_app.ai.ppo.learner import Hyper
 from pigaming_app.ai.ppo.pitanks import duel, result
 from pigaming_app.ai.ppo.task import LEARNER, Task
+from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.kernel import kernel
 
 ARENA, VARIANT, MINUTES, RIVAL = "classic", "classic", 2.0, "hand3"
@@ -40,7 +41,7 @@ class NetworkRecipe:
 
 
 @kernel
-def gauge(match: Any, seat: int, inputs: Any, gauges: Any) -> None:
+def gauge(match: PiTanks, seat: int, inputs: Inputs, gauges: list[float]) -> None:
     """Points made, hits taken, and how well the opponent can be fought."""
     tank = match.tanks[seat]
     gauges[POINTS], gauges[TAKEN] = match.robots[seat].score + match.rules.penalty * tank.taken, tank.taken
@@ -51,7 +52,7 @@ def gauge(match: Any, seat: int, inputs: Any, gauges: Any) -> None:
 def reward_of(recipe: NetworkRecipe) -> Callable[[Any, Any, Any, float], Any]:
     """The reward of a task."""
 
-    def reward(gains: Any, inputs: Any, choices: Any, share: float) -> Any:
+    def reward(gains: np.ndarray, inputs: np.ndarray, choices: np.ndarray, share: float) -> Any:
         fired = (choices[..., 2] == 1) & (inputs[..., GUN] < RELOADED)
         return (
             HIT * recipe.hit * gains[..., POINTS]
@@ -65,7 +66,7 @@ def reward_of(recipe: NetworkRecipe) -> Callable[[Any, Any, Any, float], Any]:
     return reward
 
 
-def no_habits(random: Any) -> dict[str, float]:
+def no_habits(random: np.random.Generator) -> dict[str, float]:
     """Shots cost nothing, and others are seen without delay."""
     return {"thrift": 0.0, "delay": 0.0}
 
