@@ -44,7 +44,7 @@ ONLY_IN = {
     "pettingzoo": {"gym"},
     "torch": set(),
 }
-DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "networkx", "numba", "llvmlite"}
+DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "msgspec", "networkx", "numba", "llvmlite"}
 DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk", "ray", "PIL"}
 DEPENDENCIES |= {"aiohttp", "segno", "ifaddr"}
 ROS = {"rospy", "rosgraph", "geometry_msgs", "sensor_msgs", "std_msgs"}  # of the system, in one module

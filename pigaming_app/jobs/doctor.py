@@ -24,7 +24,6 @@ from pigaming_app.jobs.terminal.refusal import remedy
 from pigaming_app.links import DOWNLOAD
 from pigaming_app.storage.parsing import one_line, parse_json
 from pigaming_app.storage.restarts import restarts
-from pigaming_app.storage.scores import migrations
 from pigaming_app.storage.settings import Folders, NoHome, folders
 
 MIN_FREE = 200_000_000  # bytes of free disk space, below which the report has a note
@@ -138,7 +137,6 @@ def _files() -> Iterator[Line]:
         return
     yield from _folders(where)
     yield from _restarts(where.data)
-    yield from _older_scores(where.data)
 
 
 def _folders(where: Folders) -> Iterator[Line]:
@@ -176,19 +174,6 @@ def _restarts(data: Path) -> Iterator[Line]:
             f"{len(found)}, the last one at {one_line(last.time, 40)} ({one_line(f'{last.reason}: {last.detail}', 80)})"
         )
         yield Line("kiosk restarts", "note", text, f"the reports in {data / 'crashes'} give the reasons")
-
-
-def _older_scores(data: Path) -> Iterator[Line]:
-    """Scores carried over from version 1.3.0: when, how many, and their backup."""
-    done, waits = migrations(data)
-    for migration in done:
-        games = ", ".join(f"{one_line(game, 20)} {rows}" for game, rows in migration.rows.items()) or "none"
-        day, backup = f"{migration.when:%Y-%m-%d %H:%M}", data / migration.backup
-        found = f"rows of version 1.3.0 carried over on {day}: {games}; shown as older, backup {backup}"
-        lost = "" if backup.is_file() else f"the backup has gone: keep a copy of {data / migration.file}"
-        yield Line("older scores", "note" if lost else "ok", found, lost)
-    if waits:
-        yield Line("older scores", "note", "those of version 1.3.0 wait to be carried over", "start the arcade once")
 
 
 def _nearest(folder: Path) -> Path:

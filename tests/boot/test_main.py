@@ -120,7 +120,7 @@ def test_a_second_start_goes_straight_into_the_environment(furnished):
     again = started(furnished, "play", "--seed", "3")
     assert again.stdout == f"{furnished / '.venv'} play --seed 3\n"
     assert again.stderr == ""
-    assert calls(furnished) == [{"pygame-ce", "numpy", "platformdirs", "tomli-w", "networkx"}]
+    assert calls(furnished) == [{"pygame-ce", "numpy", "platformdirs", "tomli-w", "msgspec", "networkx"}]
 
 
 def test_the_exit_code_is_that_of_the_job(furnished):
@@ -136,7 +136,14 @@ def test_a_clone_that_was_moved_starts_all_the_same(furnished):
 
 def test_a_python_that_has_every_package_is_used_as_it_is(clone, tmp_path):
     packages = tmp_path / "site-packages"
-    for name in ("pygame_ce-2.5.9", "numpy-2.3.1", "platformdirs-4.3.0", "tomli_w-1.2.0", "networkx-3.6"):
+    for name in (
+        "pygame_ce-2.5.9",
+        "numpy-2.3.1",
+        "platformdirs-4.3.0",
+        "tomli_w-1.2.0",
+        "msgspec-0.20.0",
+        "networkx-3.6",
+    ):
         (packages / f"{name}.dist-info").mkdir(parents=True)
     assert started(clone, PYTHONPATH=str(packages)).stdout == f"{Path(BARE).resolve().parent.parent}\n"
     assert not (clone / ".venv").exists()
@@ -150,6 +157,7 @@ def test_a_python_with_both_pygames_is_not_used(furnished, tmp_path):
         "numpy-2.3.1",
         "platformdirs-4.3.0",
         "tomli_w-1.2.0",
+        "msgspec-0.20.0",
         "networkx-3.6",
     ):
         (packages / f"{name}.dist-info").mkdir(parents=True)

@@ -9,12 +9,11 @@ import pytest
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.events import climb_files, ladder
 from pigaming_app.events.climb_files import FILE, KEPT, MOST
-from pigaming_app.events.ladder import ALL, LEVELS, Climb, climbed_games, stars_and_losses, table_of, worth
+from pigaming_app.events.ladder import ALL, LEVELS, Climb, climbed_games, stars_and_losses, worth
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import ALLIES, LadderMatches, Outcome, Row, Variant, named
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import check_teams
-from pigaming_app.storage.scores import Scores
 
 
 def ended(own: int, other: int, totals: tuple[float, float] = (60.0, 60.0)) -> Outcome:
@@ -105,28 +104,6 @@ def test_an_added_game_that_only_asks_for_a_ladder_has_one(monkeypatch):
     assert "football" in climbed_games()
     added = replace(added, ladder=None)
     assert "football" not in climbed_games()
-
-
-def test_a_climb_and_a_result_of_version_1_12_are_still_read(tmp_path):
-    """As that version wrote them: the game was one of three."""
-    when = datetime.now().astimezone().replace(microsecond=0).isoformat()
-    (tmp_path / FILE).write_text(
-        f'format = 1\n\n[[climb]]\nnumber = 1\nwhen = {when}\ngame = "all"\nrung = 5\neased = [3]\nwins = 1\n'
-        "losses = 1\nclear = 0\nbeaten = 3\nlost = 7\n",
-        encoding="utf-8",
-    )
-    ((saved,), problems) = climb_files.saved_climbs(tmp_path)
-    assert (saved.climb, problems) == (Climb(ALL, 5, (3,), 1, 1, 0, 3, 7), [])
-    assert saved.climb.after(WON).at_top
-    (tmp_path / "scores2.toml").write_text(
-        'format = 2\nresets = 0\nmigrated = []\n\n[[table]]\ngame = "ladder"\narena = "all"\nfeat = "climb"\n'
-        'timed = false\nrules = "party"\nlength = 0\npeople = 1\nside = 0\nrows = [\n'
-        '    { initials = "ANA", score = 3993, when = 2026-11-20T10:00:00+00:00 },\n]\n',
-        encoding="utf-8",
-    )
-    scores, problems = Scores.load(tmp_path)
-    (best,) = scores.best(table_of(ALL))
-    assert (best.initials, stars_and_losses(best.score), problems) == ("ANA", (4, 7), [])
 
 
 @pytest.mark.parametrize("game", climbed_games())

@@ -13,7 +13,6 @@ from pigaming_app.boot.interpreter import StartError
 from pigaming_app.jobs import doctor
 from pigaming_app.jobs.cli import main
 from pigaming_app.storage.restarts import Restart, append_restart
-from pigaming_app.storage.scores import Scores
 
 WELL = [
     ["pygame", "pygame-ce 2.5.8", ""],
@@ -91,7 +90,14 @@ def test_a_pygame_that_cannot_be_imported_is_a_problem(monkeypatch, capsys):
 
 
 def test_both_pygames_are_a_problem(monkeypatch):
-    there = {"pygame": "2.6.1", "pygame-ce": "2.5.8", "numpy": "2.3.0", "platformdirs": "4.3", "tomli-w": "1.2"}
+    there = {
+        "pygame": "2.6.1",
+        "pygame-ce": "2.5.8",
+        "numpy": "2.3.0",
+        "platformdirs": "4.3",
+        "tomli-w": "1.2",
+        "msgspec": "0.20",
+    }
     monkeypatch.setattr(doctor, "packages", lambda _: there)
     states = [(one.what, one.state) for one in doctor.report()]
     assert ("pygame", "problem") in states
@@ -99,7 +105,9 @@ def test_both_pygames_are_a_problem(monkeypatch):
 
 
 def test_a_package_that_is_too_old_is_a_problem(monkeypatch):
-    monkeypatch.setattr(doctor, "packages", lambda _: {"pygame-ce": "2.5.8", "platformdirs": "4.3", "tomli-w": "1.2"})
+    monkeypatch.setattr(
+        doctor, "packages", lambda _: {"pygame-ce": "2.5.8", "platformdirs": "4.3", "tomli-w": "1.2", "msgspec": "0.20"}
+    )
     assert line("numpy").state == "problem"
     monkeypatch.setattr(doctor, "packages", lambda _: {"numpy": "1.26"})
     assert line("numpy").found.startswith("1.26, but numpy>=")
@@ -152,18 +160,3 @@ def test_a_broken_arena_is_named(monkeypatch):
     lines = [one for one in doctor.report() if one.what == "arena"]
     assert lines
     assert "walls[0].ax" in lines[0].found
-
-
-def test_what_was_carried_over_from_an_older_version_is_named_with_its_backup(home):
-    (home / "data").mkdir(parents=True)
-    old = home / "data" / "scores.toml"
-    old.write_text('[pitanks]\nclassic = [{ initials = "ABC", score = 4, when = 2026-11-21T12:00:00Z }]\n')
-    assert line("older scores").advice == "start the arcade once"
-    assert sorted(path.name for path in old.parent.iterdir()) == ["scores.toml"], "it changes nothing"
-    Scores.load(old.parent)
-    carried = line("older scores")
-    assert carried.state == "ok"
-    assert "pitanks 1" in carried.found
-    assert str(old.with_name("scores-1.3.0.toml")) in carried.found
-    old.with_name("scores-1.3.0.toml").unlink()
-    assert line("older scores").state == "note"

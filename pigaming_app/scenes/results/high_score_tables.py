@@ -66,17 +66,11 @@ def high_score_tables(contest: ScoreTable) -> list[HighScoreTable]:
     return [HighScoreTable("results.today", tables[0], 1), HighScoreTable("results.ever", tables[0])]
 
 
-def older_tables(contest: ScoreTable, scores: Scores) -> list[HighScoreTable]:
-    """The non-empty all-time tables of a contest from version 1.3.0."""
-    tables = [table_of(contest, feat) for feat in games()[contest.game].records_of(contest.rules)]
-    return [HighScoreTable(f"results.best_{table.feat}", table) for table in tables if scores.best(table)]
-
-
 def contests(scores: Scores) -> list[ScoreTable]:
-    """The contests with displayable rows, by game and arena, older ones last in each arena."""
+    """The contests with displayable rows, by game and arena."""
     known = {replace(table, feat="", timed=False) for table in scores.tables() if _is_known(table)}
     names = list(games())
-    return sorted(known, key=lambda c: (names.index(c.game), c.arena != games()[c.game].arena, c.arena, c.older, c))
+    return sorted(known, key=lambda c: (names.index(c.game), c.arena != games()[c.game].arena, c.arena, c))
 
 
 def format_score(value: int, feat: RecordKind | ScoreTable) -> str:
@@ -98,4 +92,4 @@ def _is_known(table: ScoreTable) -> bool:
     game = games().get(table.game)
     if not game or not any((feat.name, feat.timed) == (table.feat, table.timed) for feat in game.record_kinds):
         return False
-    return table.older or (table.rules in game.variants and table.people <= 4 and table.side <= table.people)
+    return table.rules in game.variants and 0 < table.people <= 4 and table.side <= table.people

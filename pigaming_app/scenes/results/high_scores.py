@@ -17,7 +17,6 @@ from pigaming_app.scenes.results.high_score_tables import (
     contests,
     format_score,
     high_score_tables,
-    older_tables,
 )
 from pigaming_app.storage.scores import Score, ScoreTable
 from pigaming_app.ui.draw import BODY, ICE, LABEL, MIST, text_width
@@ -87,7 +86,7 @@ class HighScores:
         heading(words("results.scores")).draw(screen)
         text(self._where(), BODY, MIST, "body", "r", WHERE_ROOM).draw(screen, RIGHT, WHERE_Y)
         text(conditions(words, contest), LABEL, ICE, "head", "c", ROOM).draw(screen, 960, LINE_Y)
-        tables = older_tables(contest, self.context.scores) if contest.older else high_score_tables(contest)
+        tables = high_score_tables(contest)
         for column, board in zip((0, 6) if len(tables) > 1 else (3,), tables, strict=False):
             self._board(screen, board, *span(column, 6))
 
@@ -157,7 +156,7 @@ def place_of(contest: ScoreTable) -> tuple[str, str]:
 def conditions(words: Words, contest: ScoreTable) -> str:
     """Rules, duration and number of people of a contest in one line."""
     game = games()[contest.game]
-    parts = [words("best.older")] if contest.older else []
+    parts: list[str] = []
     if len(game.variants) > 1 and contest.rules:
         parts.append(words(f"setup.{contest.game}_{contest.rules}"))
     if contest.length:

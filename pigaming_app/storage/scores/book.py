@@ -11,13 +11,11 @@ from datetime import datetime, timedelta
 from pathlib import Path
 
 from pigaming_app.storage.file_lock import locked
-from pigaming_app.storage.parsing import read_text
 from pigaming_app.storage.safe_files import NotSaved, read_or_restore, write_with_backup
-from pigaming_app.storage.scores.file_format import Content, Migrated, Problems, parse, to_text
-from pigaming_app.storage.scores.migration import back_up, migrate, pending
+from pigaming_app.storage.scores.file_format import Content, Problems, parse, to_text
 from pigaming_app.storage.scores.table import LENGTH, Score, ScoreTable, are_initials, day, local, worth_keeping
 
-FILE = "scores2.toml"  # not read or written by version 1.3.0
+FILE = "scores.toml"
 MAX_BYTES = 16_000_000
 Stamp = tuple[int, int, int]
 log = logging.getLogger("pigaming")
@@ -35,20 +33,13 @@ class Scores:
 
     @classmethod
     def load(cls, folder: Path) -> "tuple[Scores, list[str]]":
-        """Load the tables from the folder; returns them with a sentence for every problem.
-
-        A file of version 1.3.0 is backed up and migrated.
-        """
+        """Load the tables from the folder; returns them with a sentence for every problem."""
         scores = cls()
         if not os.path.isdir(folder):  # unlike Path.is_dir, never raises
             return scores, []
         try:
             with locked(folder / FILE):
                 problems = scores._refresh(folder)
-                try:
-                    scores._write(folder)
-                except NotSaved as error:
-                    problems.append(str(error))
         except NotSaved:  # another instance holds the lock; the file is complete nevertheless
             problems = scores._refresh(folder)
         return scores, problems
@@ -76,7 +67,7 @@ class Scores:
         """Add a row; `when` defaults to now. Raises ValueError unless the initials are three letters A to Z."""
         if not are_initials(initials):
             raise ValueError(f"initials are three of A to Z, not {initials!r}")
-        row = Score(initials, score, local(when))
+        row = Score(initials, score, when or datetime.now())
         self._added.append((table, row))
         self._insert([(table, row)])
         return row
@@ -109,7 +100,6 @@ class Scores:
         self._seen, problems = parsed or (Content(), Problems())
         messages += problems.sentences(path)
         self._content = self._seen.copy()
-        messages += migrate(folder, self._content)
         self._content.trim(local(None).date())
         if self._cleared:
             self._content.clear()
@@ -117,12 +107,9 @@ class Scores:
         return messages
 
     def _write(self, folder: Path) -> None:
-        """Write the file if it has changed, after the backups of newly migrated files. Raises NotSaved."""
-        new = self._content.migrated[len(self._seen.migrated) :]
-        if not (self._cleared or self._added or new):
+        """Write the file if it has changed. Raises NotSaved."""
+        if not self.unsaved:
             return
-        for migrated in new:
-            back_up(folder, migrated)
         write_with_backup(folder / FILE, to_text(self._content))
         self._added.clear()
         self._cleared = False
@@ -143,15 +130,6 @@ def _stamp(path: Path) -> Stamp | None:
     except OSError:
         return None
     return status.st_ino, status.st_mtime_ns, status.st_size
-
-
-def migrations(folder: Path) -> tuple[list[Migrated], bool]:
-    """The migrated files of version 1.3.0, and True if another will be migrated at the next start. Read-only."""
-    try:
-        content, _ = parse(read_text(folder / FILE, MAX_BYTES))
-    except (OSError, ValueError):
-        content = Content()
-    return content.migrated, pending(folder, content)
 
 
 def _merged(before: Content, now: Content) -> list[str]:

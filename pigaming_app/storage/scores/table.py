@@ -3,32 +3,30 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import UTC, date, datetime, timedelta
+from typing import Annotated
+
+from msgspec import Meta
 
 LENGTH = 10  # rows of a table
 DAYS = 7  # retention of daily tables, back from today; as many future days, in case the clock was wrong
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 MOST_POINTS, MOST_MS = 1_000_000, 100_000_000
 YEARS = range(1970, 3000)  # a clock without a battery starts in 1970
-MAX_NAME = 200  # characters of a name
+Name = Annotated[str, Meta(max_length=200)]
 
 
 @dataclass(frozen=True, order=True)
 class ScoreTable:
-    """The conditions under which a table's rows were scored. `people` 0: unknown, a table of version 1.3.0."""
+    """The conditions under which a table's rows were scored."""
 
-    game: str
-    arena: str
-    feat: str  # points, lap, race, time …
+    game: Name
+    arena: Name
+    feat: Name  # points, lap, race, time …
     timed: bool = False  # milliseconds, lower is better; else points, higher is better
-    rules: str = ""
-    length: float = 0  # minutes; laps or pallets in a game with a goal
-    people: int = 0  # in the match
-    side: int = 0  # people on the own team; 0: everyone played alone
-
-    @property
-    def older(self) -> bool:
-        """True if the conditions are unknown; no rows are added to such a table."""
-        return self.people == 0
+    rules: Name = ""
+    length: Annotated[float, Meta(ge=0, le=1000)] = 0  # minutes; laps or pallets in a game with a goal
+    people: Annotated[int, Meta(ge=1, le=99)] = 1  # in the match
+    side: Annotated[int, Meta(ge=0, le=99)] = 0  # people on the own team; 0: everyone played alone
 
     def at_least(self, score: int, other: int) -> bool:
         """True if `score` is as good as `other`, or better."""
@@ -37,17 +35,19 @@ class ScoreTable:
 
 @dataclass(frozen=True)
 class Score:
-    """One row: points or milliseconds. `when` is local time with its offset, in whole seconds."""
+    """One row: points or milliseconds. `when` becomes local time with its offset, in whole seconds."""
 
-    initials: str  # three of LETTERS
+    initials: Annotated[str, Meta(pattern=r"^[A-Z]{3}\Z")]
     score: int
     when: datetime
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "when", local(self.when))
+
 
 def is_score(table: ScoreTable, row: Score) -> bool:
-    """True if a row is valid in a table: initials, a plausible value, a plausible year."""
-    plausible = 0 < row.score <= MOST_MS if table.timed else abs(row.score) <= MOST_POINTS
-    return plausible and are_initials(row.initials) and row.when.year in YEARS
+    """True if a row has a plausible value for a table."""
+    return 0 < row.score <= MOST_MS if table.timed else abs(row.score) <= MOST_POINTS
 
 
 def are_initials(text: str) -> bool:

@@ -13,9 +13,8 @@ from pigaming_app.scenes.results.high_score_tables import (
     counts,
     format_score,
     high_score_tables,
-    older_tables,
 )
-from pigaming_app.storage.scores import Scores, ScoreTable
+from pigaming_app.storage.scores import Scores
 
 FREE, PAIRS = (0, 1, 2, 3), (0, 1, 0, 1)
 
@@ -111,14 +110,3 @@ def test_unknown_games_and_rules_in_a_file_are_not_shown():
     ):
         scores.add(table, "ABC", 5)
     assert contests(scores) == [good]
-
-
-def test_older_tables_come_last_and_show_only_what_they_have():
-    scores = Scores()
-    older = ScoreTable("race", "classic", "race", True, length=3)
-    scores.add(older, "OLD", 9000)
-    scores.add(ScoreTable("race", "classic", "lap", True, "standard", 3, 1), "NEW", 9000)
-    new, old = contests(scores)
-    assert not new.older
-    assert old.older
-    assert [board.table for board in older_tables(old, scores)] == [older]

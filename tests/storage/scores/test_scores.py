@@ -126,7 +126,7 @@ def test_a_broken_file_gives_back_the_tables_before_it(tmp_path):
 
 def test_a_folder_that_cannot_be_written_is_reported(tmp_path):
     (tmp_path / "file").write_text("")
-    with pytest.raises(NotSaved, match=r"scores2\.toml was not saved"):
+    with pytest.raises(NotSaved, match=r"scores\.toml was not saved"):
         filled(1).save(tmp_path / "file")
 
 

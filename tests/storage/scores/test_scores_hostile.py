@@ -14,8 +14,7 @@ from pigaming_app.storage.scores import FILE, Scores, ScoreTable
 
 GOOD = '{ initials = "ABC", score = 4, when = 2026-11-21T12:00:00Z }'
 TABLE = ScoreTable("pitanks", "classic", "points", rules="plain", length=2, people=1)
-OLDER = ScoreTable("pitanks", "classic", "points")
-HEAD = 'format = 2\n[[table]]\ngame = "pitanks"\narena = "{arena}"\nfeat = "points"\ntimed = false\nrules = "plain"\n'
+HEAD = 'format = 1\n[[table]]\ngame = "pitanks"\narena = "{arena}"\nfeat = "points"\ntimed = false\nrules = "plain"\n'
 ROWS = [
     '{ initials = "ABC", score = 1, when = 0001-01-01T00:00:00Z }',
     '{ initials = "ABC", score = 1, when = 0001-01-01T00:00:00 }',
@@ -34,12 +33,10 @@ ROWS = [
     f'{{ initials = "ABC", score = {"9" * 400}, when = 2026-11-21T12:00:00Z }}',
     f'{{ initials = "ABC", score = 0x{"f" * 5000}, when = 2026-11-21T12:00:00Z }}',
     '{ initials = "ABC", score = 1000001, when = 2026-11-21T12:00:00Z }',
-    '{ initials = "ABC", ms = 0, when = 2026-11-21T12:00:00Z }',
-    '{ initials = "ABC", ms = -5, when = 2026-11-21T12:00:00Z }',
+    '{ initials = "ABC", when = 2026-11-21T12:00:00Z }',
     '{ initials = "abc", score = 1, when = 2026-11-21T12:00:00Z }',
     '{ initials = "", score = 1, when = 2026-11-21T12:00:00Z }',
     "{ initials = 3, score = 1, when = 2026-11-21T12:00:00Z }",
-    '{ initials = "ABC", score = 1, when = 2026-11-21T12:00:00Z, photo = "me.png" }',
     "7",
     "[]",
     "{}",
@@ -48,7 +45,7 @@ NAMES = ["''", '"a.b"', '"a\\nb"', '"Ação"', '"\\u0000"', f'"{"x" * 5000}"']
 
 
 def good(scores):
-    return [row.score for table in (TABLE, OLDER) for row in scores.best(table)]
+    return [row.score for row in scores.best(TABLE)]
 
 
 def loaded(folder):
@@ -70,14 +67,6 @@ def test_a_bad_row_costs_only_itself(tmp_path, row):
     assert messages == [f"{tmp_path / FILE}: 1 entry is not a score (in pitanks.classic); ignored."]
 
 
-@pytest.mark.parametrize("row", ROWS)
-def test_a_bad_row_of_version_130_costs_only_itself(tmp_path, row):
-    (tmp_path / "scores.toml").write_text(f"[pitanks]\nclassic = [{row}, {GOOD}]\n")
-    scores, messages = loaded(tmp_path)
-    assert good(scores) == [3, 4]
-    assert len(messages) == 1
-
-
 @pytest.mark.parametrize(
     "lines",
     [
@@ -87,8 +76,8 @@ def test_a_bad_row_of_version_130_costs_only_itself(tmp_path, row):
         f"length = {'9' * 400}\npeople = 1\nside = 0",
         "length = 2\npeople = true\nside = 0",
         "length = 2\npeople = -1\nside = 0",
-        "length = 2\npeople = 1",
-        "length = 2\npeople = 1\nside = 0\nextra = 0",
+        "length = 2\npeople = []\nside = 0",
+        "length = 2\npeople = 0\nside = 0",
     ],
 )
 def test_a_table_with_bad_conditions_costs_only_itself(tmp_path, lines):
@@ -102,10 +91,12 @@ def test_a_table_with_bad_conditions_costs_only_itself(tmp_path, lines):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_odd_names_are_names_or_ignored(tmp_path, name):
-    (tmp_path / "scores.toml").write_text(f"[pitanks]\nclassic = [{GOOD}]\n{name} = [{GOOD}]\n[{name}]\n{name} = [3]\n")
+    rest = f"length = 2\npeople = 1\nside = 0\nrows = [{GOOD}]\n"
+    odd = HEAD.replace('"{arena}"', name).partition("\n")[2]
+    (tmp_path / FILE).write_text(f"{HEAD.format(arena='classic')}{rest}{odd}{rest}")
     scores, messages = loaded(tmp_path)
-    assert good(scores) == [3, 4]
-    assert len(messages) == 1
+    assert good(scores) == [4, 3]
+    assert len(messages) == (name == NAMES[-1])
 
 
 @pytest.mark.parametrize(
@@ -115,10 +106,10 @@ def test_odd_names_are_names_or_ignored(tmp_path, name):
         "[" + ".".join("a" * 2000) + "]\n",
         "x = " + "{a=" * 2000 + "1" + "}" * 2000,
         f"format = {'9' * 5000}\n",
-        "format = 3\n",
+        "format = 2\n",
         "format = true\n",
         "[pitanks]\n",
-        "format = 2\nformat = 2\n",
+        "format = 1\nformat = 1\n",
         "\x00\x01",
     ],
 )
@@ -135,9 +126,8 @@ def test_an_unreadable_file_is_put_aside_and_the_one_before_serves(tmp_path, tex
     assert len(list(tmp_path.glob(f"{FILE}.broken-*"))) == 1
 
 
-@pytest.mark.parametrize("name", [FILE, "scores.toml"])
-def test_a_file_of_100_mb_is_put_aside_unread(tmp_path, name):
-    with (tmp_path / name).open("wb") as file:
+def test_a_file_of_100_mb_is_put_aside_unread(tmp_path):
+    with (tmp_path / FILE).open("wb") as file:
         file.truncate(100_000_000)
     scores, messages = loaded(tmp_path)
     assert good(scores) == [3]
@@ -146,22 +136,22 @@ def test_a_file_of_100_mb_is_put_aside_unread(tmp_path, name):
 
 
 @pytest.mark.parametrize("make", [os.mkdir, getattr(os, "mkfifo", os.mkdir)])
-@pytest.mark.parametrize("name", [FILE, "scores.toml"])
-def test_a_folder_or_a_pipe_in_its_place_is_put_aside(tmp_path, name, make):
-    make(tmp_path / name)
+def test_a_folder_or_a_pipe_in_its_place_is_put_aside(tmp_path, make):
+    make(tmp_path / FILE)
     scores, messages = loaded(tmp_path)
     assert good(scores) == [3]
     assert len(messages) == 1
 
 
 def test_thousands_of_tables_and_rows_are_read_and_bounded(tmp_path):
-    many = "\n".join(f"arena{i} = [{GOOD}]" for i in range(2000))
+    rest = "length = 2\npeople = 1\nside = 0\nrows = "
+    many = "".join(f"{HEAD.format(arena=i).partition(chr(10))[2]}{rest}[{GOOD}]\n" for i in range(2000))
     long = ",".join(GOOD.replace("4", str(i)) for i in range(2000))
-    (tmp_path / "scores.toml").write_text(f"[pitanks]\n{many}\nclassic = [{long}]\n")
+    (tmp_path / FILE).write_text(f"{HEAD.format(arena='classic')}{rest}[{long}]\n{many}")
     scores, messages = loaded(tmp_path)
     assert not messages
-    assert len(scores.tables()) == 2002
-    assert [row.score for row in scores.best(OLDER)] == [*range(1999, 1989, -1)]
+    assert len(scores.tables()) == 2001
+    assert [row.score for row in scores.best(TABLE)] == [*range(1999, 1989, -1)]
     assert (tmp_path / FILE).stat().st_size < 1_000_000
 
 
@@ -176,7 +166,7 @@ STRANGE = st.one_of(
     st.lists(st.integers(), max_size=3),
     st.dictionaries(st.sampled_from(["", "a.b", "rows", "when"]), st.integers(), max_size=2),
 )
-KEYS = st.sampled_from([*asdict(TABLE), "initials", "score", "ms", "when", "rows"])
+KEYS = st.sampled_from([*asdict(TABLE), "initials", "score", "when", "rows"])
 
 
 @settings(max_examples=40, deadline=None)
@@ -185,11 +175,17 @@ def test_whatever_a_file_holds_it_is_read_and_written_again(tmp_path_factory, ch
     folder = tmp_path_factory.mktemp("strange")
     row = {"initials": "ABC", "score": 4, "when": datetime(2026, 11, 21, tzinfo=UTC)}
     table, rows = asdict(TABLE), [{**row, **one} for one in changes]
-    new = {"format": 2, "table": [{**table, "rows": rows}, *({**table, "rows": [row], **one} for one in changes)]}
-    old = {"pitanks": {"classic": [*rows, *strangers], "islands": [row]}}
+    islands = {**table, "arena": "islands", "rows": [row]}
+    new = {
+        "format": 1,
+        "table": [
+            islands,
+            {**table, "rows": [*rows, *strangers]},
+            *({**table, "rows": [row], **one} for one in changes),
+        ],
+    }
     (folder / FILE).write_text(tomli_w.dumps(new), encoding="utf-8")
-    (folder / "scores.toml").write_text(tomli_w.dumps(old), encoding="utf-8")
     scores, messages = loaded(folder)
-    assert len(messages) <= 2
-    assert [one.score for one in scores.best(replace(OLDER, arena="islands"))] == [4]
+    assert len(messages) <= 1
+    assert [one.score for one in scores.best(replace(TABLE, arena="islands"))] == [4]
     assert all(contests(scores)), "the page can sort what there is"
