@@ -4,7 +4,7 @@ from pigaming_app.scenes.views.background import LEFT, TOP, Background, Bit
 from pigaming_app.scenes.views.game_screens import GameScreens, Placed
 from pigaming_app.scenes.views.hud.parts import CLOCK
 from pigaming_app.scenes.views.hud.score import ScoreHud
-from pigaming_app.scenes.views.lessons.animation import add, drive_by
+from pigaming_app.scenes.views.lesson import Actor, Lesson
 from pigaming_app.scenes.views.preview import fitted, walls
 from pigaming_app.scenes.views.rumble import GIVEN
 from pigaming_app.scenes.views.simple import SimpleView, on_canvas
@@ -39,11 +39,10 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.frame_budget import Job, Steps, resumable
 from pigaming_app.ui.draw.icons import Pen
 from pigaming_app.ui.draw.layers import LitImage
-from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, faded, painted, put, step, trim, turned
+from pigaming_app.ui.draw.sprites import Batch, Sprite, faded, painted, put, step, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.widgets.labels import blit_sprite
 
 __all__ = [
     "ADD",
@@ -52,7 +51,6 @@ __all__ = [
     "FOCUS",
     "GIVEN",
     "HAIR",
-    "HEADINGS",
     "HERO",
     "ICE",
     "LABEL",
@@ -66,6 +64,7 @@ __all__ = [
     "THIN",
     "TOP",
     "WHITE",
+    "Actor",
     "Background",
     "Batch",
     "Bit",
@@ -73,6 +72,7 @@ __all__ = [
     "GameScreens",
     "GlowCanvas",
     "Job",
+    "Lesson",
     "LitImage",
     "Pen",
     "Placed",
@@ -85,11 +85,8 @@ __all__ = [
     "Steps",
     "ViewOptions",
     "Words",
-    "add",
-    "blit_sprite",
     "cached",
     "dim",
-    "drive_by",
     "effects",
     "faded",
     "fit_size",

@@ -1,6 +1,6 @@
 """How Robot Football appears on the screens."""
 
-from typing import Any
+from collections.abc import Callable
 
 import pygame
 
@@ -9,9 +9,11 @@ from pigaming_app.api.look import (
     ICE,
     MIST,
     THIN,
+    Actor,
     Color,
     GameScreens,
     GlowCanvas,
+    Lesson,
     Placed,
     Steps,
     dim,
@@ -22,7 +24,7 @@ from pigaming_app.api.look import (
 )
 from pigaming_app.api.rules import HEIGHT, WIDTH, Arena
 
-from . import lessons
+from ..state import Football
 from .sprites import draw_ball, draw_goal, draw_lines
 from .view import FootballView
 
@@ -57,11 +59,40 @@ def footballs(ink: GlowCanvas, placed: Placed, size: float, shape: int, color: C
     ink.solid(whole).line(whole, ICE, 2, True).fill(placed(regular_polygon(5, 0.55 * size)), color)
 
 
-LESSONS: dict[str, Any] = {
-    "football_push": lessons.push,
-    "football_shoot": lessons.shoot,
-    "football_pass": lessons.passes,
-    "football_golden": lessons.golden,
+def _kick_off(x: float, y: float, worth: int = 1) -> Callable[[Football], None]:
+    """A lesson that begins with the ball at rest at (x, y); `worth`: goals for which it counts."""
+
+    def prepare(state: Football) -> None:
+        ball = state.ball
+        ball.x, ball.y, ball.out, ball.worth = x, y, 0, worth
+        ball.vx = ball.vy = 0.0
+
+    return prepare
+
+
+GOAL = 1480.0, 450.0  # px, middle of the pictures
+
+LESSONS = {
+    "football_push": Lesson((Actor(1330, 450, 0, "wait 0.4, go 1540 450"),), 3.2, GOAL, _kick_off(1450.0, 450.0)),
+    "football_shoot": Lesson(
+        (Actor(1320, 570, 0, "wait 0.3, fire go 1390 570, fire turn 1600 450, fire wait 0.6"),),
+        4.0,
+        GOAL,
+        _kick_off(1430.0, 570.0),
+    ),
+    "football_pass": Lesson(
+        (
+            Actor(1326, 584, -45, "wait 0.4, fire wait 0.3, fire turn 1410 310"),
+            Actor(1470, 540, 180),
+            Actor(1410, 310, 107, "fire wait 2, fire turn 1600 450, fire wait 0.3"),
+        ),
+        5.0,
+        GOAL,
+        _kick_off(1370.0, 540.0),
+    ),
+    "football_golden": Lesson(
+        (Actor(1330, 450, 0, "wait 0.4, go 1540 450"),), 3.2, GOAL, _kick_off(1450.0, 450.0, 2), "party"
+    ),
 }
 
 SIGNS = {

@@ -1,4 +1,4 @@
-"""How to play: pages of four animated pictures with captions, and the buttons of the device used last."""
+"""How to play: pages of four lessons with captions, and the buttons of the device used last."""
 
 from collections.abc import Sequence
 
@@ -8,7 +8,10 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_minutes, last_variant, limits_line
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
-from pigaming_app.scenes.views.game_screens import LESSONS_PER_PAGE, LessonPicture
+from pigaming_app.scenes.howto.clip import Cutout, LessonClip
+from pigaming_app.scenes.howto.keys import draw_keys
+from pigaming_app.scenes.views.game_screens import LESSONS_PER_PAGE
+from pigaming_app.scenes.views.lesson import Lesson
 from pigaming_app.scenes.views.registry import SCREENS, shown_games
 from pigaming_app.ui.draw import (
     ARROWS,
@@ -38,8 +41,10 @@ from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import black_out, button_label, chip, chip_width, heading
 
 TOP, HIGH = 220, 620
+PICTURE, KEYS_Y = 384, TOP + 438  # px: height of a lesson's picture, and the middle of its keys
 CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
 LARGE, PITCH, LOWER = 46, 46, 20  # px, of larger text: size and pitch of the limits on two lines; the foot is lower
+BADGE = 40  # px, radius of a lesson's number
 IDLE = 90.0  # seconds without input until the title
 GAP = 24  # px on either side of the arrows between heading and names
 APART = 44  # px between the keys of the row at the foot
@@ -55,11 +60,18 @@ class HowTo:
 
     def __init__(self, context: Context, game: str = "pitanks") -> None:
         self.context, self.game, self.page = context, game if game in taught() else taught()[0], 0
-        self.clock = 0.0
+        self.canvas = Cutout((1920, 1080))
+        self._begin()
 
     def on_enter(self) -> None:
-        """Restart the animations."""
-        self.clock = 0.0
+        """Restart the lessons."""
+        self._begin()
+
+    def _begin(self) -> None:
+        self.clips = [
+            LessonClip(self.context, self.game, name, lesson, self._variant(), self.canvas)
+            for name, lesson in self.lessons()
+        ]
 
     def handle(self, event: InputEvent) -> StackOperation:
         """Turn the page, open a game, or leave."""
@@ -76,7 +88,8 @@ class HowTo:
         return None
 
     def update(self, seconds: float) -> StackOperation:
-        self.clock += seconds
+        for clip in self.clips:
+            clip.update(seconds)
         return Home() if self.context.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -88,25 +101,23 @@ class HowTo:
         button_label("<>").draw(screen, self._names()[0][1].left - GAP - button_width("<>"), 112)
         boxes = [pygame.Rect(span(3 * i, 3)[0], TOP, span(3 * i, 3)[1], HIGH) for i in range(4)]
         black_out(screen, *boxes)
-        for i, (box, (name, picture)) in enumerate(zip(boxes, self.lessons(), strict=False)):
-            screen.set_clip(box.inflate(-8, -8))
-            key = picture(screen, box.centerx, TOP + 268, self.clock)
-            screen.set_clip(None)
+        for i, (box, clip) in enumerate(zip(boxes, self.clips, strict=False)):
+            clip.draw(screen, pygame.Rect(box.x + 4, TOP + 4, box.w - 8, PICTURE))
+            draw_keys(screen, self.context, clip.script, clip.action, (box.centerx, KEYS_Y))
+            pygame.draw.circle(screen, BLACK, (box.centerx, TOP), BADGE)
             frame(i + 1, box.w).draw(screen, *box.topleft)
-            if key:
-                title = words(key) if key in words else key
-                text(title, readable(LABEL), ICE, "head", "c", box.w - 40).draw(screen, box.centerx, TOP + 446)
-            caption(words(f"howto.{name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
+            caption(words(f"howto.{clip.name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
         self._foot(screen)
         keys(self._keys()).draw(screen, 0, LOWER * reads_large())
 
     def _show(self, game: str, page: int = 0) -> None:
         if (game, page) != (self.game, self.page):
             self.context.sounds.play("move")
-            self.game, self.page, self.clock = game, page, 0.0
+            self.game, self.page = game, page
+            self._begin()
 
-    def lessons(self) -> list[tuple[str, LessonPicture]]:
-        """The lessons of this page: text keys of the captions, and the pictures."""
+    def lessons(self) -> list[tuple[str, Lesson]]:
+        """The lessons of this page: text keys of their captions, and the lessons."""
         first = LESSONS_PER_PAGE * self.page
         return list(SCREENS[self.game].lessons.items())[first : first + LESSONS_PER_PAGE]
 
@@ -202,7 +213,7 @@ def frame(number: int, w: int) -> Steps[LitImage]:
     """An empty panel with its number; upper left corner at (0, 0)."""
     layer = Layer(0, 0, w, HIGH)
     panel(layer.glow, 0, 0, w, HIGH, STEEL)
-    layer.glow.fill(regular_polygon(40, 32, 0, w / 2, 0), ICE)
+    layer.glow.fill(regular_polygon(40, BADGE - 8, 0, w / 2, 0), ICE)
     layer.glow.text(str(number), LABEL, w / 2, 0, BLACK, "hero", "c")
     yield
     return (yield from layer.render_steps())

@@ -1,4 +1,4 @@
-"""How one game appears on the screens, apart from its lessons and texts."""
+"""How one game appears on the screens, apart from its texts."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -6,6 +6,7 @@ from typing import Any, Protocol
 
 import pygame
 
+from pigaming_app.scenes.views.lesson import Lesson
 from pigaming_app.scenes.views.preview import walls
 from pigaming_app.scenes.views.view import MatchView, ViewOptions
 from pigaming_app.sim.arena import Arena
@@ -23,9 +24,6 @@ class BenchmarkMatch(Protocol):
     def tick(self) -> None:
         """Advance by 1/50 s."""
 
-
-LessonPicture = Callable[[pygame.Surface, float, float, float], str | None]
-"""lesson(screen, x, y, seconds): one moment of a loop, centred on a point; may return the text key of a word below."""
 
 LESSONS_PER_PAGE = 4
 
@@ -62,7 +60,7 @@ class GameScreens:
     preview: Callable[[Arena, int, int, bool], Steps[pygame.Surface]] = walls
     confetti: Callable[[GlowCanvas, Placed, float, int, Color], None] = player_shape
     team_colors: bool = False
-    lessons: Mapping[str, LessonPicture] = field(default_factory=dict)
+    lessons: Mapping[str, Lesson] = field(default_factory=dict)
     lesson_pages: tuple[str, ...] = ()
     signs: Mapping[str, str] = field(default_factory=dict)
 

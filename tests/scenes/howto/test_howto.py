@@ -3,7 +3,6 @@
 from dataclasses import replace
 from pathlib import Path
 
-import pygame
 import pytest
 
 from pigaming_app.games.registry import games
@@ -16,7 +15,6 @@ from pigaming_app.ui.draw import TITLE, button_width, text_width
 from pigaming_app.ui.draw.layers import LEFT
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, InputEvent
-from tests.cases import one_in
 from tests.scenes.arcade import KEYS, Arcade
 
 
@@ -78,18 +76,3 @@ def test_a_page_names_the_minutes_of_its_rule_set(arcade: Arcade) -> None:
     assert scene.minutes() == minutes[2]
     scene.page = 1
     assert scene.minutes() == 2
-
-
-@pytest.mark.parametrize(
-    ("game", "name"), one_in(2, [(game, name) for game in taught() for name in SCREENS[game].lessons])
-)
-def test_a_lesson_moves_and_is_rarely_empty(arcade: Arcade, game: str, name: str) -> None:
-    screen, looks, filled = pygame.Surface((414, 600)), set(), 0
-    for i in range(16):
-        screen.fill("black")
-        SCREENS[game].lessons[name](screen, 207.0, 268.0, i * 0.53)
-        lit = pygame.mask.from_threshold(screen, (0, 0, 0), (40, 40, 40))
-        filled += 414 * 600 - lit.count() > 500
-        looks.add(pygame.image.tobytes(screen, "RGB"))
-    assert len(looks) > 6
-    assert filled >= 14

@@ -1,22 +1,35 @@
 """How Robot Factory appears on the screens."""
 
 import math
+from collections.abc import Callable
 
 import pygame
 
+from pigaming_app.games.factory.pallets import move
+from pigaming_app.games.factory.state import (
+    DONE,
+    FIRE,
+    HALF,
+    IN_SLOT,
+    MACHINE_SLOTS,
+    MAX_PALLETS,
+    ON_ROBOT,
+    RAW,
+    SHARED_SLOTS,
+    Factory,
+)
 from pigaming_app.scenes.views.benchmark.factory import BusyFactory
 from pigaming_app.scenes.views.factory.background import draw_floor
 from pigaming_app.scenes.views.factory.view import FactoryView
 from pigaming_app.scenes.views.game_screens import GameScreens, Placed
-from pigaming_app.scenes.views.lessons import factory as lessons
-from pigaming_app.scenes.views.lessons import factory_party, factory_together
+from pigaming_app.scenes.views.lesson import Actor, Lesson
 from pigaming_app.scenes.views.preview import fitted
 from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.scenes.views.sprites.robot import robot
 from pigaming_app.scenes.views.things.on_mat import black_out, draw_all
 from pigaming_app.scenes.views.things.styles import WORKSHOP
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, HZ, WIDTH
 from pigaming_app.ui.draw import ALARM, BLUE, GREEN, ICE, LINE, MIST, THIN, Color, GlowCanvas, cut_box, dim
 from pigaming_app.ui.draw.frame_budget import Steps
 
@@ -73,19 +86,75 @@ def crate(ink: GlowCanvas, placed: Placed, size: float, shape: int, color: Color
     ink.solid(box).fill(box, dim(color, 0.35)).line(box, color, 4, True)
 
 
+def _pallet_at(
+    place: int, at: int, state: int, waited: int = 0, team: int = 0, rush: int = 0
+) -> Callable[[Factory], None]:
+    """A lesson that begins with the first pallet of a team in a place; `waited`, `rush`: ticks."""
+
+    def prepare(match: Factory) -> None:
+        p = team * MAX_PALLETS
+        move(match, p, place, at)
+        pallet = match.pallets[p]
+        pallet.state, pallet.waited, pallet.rush = state, waited, rush
+        match.turns[:] = range(len(match.turns))
+        match.rules.process = 2 * HZ
+
+    return prepare
+
+
+def _loose_at(slot: int) -> Callable[[Factory], None]:
+    """A lesson that begins with a loose pallet in a slot."""
+
+    def prepare(match: Factory) -> None:
+        if not match.slots[slot].pallet:
+            move(match, next(p for p, pallet in enumerate(match.pallets) if pallet.loose), IN_SLOT, slot)
+
+    return prepare
+
+
+def _before_star(state: Factory) -> None:
+    state.tick = state.rules.three_stars - 100
+
+
+OUTPUT_A = MACHINE_SLOTS + 1  # of the first machine
+FETCH = "wait 0.4, go 132 184, fire wait 0.2, wait 0.4, go 280 184"
+BRING = "wait 0.4, go 132 628, fire wait 0.2, wait 0.3, go 280 628"
+FEED = "wait 0.4, go 450 90, fire wait 0.2, wait 0.3, go 350 90"
+TAKE = "wait 1.5, go 450 342, fire wait 0.2, wait 0.3, go 340 342"
+PASS_ON = "turn 350 560, go 350 558, turn 520 558, go 452 558, fire wait 0.2, wait 3.2"
+GRAB = "go 640 300, go 720 250, turn 800 240, fire wait 0.2, wait 0.4, go 620 300"
+EXIT, AT_A = (130.0, 600.0), (470.0, 230.0)
+
 LESSONS = {
-    "lift": lessons.lift,
-    "work": lessons.work,
-    "deliver": lessons.deliver,
-    "people": lessons.people,
-    "rush": factory_party.rush,
-    "loose": factory_party.loose,
-    "claim": factory_party.claim,
-    "fast": factory_party.fast,
-    "allies": factory_together.allies,
-    "stars": factory_together.stars,
-    "tasks": factory_together.tasks,
-    "clear": factory_together.clear,
+    "lift": Lesson((Actor(300, 184, 180, FETCH),), 4.0, (200.0, 230.0)),
+    "work": Lesson(
+        (Actor(340, 90, 0, f"{FEED}, wait 1, go 350 342, turn 520 342, {TAKE}, {PASS_ON}"),),
+        17.0,
+        None,
+        _pallet_at(ON_ROBOT, 0, RAW),
+    ),
+    "deliver": Lesson((Actor(330, 628, 180, BRING),), 4.5, EXIT, _pallet_at(ON_ROBOT, 0, DONE)),
+    "people": Lesson((Actor(500, 450, 0, "go 760 450, go 640 450"),), 5.5, (640.0, 450.0)),
+    "rush": Lesson((Actor(330, 628, 180, BRING),), 4.5, EXIT, _pallet_at(ON_ROBOT, 0, DONE, rush=900)),
+    "loose": Lesson(
+        (
+            Actor(620, 380, -45, GRAB),
+            Actor(1000, 300, 180, "go 890 240"),
+        ),
+        4.5,
+        (780.0, 280.0),
+        _loose_at(SHARED_SLOTS + 1),
+    ),
+    "claim": Lesson((Actor(300, 342, 0, TAKE),), 5.5, AT_A, _pallet_at(IN_SLOT, OUTPUT_A, HALF, 140, FIRE)),
+    "fast": Lesson((Actor(300, 90, 0, f"{FEED}, wait 3"),), 5.5, AT_A, _pallet_at(ON_ROBOT, 0, RAW)),
+    "allies": Lesson(
+        (Actor(300, 184, 180, FETCH), *(Actor(x, y, 180, "level5") for x, y in ((340, 330), (240, 420), (400, 130)))),
+        4.5,
+        (230.0, 260.0),
+    ),
+    "stars": Lesson((Actor(900, 160, 0, "wait 9"),), 4.5, (895.0, 60.0), _before_star),
+    "tasks": Lesson((Actor(300, 330, 0, "wait 9"), Actor(330, 200, 180, "level5")), 6.0, (330.0, 230.0)),
+    "clear": Lesson((Actor(330, 450, 0, "wait 9"),), 6.0, (560.0, 330.0), _pallet_at(IN_SLOT, OUTPUT_A, HALF, 880)),
 }
 
 SCREENS = GameScreens(

@@ -1,14 +1,15 @@
 """How Robot Race appears on the screens."""
 
 import math
+from collections.abc import Callable
 
 import pygame
 
+from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.views.benchmark.race import BusyRace
 from pigaming_app.scenes.views.game_screens import GameScreens, Placed
-from pigaming_app.scenes.views.lessons import race as lessons
-from pigaming_app.scenes.views.lessons import race_party
+from pigaming_app.scenes.views.lesson import Actor, Lesson
 from pigaming_app.scenes.views.preview import fitted
 from pigaming_app.scenes.views.race.background import GLOW, earth
 from pigaming_app.scenes.views.race.lines import draw_line, frame
@@ -18,7 +19,8 @@ from pigaming_app.scenes.views.sprites.robot import robot
 from pigaming_app.scenes.views.things.on_mat import black_out, draw_all
 from pigaming_app.scenes.views.things.styles import ROAD
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.rng import seeded
+from pigaming_app.sim.world import HEIGHT, HZ, WIDTH
 from pigaming_app.ui.draw import ADD, BLACK, ICE, LINE, MIST, PLAYERS, THIN, Color, GlowCanvas, Point, dim
 from pigaming_app.ui.draw.frame_budget import Steps
 
@@ -80,15 +82,47 @@ def busy(variant: str) -> BusyRace:
     return BusyRace(laps=max(games()["race"].variants[variant].goals), variant=variant)
 
 
+def _in_lap(line: int, passed: int) -> Callable[[Race], None]:
+    """A lesson in which the first racer's own line is `line`, and it has crossed `passed` lines of its lap."""
+
+    def prepare(state: Race) -> None:
+        racer, other = state.racers[0], next(racer for racer in state.racers if racer.line == line)
+        other.line, racer.line = racer.line, line
+        racer.passed, racer.lap_start = passed, -LAP_SO_FAR
+
+    return prepare
+
+
+def _without_turbo(state: Race) -> None:
+    state.robots[0].turbo = 0.0
+
+
+def _oil_next(state: Race) -> None:
+    """The next box contains oil."""
+    state.random = seeded(7)
+
+
+LAP_SO_FAR = 14.0 * HZ  # ticks
+
 LESSONS = {
-    "laps": lessons.laps,
-    "lines": lessons.lines,
-    "finish": lessons.finish,
-    "mud": lessons.mud,
-    "draft": race_party.draft,
-    "pads": race_party.pads,
-    "items": race_party.items,
-    "recover": race_party.recover,
+    "laps": Lesson((Actor(112, 640, 270, "level3"),), 4.0, None, _in_lap(3, LINES)),
+    "lines": Lesson((Actor(1010, 116, 0, "level3"),), 7.0, None, _in_lap(0, 0)),
+    "finish": Lesson((Actor(640, 760, 166, "level3"),), 5.0, None, _in_lap(3, LINES - 1)),
+    "mud": Lesson((Actor(560, 640, 180, "go 100 640"), Actor(560, 786, 180, "level3")), 3.0, (400.0, 700.0)),
+    "draft": Lesson(
+        (Actor(200, 130, 0, "go 1000 116, turbo go 1500 70"), Actor(330, 120, 0, "go 1400 120")),
+        3.4,
+        None,
+        _without_turbo,
+    ),
+    "pads": Lesson((Actor(250, 120, 0, "go 400 80, go 1400 116"),), 2.6),
+    "items": Lesson(
+        (Actor(540, 90, 0, "go 660 80, go 760 116, go 850 116, fire go 1300 116"), Actor(400, 116, 0, "go 1400 112")),
+        3.6,
+        None,
+        _oil_next,
+    ),
+    "recover": Lesson((Actor(600, 300, 90, "go 600 380, wait 1.2, fire wait 0.2, wait 0.6, go 1100 116"),), 4.0),
 }
 
 SCREENS = GameScreens(

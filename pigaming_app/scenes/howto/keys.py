@@ -1,0 +1,92 @@
+"""The keys that play a lesson: the stick or the steering keys, FIRE and TURBO, lit while they are pressed."""
+
+import re
+
+import pygame
+
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.sim.world import Action
+from pigaming_app.ui.draw import ARROWS, BODY, FOCUS, HAIR, MIST, THIN, button, button_width, cut_box, dim, icon
+from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.input.events import Button
+
+STEERS = re.compile(r"go|turn|^\S+$")  # steps that steer, or a brain
+CAP, PITCH = 44, 50  # px: a steering key, and from one to the next
+PRESSED = 0.25  # deflection from which a steering key is lit
+RADIUS, WAY = 44, 22  # px: of a stick, and the way of its knob
+APART = 24  # px between the steering keys and the others
+PLACES = ((0, 0), (-1, 1), (0, 1), (1, 1))  # column and row of the steering keys: up, left, down, right
+
+
+def draw_keys(screen: pygame.Surface, context: Context, script: str, action: Action, middle: tuple[int, int]) -> None:
+    """Draw the keys of the device used last that a script needs, round a point, by what is pressed."""
+    controls, device, (x, y) = context.controls, context.controls.last, middle
+    turbo = Button.LEAVE_SEAT if device.kind == "keys" else Button.BACK
+    wanted = (("fire", Button.FIRE, action.fire), ("turbo", turbo, action.turbo))
+    labels = [(controls.label(device, key), bool(on)) for word, key, on in wanted if word in script]
+    shown = [(context.words.key_name(label), on) for label, on in labels if label]
+    steers, moves = bool(STEERS.search(script)), controls.moves(device)
+    wide = steers * (APART + (3 * PITCH if moves else 2 * RADIUS))
+    left = x - (wide + sum(APART + button_width(label) for label, _ in shown) - APART) / 2
+    if steers and moves:
+        pressed = (action.linear, -action.angular, -action.linear, action.angular)
+        for sign, (column, row), share in zip(_signs(moves), PLACES, pressed, strict=True):
+            at = left + PITCH * (column + 1.5), y + PITCH * (row - 0.5)
+            steering_key(sign, share > PRESSED).draw(screen, *at)
+    elif steers:
+        stick().draw(screen, left + RADIUS, y)
+        knob().draw(screen, left + RADIUS + WAY * action.angular, y - WAY * action.linear)
+    left += wide
+    for label, on in shown:
+        key_cap(label, on).draw(screen, left, y)
+        left += button_width(label) + APART
+
+
+def _signs(moves: str) -> list[str]:
+    """The signs on the four steering keys: up, left, down, right; arrows if they are no single letters."""
+    return list(moves) if len(moves) == len(ARROWS) else ["↑", "←", "↓", "→"]
+
+
+@cached
+def steering_key(sign: str, on: bool) -> LitImage:
+    """A steering key, centred on (0, 0)."""
+    layer, color, outline = Layer(-CAP / 2, -CAP / 2, CAP, CAP), _color(on), cut_box(-CAP / 2, -CAP / 2, CAP, CAP, 8)
+    if on:
+        layer.glow.fill(outline, dim(FOCUS, 0.35))
+    layer.glow.line(outline, color, THIN, True)
+    if sign in ARROWS:
+        icon(layer.canvas.crisp, ARROWS[sign], 0, 0, 12, color, 5)
+    else:
+        layer.canvas.text(sign, 28, 0, 0, color, "head", "c")
+    return layer.render()
+
+
+@cached
+def key_cap(label: str, on: bool) -> LitImage:
+    """Another key, with its left edge at (0, 0)."""
+    layer, wide = Layer(0, -30, button_width(label), 60), button_width(label)
+    if on:
+        layer.glow.fill(cut_box(4, -24, wide - 8, 48, 24 if wide == 60 else 10), dim(FOCUS, 0.35))
+    button(layer.canvas, 0, 0, label, _color(on), BODY)
+    return layer.render()
+
+
+@cached
+def stick() -> LitImage:
+    """The socket of a stick, centred on (0, 0)."""
+    layer = Layer(-RADIUS, -RADIUS, 2 * RADIUS, 2 * RADIUS)
+    layer.glow.ring(0, 0, RADIUS, MIST, THIN).ring(0, 0, 6, MIST, HAIR)
+    return layer.render()
+
+
+@cached
+def knob() -> LitImage:
+    """The knob of a stick, centred on (0, 0)."""
+    layer = Layer(-20, -20, 40, 40)
+    layer.glow.disc(0, 0, 19, FOCUS)
+    return layer.render()
+
+
+def _color(on: bool) -> tuple[int, int, int]:
+    return FOCUS if on else MIST
