@@ -16,8 +16,8 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, settings
 
-from pigaming_app.jobs.cli import BLAS
 from pigaming_app.sim.kernel import _cache_folder
+from pigaming_app.storage.background import BLAS
 
 WORDY = ("pt", "de")
 

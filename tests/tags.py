@@ -7,9 +7,9 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from pigaming_app.ai.experiments.training import Training
+from pigaming_app.ai.learning.training import Training
 from pigaming_app.ai.qlearning import table_files
-from pigaming_app.ai.qlearning.rewards import RECIPES
+from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.ai.registry import new_match
 from pigaming_app.games.match import Match
 from pigaming_app.games.replay import encode

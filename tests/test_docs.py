@@ -25,8 +25,8 @@ from pigaming_app.ai.ppo import pitanks as fights
 from pigaming_app.ai.ppo import race as races
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.qlearning import features as sectors
-from pigaming_app.ai.qlearning import learner as qlearning
-from pigaming_app.ai.qlearning.rewards import RECIPES
+from pigaming_app.ai.qlearning import table as qlearning
+from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.ai.race import steering_help
 from pigaming_app.ai.registry import AIS, make_brain
 from pigaming_app.games import starts

@@ -9,7 +9,7 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 import pytest
 
-from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS, make_brain
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import ALONE, Seat, Setup

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import ALLIES, ALONE, PAIRS, Game, Seat, Setup, Variant
 from pigaming_app.games.registry import games
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import HZ, ROBOTS
 from pigaming_app.storage.plugins.consent import is_on
 from pigaming_app.storage.plugins.found import found
 
@@ -89,3 +89,8 @@ def require_one_of(noun: str, name: str, choices: Sequence[str]) -> None:
     """Raises ChoiceError, with the `noun`, unless `name` is one of the choices."""
     if name not in choices:
         raise ChoiceError(f"no {noun} '{name}'; there are {', '.join(choices)}")
+
+
+def longest(setup: Setup) -> int:
+    """Ticks after which a match is over."""
+    return round((setup.minutes * 60 + games()[setup.game].variants[setup.variant].overtime) * HZ)

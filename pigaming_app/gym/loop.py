@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-from pigaming_app.ai.experiments.cast import Family, Think, dispatcher
+from pigaming_app.ai.learning.cast import Family, Think, dispatcher
 from pigaming_app.ai.networks.encoding import UNIT, Encoding
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.tallies import Tallies

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.experiments.cast import Cast
+from pigaming_app.ai.learning.cast import Cast
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.games.batch import initial_states
 from pigaming_app.games.registry import games

@@ -13,9 +13,9 @@ from pigaming_app.jobs import files
 from pigaming_app.jobs.registry import jobs
 from pigaming_app.jobs.terminal import console, interrupt
 from pigaming_app.jobs.terminal.refusal import Refusal, is_of_plugin, module_of, names_failed_plugin
+from pigaming_app.storage.background import BLAS
 
 PROGRAM = "pigaming" if INSTALLED or FROZEN else "main.py"
-BLAS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")  # threads of NumPy's matrix products
 
 
 class Parser(argparse.ArgumentParser):

@@ -13,14 +13,13 @@ from time import perf_counter, sleep
 from typing import Any
 
 from pigaming_app.ai.brain_files import display_name
-from pigaming_app.ai.experiments.rollout import longest
 from pigaming_app.ai.plugin_faults import bound, check
 from pigaming_app.ai.registry import known_brains, new_match
 from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.games.rounds import BEST_OF, Rounds
-from pigaming_app.games.setup import ChoiceError, make_setup
+from pigaming_app.games.setup import ChoiceError, longest, make_setup
 from pigaming_app.jobs.arcade import needs_supervisor, ros_options, ros_width, show, supervised
 from pigaming_app.jobs.terminal.options import (
     DEFAULT_GAME,

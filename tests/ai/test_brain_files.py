@@ -8,7 +8,7 @@ import pytest
 
 from pigaming_app import ASSETS
 from pigaming_app.ai.brain_files import display_name, is_path
-from pigaming_app.ai.experiments.league import league
+from pigaming_app.ai.learning.league import league
 from pigaming_app.ai.networks.files import encode
 from pigaming_app.ai.registry import find_brain, known_brains, new_match
 from pigaming_app.games.replay import decode, to_match

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.games.match import standings
 from pigaming_app.games.registry import games
 from pigaming_app.sim.kernel import compiled

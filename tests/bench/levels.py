@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.experiments.league import duel, league
 from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.learning.league import duel, league
 from pigaming_app.games.pitanks.state import RICOCHET
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError

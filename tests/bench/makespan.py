@@ -24,8 +24,8 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.factory.levels import LEVELS
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.factory.start import PALLETS, set_rules

@@ -11,9 +11,9 @@ import sys
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from pigaming_app.ai.experiments.league import wilson
-from pigaming_app.ai.experiments.line_ups import OFF, LineUps
 from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.learning.league import wilson
+from pigaming_app.ai.learning.line_ups import OFF, LineUps
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import standings

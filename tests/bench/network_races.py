@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.experiments.cast import Cast
-from pigaming_app.ai.experiments.league import wilson
-from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.learning.cast import Cast
+from pigaming_app.ai.learning.league import wilson
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS, find_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup

@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.experiments.cast import Cast
-from pigaming_app.ai.experiments.league import MIN_COMPILED_MATCHES, wilson
-from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.learning.cast import Cast
+from pigaming_app.ai.learning.league import MIN_COMPILED_MATCHES, wilson
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS, find_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup

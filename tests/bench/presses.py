@@ -16,7 +16,7 @@ from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.events.spec import Format
 from pigaming_app.jobs.bench.memory import resident_mb

@@ -12,7 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import nullcontext
 from time import perf_counter
 
-from pigaming_app.jobs.cli import BLAS
+from pigaming_app.storage.background import BLAS
 
 os.environ.update(dict.fromkeys(BLAS, "1"))  # before NumPy is imported
 

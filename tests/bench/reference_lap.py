@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import Seat, Setup

@@ -23,10 +23,10 @@ from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
 from pigaming_app import ASSETS
-from pigaming_app.ai.experiments.league import wilson
-from pigaming_app.ai.experiments.settings import changed
-from pigaming_app.ai.experiments.training import Training, contest
-from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
+from pigaming_app.ai.learning.league import wilson
+from pigaming_app.ai.learning.settings import changed
+from pigaming_app.ai.learning.training import Training, contest
+from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.scenes.files import save_table
 from pigaming_app.sim.kernel import can_compile

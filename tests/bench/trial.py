@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.experiments.league import MIN_COMPILED_MATCHES
-from pigaming_app.ai.experiments.rollout import Batch, longest
+from pigaming_app.ai.learning.league import MIN_COMPILED_MATCHES
+from pigaming_app.ai.learning.rollout import Batch, longest
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Setup, Variant

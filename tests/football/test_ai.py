@@ -6,9 +6,9 @@ from random import Random
 
 import pytest
 
-from pigaming_app.ai.experiments.league import duel
-from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.learning.league import duel
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS, make_brain
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.kernel import can_compile

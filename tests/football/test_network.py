@@ -4,8 +4,8 @@ from math import cos, hypot, pi, sin
 
 import pytest
 
-from pigaming_app.ai.experiments.league import duel
-from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.learning.league import duel
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.files import brain_of
 from pigaming_app.ai.networks.policy import Handicap

@@ -19,7 +19,7 @@ from typing import Any, cast
 
 import pygame
 
-from pigaming_app.ai.experiments.training import Training
+from pigaming_app.ai.learning.training import Training
 from pigaming_app.ai.registry import BRAINS, new_match
 from pigaming_app.games.match import Match
 from pigaming_app.games.setup import make_setup

@@ -17,7 +17,7 @@ from tests.plugins.packages import ROOT, changed, write_tag
 
 COMMAND = """
 import sys
-from pigaming_app.ai.experiments import league
+from pigaming_app.ai.learning import league
 from pigaming_app.storage.plugins import endless
 endless.LIMIT, endless.GRACE, league.MIN_COMPILED_MATCHES = 0.6, 0.3, {compiled}
 from pigaming_app.jobs.cli import main

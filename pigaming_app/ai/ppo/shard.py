@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from pigaming_app.ai.experiments.cast import Cast, dispatcher, family_of
+from pigaming_app.ai.learning.cast import Cast, dispatcher, family_of
 from pigaming_app.ai.networks.encoding import PERIOD, UNIT
 from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.policy import HIDDEN, Policy, network_brain

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from pigaming_app.ai.experiments.cast import family_of
+from pigaming_app.ai.learning.cast import family_of
 from pigaming_app.ai.networks.encoding import PERIOD
 from pigaming_app.ai.plugin_faults import bound, check
 from pigaming_app.ai.ppo.shard import cast_of, empty_experience, loop_of, nobody

@@ -6,7 +6,7 @@ from typing import Any
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.unstick import act_on_reflex
 from pigaming_app.ai.qlearning.features import nearest_opponent, situation
-from pigaming_app.ai.qlearning.learner import LearnerMind, QTable, apply_move, sample_move
+from pigaming_app.ai.qlearning.table import LearnerMind, QTable, apply_move, sample_move
 from pigaming_app.ai.qlearning.thoughts import explain
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.kernel import kernel

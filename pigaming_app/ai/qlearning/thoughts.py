@@ -17,7 +17,7 @@ from pigaming_app.ai.qlearning.features import (
     state,
     wall_of,
 )
-from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, LearnerMind, QTable, max_value, move_probabilities
+from pigaming_app.ai.qlearning.table import ACTIONS, MOVES, LearnerMind, QTable, max_value, move_probabilities
 from pigaming_app.games.pitanks.state import PiTanks
 
 SIGHT = 190.0  # px at which walls and bullets are marked, as features hold directions without distances

@@ -14,7 +14,7 @@ from time import perf_counter, process_time, time
 from typing import Any
 
 from pigaming_app import ROOT
-from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.plugin_faults import check
 from pigaming_app.ai.registry import BRAINS

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.networks.encoding import PERIOD, Encoding
 from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.policy import HIDDEN, forward, mind_record, packed_layers

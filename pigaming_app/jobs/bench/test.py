@@ -20,7 +20,8 @@ RUFF: dict[str, tuple[str, ...]] = {
 }
 MYPY = {"mypy": ("mypy", "--no-error-summary")}
 UNITS = tuple(f"tests/{room}" for room in (
-    "sim", "games", "ai/brain", "ai/pitanks", "ai/factory", "ai/race", "ai/qlearning", "storage", "test_layers.py",
+    "sim", "games", "ai/brain", "ai/pitanks", "ai/factory", "ai/race", "ai/learning/test_q_learner.py", "storage",
+    "test_layers.py",
 ))  # fmt: skip
 WORKERS = ("-n", str(os.cpu_count() or 1), "--dist", "worksteal")
 # No window and no sound; bytecode is written even where the caller forbids it, because tests start many processes.

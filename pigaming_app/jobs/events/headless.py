@@ -7,10 +7,8 @@ are played as one batch, extra matches one by one. An entrant without a brain is
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import groupby
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from pigaming_app.ai.experiments.line_ups import LineUps
-from pigaming_app.ai.experiments.rollout import longest
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import outcome_of, setup_of
@@ -18,9 +16,13 @@ from pigaming_app.events.spec import DEFAULT_AI, Fixture, Format, Outcome
 from pigaming_app.games.game import Row
 from pigaming_app.games.match import standings
 from pigaming_app.games.registry import games
+from pigaming_app.games.setup import longest
 from pigaming_app.scenes.events.quick_match import play
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import DT
+
+if TYPE_CHECKING:
+    from pigaming_app.ai.learning.line_ups import LineUps
 
 WORTH_COMPILING = 600_000  # ticks: half a minute of plain matches, which compiling takes the first time
 BATCH = 32  # matches of one compiled batch: the most that a kill can cost
@@ -48,7 +50,9 @@ class HeadlessRun:
         states = self._line_ups[game].played(setups)
         return [outcome_of(fixture, _rows(game, state)) for fixture, state in zip(fixtures, states, strict=True)]
 
-    def _line_up(self, event: Event, game: str, fast: bool | None) -> LineUps:
+    def _line_up(self, event: Event, game: str, fast: bool | None) -> "LineUps":
+        from pigaming_app.ai.learning.line_ups import LineUps  # of another feature
+
         brains = [*dict.fromkeys(entrant.brain or DEFAULT_AI for entrant in event.entrants)]
         brains += [event.spec.fill] if event.spec.fill else []
         if fast is None:

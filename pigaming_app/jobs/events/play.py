@@ -23,7 +23,7 @@ from pigaming_app.jobs.events.files import file_option, loaded
 from pigaming_app.jobs.events.headless import HeadlessRun, seconds_of
 from pigaming_app.jobs.events.show import print_event
 from pigaming_app.jobs.terminal.options import decimal, display, shared
-from pigaming_app.jobs.terminal.refusal import Refusal, refused, require_for_brains
+from pigaming_app.jobs.terminal.refusal import Refusal, module_of, refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage import resume
 from pigaming_app.storage.safe_files import require_writable
@@ -47,6 +47,7 @@ def run(arguments: Namespace) -> int:
         return _in_window(arguments, event)
     if arguments.kiosk or arguments.display or arguments.scoreboard:
         raise Refusal("event run: --kiosk, --display and --scoreboard open a window; they go without --headless")
+    module_of("learning", "learning")  # whose compiled loops play the matches
     require_writable(arguments.file)
     require_for_brains(entrant.brain for entrant in event.entrants)
     began, before = perf_counter(), len(event.outcomes)

@@ -4,7 +4,7 @@ import json
 from argparse import ArgumentParser, Namespace
 from dataclasses import asdict
 
-from pigaming_app.ai.experiments import league
+from pigaming_app.ai.learning import league
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.setup import ChoiceError, require_game
 from pigaming_app.jobs.terminal.options import AIS, duel_options, game_option, goal

@@ -2,4 +2,4 @@
 
 from pigaming_app.scenes.features.feature import Feature
 
-FEATURE = Feature("learning", rooms=("jobs.learning", "ai.ppo"))
+FEATURE = Feature("learning", rooms=("jobs.learning", "ai.learning", "ai.ppo", "ai.tallies"))

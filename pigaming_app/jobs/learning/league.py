@@ -6,8 +6,8 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 
-from pigaming_app.ai.experiments import league as leagues
-from pigaming_app.ai.experiments.league import Duel, League, LeagueRow
+from pigaming_app.ai.learning import league as leagues
+from pigaming_app.ai.learning.league import Duel, League, LeagueRow
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.jobs.terminal.options import AIS, duel_options, game_option, goal, path
 from pigaming_app.jobs.terminal.refusal import refused, require_for_brains

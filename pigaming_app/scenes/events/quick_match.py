@@ -13,8 +13,7 @@ from queue import Empty, SimpleQueue
 from threading import Thread
 from typing import TYPE_CHECKING
 
-from pigaming_app.ai.experiments.compiler import launch
-from pigaming_app.ai.experiments.evaluation import exit_with_parent
+from pigaming_app.storage.background import exit_with_parent, launch
 
 if TYPE_CHECKING:
     from subprocess import Popen

@@ -2,11 +2,11 @@
 
 import sys
 
-from pigaming_app.ai.experiments.compiler import Compiler
-from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
+from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.scenes.features.feature import Service
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.lab.extra_fetch import ExtraFetch
 
 COMPILE_NETWORKS = (sys.executable, "-m", "pigaming_app.ai.ppo.lab.process", "compile")
 

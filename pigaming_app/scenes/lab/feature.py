@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
 from pigaming_app.scenes.features.feature import Feature, MenuItem, Service
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.lab.background import Background
+from pigaming_app.scenes.lab.extra_fetch import ExtraFetch
 from pigaming_app.scenes.launch import Options
 
 
@@ -35,6 +35,7 @@ def saved_brains() -> list[Path]:
 FEATURE = Feature(
     "lab",
     rooms=("scenes.lab", "ai.ppo.lab"),
+    needs=("ai.learning", "ai.ppo"),
     menu=MenuItem(3, page),
     service=service,
     saved_brains=saved_brains,

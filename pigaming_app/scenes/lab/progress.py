@@ -5,9 +5,9 @@ from time import perf_counter
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.experiments.evaluation import HANDMADE, Evaluation
-from pigaming_app.ai.experiments.training import GAME, Checkpoint, Training
-from pigaming_app.ai.qlearning.policy_summary import Direction, direction
+from pigaming_app.ai.learning.evaluation import HANDMADE, Evaluation
+from pigaming_app.ai.learning.policy_summary import Direction, direction
+from pigaming_app.ai.learning.training import GAME, Checkpoint, Training
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.scenes.brain.rose import PETALS
 from pigaming_app.scenes.lab.learning_curve import Measure

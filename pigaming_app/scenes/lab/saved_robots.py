@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from pigaming_app.ai.brain.archive import BrainFileError
-from pigaming_app.ai.experiments.training import Training
+from pigaming_app.ai.learning.training import Training
 from pigaming_app.ai.networks.files import TrainedNetwork
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.files import is_network, load_network, load_table, save_network, save_table

@@ -10,7 +10,7 @@ from dataclasses import replace
 import pygame
 
 from pigaming_app.ai.networks.files import TrainedNetwork
-from pigaming_app.ai.qlearning.rewards import RECIPES
+from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
 from pigaming_app.scenes.flow.context import Context

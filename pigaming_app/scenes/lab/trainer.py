@@ -12,10 +12,10 @@ from dataclasses import replace
 from time import monotonic, perf_counter, sleep
 from typing import Any
 
-from pigaming_app.ai.experiments.compiler import Compiler
-from pigaming_app.ai.experiments.evaluation import compile_all
-from pigaming_app.ai.experiments.training import Checkpoint, Training, resumed
-from pigaming_app.ai.qlearning.rewards import Recipe
+from pigaming_app.ai.learning.compiler import Compiler
+from pigaming_app.ai.learning.evaluation import compile_all
+from pigaming_app.ai.learning.training import Checkpoint, Training, resumed
+from pigaming_app.ai.qlearning.recipe import Recipe
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.lab.progress import Progress, TrainingState
 from pigaming_app.scenes.lab.saved_robots import RobotFileError, save_robot

@@ -10,9 +10,9 @@ from pigaming_app.ai.factory import foreman
 from pigaming_app.ai.game_ai import NAMED_LEVELS
 from pigaming_app.ai.pitanks import fsm, gunner
 from pigaming_app.ai.qlearning.features import NONE, SECTORS, state
-from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, QTable
 from pigaming_app.ai.qlearning.player import Learned, player
-from pigaming_app.ai.qlearning.rewards import Recipe
+from pigaming_app.ai.qlearning.recipe import Recipe
+from pigaming_app.ai.qlearning.table import ACTIONS, MOVES, QTable
 from pigaming_app.ai.race import racer
 from pigaming_app.ai.registry import BRAINS, make_brain
 from pigaming_app.games.factory.state import INPUT, RAW, A

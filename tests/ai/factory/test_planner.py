@@ -6,10 +6,10 @@ from math import hypot
 import numpy as np
 import pytest
 
-from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.factory.foreman_thoughts import explain
 from pigaming_app.ai.factory.levels import LEVELS
 from pigaming_app.ai.factory.navigation import FAR
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.state import (

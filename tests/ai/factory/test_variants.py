@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from pigaming_app.ai.experiments.rollout import Batch
 from pigaming_app.ai.factory.foreman_thoughts import explain
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS, make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.state import DONE, ENTRY, EXIT, FIRE, ICE, INPUT, MACHINE_SLOTS, SHARED, A, B

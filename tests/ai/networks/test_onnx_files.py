@@ -9,7 +9,7 @@ import pytest
 
 from pigaming_app import ROOT
 from pigaming_app.ai.brain.kind import BrainPlayer
-from pigaming_app.ai.experiments.league import duel
+from pigaming_app.ai.learning.league import duel
 from pigaming_app.ai.networks.onnx import child
 from pigaming_app.ai.networks.onnx.files import OnnxPolicy
 from pigaming_app.ai.networks.registry import ENCODINGS

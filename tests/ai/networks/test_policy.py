@@ -6,7 +6,7 @@ from math import floor
 import numpy as np
 import pytest
 
-from pigaming_app.ai.experiments.rollout import Batch, cast_with_baselines
+from pigaming_app.ai.learning.rollout import Batch, cast_with_baselines
 from pigaming_app.ai.networks.encoding import UNIT, saturating, whole
 from pigaming_app.ai.networks.layers import EXACT, Layers, squash_all
 from pigaming_app.ai.networks.pitanks import ENCODING

@@ -5,7 +5,7 @@ from math import cos, hypot, sin
 import numpy as np
 import pytest
 
-from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.files import brain_of
 from pigaming_app.ai.networks.policy import Handicap

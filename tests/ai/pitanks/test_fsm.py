@@ -2,7 +2,7 @@
 
 import pytest
 
-from pigaming_app.ai.experiments.league import duel, wilson
+from pigaming_app.ai.learning.league import duel, wilson
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup

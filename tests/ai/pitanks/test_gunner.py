@@ -5,7 +5,7 @@ from random import Random
 
 import pytest
 
-from pigaming_app.ai.experiments.league import duel
+from pigaming_app.ai.learning.league import duel
 from pigaming_app.ai.pitanks import gunner
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pigaming_app.ai.experiments.cast import Cast, dispatcher, family_of
+from pigaming_app.ai.learning.cast import Cast, dispatcher, family_of
 from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.ppo import pitanks, shard, win_rates
 from pigaming_app.ai.ppo.learner import Hyper

@@ -6,7 +6,7 @@ from math import hypot, pi
 
 import pytest
 
-from pigaming_app.ai.experiments.league import duel
+from pigaming_app.ai.learning.league import duel
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas, load, parse
 from pigaming_app.games.game import Seat, Setup

@@ -2,8 +2,8 @@
 
 from itertools import pairwise
 
-from pigaming_app.ai.experiments.league import duel, league
 from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.learning.league import duel, league
 from pigaming_app.games.arenas import arenas
 
 AGAINST_HAND2 = ("q1", "hand3", "q2", "hand2", "fsm", "hand1", "classic")

@@ -15,7 +15,7 @@ from pigaming_app.events.event_files import load
 from pigaming_app.jobs.cli import main
 from tests.jobs.test_hostile_options import ANY, POSIX, fault, furnish
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 SHORT = ["--minutes", "0.05"]
 
 

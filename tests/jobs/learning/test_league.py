@@ -5,8 +5,8 @@ import re
 
 import pytest
 
-from pigaming_app.ai.experiments.league import Duel, League, LeagueRow, wilson
-from pigaming_app.ai.experiments.ratings import Rating
+from pigaming_app.ai.learning.league import Duel, League, LeagueRow, wilson
+from pigaming_app.ai.learning.ratings import Rating
 from pigaming_app.events.league_files import ratings_of
 from pigaming_app.jobs.cli import main
 from pigaming_app.jobs.learning.league import table

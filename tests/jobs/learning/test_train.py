@@ -11,15 +11,15 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.experiments.training import Training
+from pigaming_app.ai.learning.training import Training
 from pigaming_app.ai.qlearning import table_files as tables
-from pigaming_app.ai.qlearning.rewards import RECIPES
+from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.jobs.cli import main
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import Words
 from tests.disks import content, failing_at, room_for
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def read(path):

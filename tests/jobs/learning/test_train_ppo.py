@@ -16,7 +16,7 @@ from pigaming_app.jobs.cli import main
 from tests.ai.ppo.plain import SET, play_plain
 from tests.disks import content, failing_at, room_for
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def train(out, *more, updates="4"):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.games import engine_hash
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games

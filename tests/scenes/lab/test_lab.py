@@ -8,7 +8,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.ai.qlearning.rewards import RECIPES
+from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.scenes.brain.rose import PETALS
 from pigaming_app.scenes.flow.stack import Home, Pop, Stack, StackOperation
 from pigaming_app.scenes.lab import progress, scene

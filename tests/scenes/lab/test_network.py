@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.experiments.compiler import Compiler
-from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
+from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.ai.networks.files import TrainedNetwork
 from pigaming_app.scenes.lab import saved_robots, scene
 from pigaming_app.scenes.lab.background import Background
+from pigaming_app.scenes.lab.extra_fetch import ExtraFetch
 from pigaming_app.scenes.lab.layout import MATCH
 from pigaming_app.scenes.lab.network.fetch_page import FetchPage
 from pigaming_app.scenes.lab.network.kind_switch import NETWORK, TABLE, kind_rect
@@ -306,8 +306,8 @@ def test_when_nobody_is_there_the_process_ends_and_the_next_visitors_begin_with_
 
 CRASHING = f"""
 import time
-from pigaming_app.ai.experiments.compiler import Compiler
-from pigaming_app.ai.experiments.extra_fetch import ExtraFetch
+from pigaming_app.ai.learning.compiler import Compiler
+from pigaming_app.scenes.lab.extra_fetch import ExtraFetch
 from pigaming_app.scenes.lab.background import Background
 from pigaming_app.scenes.lab.network.trainer import NetworkTrainer
 trainer = NetworkTrainer(1, Compiler({NOTHING!r}), {PLAIN!r})

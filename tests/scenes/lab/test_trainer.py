@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.experiments.compiler import Compiler
-from pigaming_app.ai.qlearning.rewards import RECIPES
+from pigaming_app.ai.learning.compiler import Compiler
+from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.scenes.lab import trainer as trainer_module
 from pigaming_app.scenes.lab.trainer import FASTEST, Trainer
 from pigaming_app.sim.kernel import can_compile
@@ -22,7 +22,7 @@ needs_numba = pytest.mark.skipif(not can_compile(), reason="numba is not install
 
 @pytest.fixture
 def trainer(monkeypatch: pytest.MonkeyPatch) -> Iterator[Trainer]:
-    monkeypatch.setattr("pigaming_app.ai.experiments.compiler.PATIENCE", 0)  # other tests keep all cores busy
+    monkeypatch.setattr("pigaming_app.storage.background.PATIENCE", 0)  # other tests keep all cores busy
     compiler = Compiler()
     trainer = Trainer(RECIPES[1], 5, compiler=compiler)
     yield trainer
@@ -185,7 +185,7 @@ def test_the_process_ends_with_the_arcade_and_is_not_started_again() -> None:
 
 
 def test_without_numba_no_process_is_started(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pigaming_app.ai.experiments.compiler.can_compile", lambda: False)
+    monkeypatch.setattr("pigaming_app.ai.learning.compiler.can_compile", lambda: False)
     compiler = Compiler(ENDLESS)
     compiler.start()
     assert compiler._process is None
@@ -193,9 +193,9 @@ def test_without_numba_no_process_is_started(monkeypatch: pytest.MonkeyPatch) ->
 
 CRASHING = """
 import sys, time
-from pigaming_app.ai.experiments.compiler import Compiler
+from pigaming_app.ai.learning.compiler import Compiler
 compiler = Compiler((sys.executable, "-c",
-                     "from pigaming_app.ai.experiments.evaluation import exit_with_parent; import time; "
+                     "from pigaming_app.storage.background import exit_with_parent; import time; "
                      "exit_with_parent(); time.sleep(60)"))
 compiler.start()
 print(compiler._process.pid, flush=True)
@@ -219,7 +219,7 @@ def test_when_the_arcade_is_killed_the_process_ends_by_itself() -> None:
 
 @needs_numba
 def test_a_process_that_has_compiled_ends_well_while_the_arcade_goes_on() -> None:
-    code = "from pigaming_app.ai.experiments.evaluation import exit_with_parent; exit_with_parent()"
+    code = "from pigaming_app.storage.background import exit_with_parent; exit_with_parent()"
     compiler = Compiler((sys.executable, "-c", code))
     compiler.start()
     end = time.monotonic() + 60.0

@@ -15,8 +15,8 @@ from threading import Condition, Thread
 from time import monotonic
 from typing import BinaryIO
 
-from pigaming_app.ai.experiments.evaluation import exit_with_parent
 from pigaming_app.ai.ppo.lab.messages import PATIENCE, Begin, Order, Report
+from pigaming_app.storage.background import exit_with_parent
 
 PAUSE = Order()
 REPORTS = 0.15  # s between two reports at least

@@ -11,9 +11,9 @@ from pathlib import Path
 from time import monotonic
 
 from pigaming_app.ai.brain.archive import BrainFileError
-from pigaming_app.ai.experiments.league import wilson
-from pigaming_app.ai.experiments.rollout import rehearse
-from pigaming_app.ai.experiments.settings import changed
+from pigaming_app.ai.learning.league import wilson
+from pigaming_app.ai.learning.rollout import rehearse
+from pigaming_app.ai.learning.settings import changed
 from pigaming_app.ai.networks.files import encode as encode_network
 from pigaming_app.ai.ppo.checkpoint import encode, restore
 from pigaming_app.ai.ppo.product import trained_network

@@ -8,9 +8,9 @@ from argparse import ArgumentParser, Namespace
 from time import perf_counter
 from typing import NamedTuple
 
-from pigaming_app.ai.experiments import training
-from pigaming_app.ai.experiments.settings import changed
-from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe
+from pigaming_app.ai.learning import training
+from pigaming_app.ai.learning.settings import changed
+from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES, ChoiceError, require_game

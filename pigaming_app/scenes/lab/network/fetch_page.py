@@ -4,10 +4,10 @@ from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.ai.experiments.extra_fetch import BUILT, DONE, FETCHING, FOREIGN, RESTART
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.background import Background
+from pigaming_app.scenes.lab.extra_fetch import BUILT, DONE, FETCHING, FOREIGN, RESTART
 from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, STEEL, THIN, Color, cut_box
 from pigaming_app.ui.draw.layers import Layer

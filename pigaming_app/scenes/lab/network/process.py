@@ -8,8 +8,8 @@ from collections import deque
 from threading import Thread
 from typing import TYPE_CHECKING, Any
 
-from pigaming_app.ai.experiments.compiler import launch
 from pigaming_app.ai.ppo.lab.messages import Report
+from pigaming_app.storage.background import launch
 
 if TYPE_CHECKING:
     from subprocess import Popen

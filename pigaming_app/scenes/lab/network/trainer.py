@@ -11,8 +11,8 @@ from time import monotonic
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.experiments.compiler import Compiler
-from pigaming_app.ai.experiments.training import ARENA, GAME, Checkpoint
+from pigaming_app.ai.learning.compiler import Compiler
+from pigaming_app.ai.learning.training import ARENA, GAME, Checkpoint
 from pigaming_app.ai.networks.files import Curve, TrainedNetwork, explained_brain
 from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.policy import Policy

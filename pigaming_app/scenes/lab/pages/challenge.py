@@ -3,7 +3,7 @@
 import pygame
 
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
-from pigaming_app.ai.experiments.training import ARENA, GAME, VARIANT
+from pigaming_app.ai.learning.training import ARENA, GAME, VARIANT
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context

@@ -10,8 +10,8 @@ from time import perf_counter
 import pygame
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.experiments.evaluation import HANDMADE, Evaluation
-from pigaming_app.ai.experiments.training import GAME
+from pigaming_app.ai.learning.evaluation import HANDMADE, Evaluation
+from pigaming_app.ai.learning.training import GAME
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.host import IDLE, LabHost

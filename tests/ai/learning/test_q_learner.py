@@ -5,7 +5,15 @@ from math import cos, exp, pi, sin, tau
 
 import pytest
 
-from pigaming_app.ai.experiments.training import fresh_table, training_setup
+from pigaming_app.ai.learning.q_learner import (
+    action_reward,
+    learn,
+    learn_last,
+    temperature,
+    transition_reward,
+    update,
+)
+from pigaming_app.ai.learning.training import fresh_table, training_setup
 from pigaming_app.ai.qlearning.features import (
     NONE,
     SECTORS,
@@ -18,21 +26,17 @@ from pigaming_app.ai.qlearning.features import (
     state,
     wall_of,
 )
-from pigaming_app.ai.qlearning.learner import (
+from pigaming_app.ai.qlearning.player import reset, think
+from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe, RecipeRecord
+from pigaming_app.ai.qlearning.table import (
     ACTIONS,
     MOVES,
     PAIRS,
     LearnerMind,
     QTable,
-    learn,
-    learn_last,
     move_probabilities,
     sample_move,
-    temperature,
-    update,
 )
-from pigaming_app.ai.qlearning.player import reset, think
-from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe, RecipeRecord, action_reward, transition_reward
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.action import set_action

@@ -2,9 +2,9 @@
 
 import pytest
 
+from pigaming_app.ai.learning.policy_summary import ACTION_NAMES, direction
 from pigaming_app.ai.qlearning.features import NONE, state
-from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, QTable
-from pigaming_app.ai.qlearning.policy_summary import ACTION_NAMES, direction
+from pigaming_app.ai.qlearning.table import ACTIONS, MOVES, QTable
 from pigaming_app.sim.record import packed
 
 COLD = 1.0 / 50.0

@@ -1,17 +1,11 @@
-"""Tabular Q-learning after the original and M. Humphrys, *Action Selection methods using Reinforcement Learning*, 1997.
-
-The learning rate is alpha = 1 / n(x, a), counting the present visit, so the first visit overwrites Q. Actions are drawn
-from the Boltzmann distribution exp(Q / T), and T falls as experience grows. A trained robot also draws, at the final
-temperature.
-"""
+"""A Q-table, and moves by it, drawn from the Boltzmann distribution exp(Q / T) as in training."""
 
 from math import exp
 from typing import Annotated, NamedTuple
 
 from pigaming_app.ai.brain.unstick import Reflex
-from pigaming_app.ai.qlearning.features import STATES, nearest_opponent, situation
-from pigaming_app.ai.qlearning.rewards import RecipeRecord, action_reward, transition_reward
-from pigaming_app.games.pitanks.state import PiTanks
+from pigaming_app.ai.qlearning.features import STATES
+from pigaming_app.ai.qlearning.recipe import RecipeRecord
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -60,54 +54,6 @@ class LearnerMind:
 
 
 @kernel
-def learn(match: PiTanks, seat: int, mind: LearnerMind, table: QTable) -> None:
-    """One tick of a learner: at every decision update the table for the last one, then draw the next move."""
-    knobs = table.knobs
-    if match.tick % knobs.period:
-        return
-    opponent = nearest_opponent(match, seat)
-    here = situation(match, seat, opponent, knobs.incoming)
-    if mind.begun:
-        update(table, mind, here)
-    mind.begun, mind.state = 1, here
-    mind.move = sample_move(table, here, temperature(table), table)
-    apply_move(match.actions[seat], mind.move)
-    mind.reward = action_reward(match, seat, opponent, here, match.actions[seat], knobs)
-
-
-@kernel
-def learn_last(match: PiTanks, seat: int, mind: LearnerMind, table: QTable) -> None:
-    """Update the table at the end of a match: a truncation, so the last decision bootstraps like any other."""
-    if mind.begun and table.knobs.last:
-        update(table, mind, situation(match, seat, nearest_opponent(match, seat), table.knobs.incoming))
-    mind.begun = 0
-
-
-@kernel
-def update(table: QTable, mind: LearnerMind, here: int) -> None:
-    """One update: Q(x, a) += (r + gamma max Q(y, b) - Q(x, a)) / n(x, a), with y the state `here`."""
-    knobs, pair = table.knobs, mind.state * ACTIONS + mind.move
-    if table.n[pair] == 0:
-        table.pairs += 1
-        if is_unvisited(table, mind.state):
-            table.states += 1
-    table.n[pair] += 1
-    table.experiences += 1
-    reward = mind.reward + transition_reward(mind.state, here, knobs)
-    target = reward + knobs.gamma * max_value(table, here)
-    table.q[pair] += (target - table.q[pair]) / table.n[pair]
-
-
-@kernel
-def is_unvisited(table: QTable, state: int) -> int:
-    """1 if no action was ever tried in the state."""
-    for k in range(state * ACTIONS, (state + 1) * ACTIONS):
-        if table.n[k]:
-            return 0
-    return 1
-
-
-@kernel
 def max_value(table: QTable, state: int) -> float:
     """Highest Q of a state."""
     highest: float = table.q[state * ACTIONS]
@@ -115,18 +61,6 @@ def max_value(table: QTable, state: int) -> float:
         if table.q[k] > highest:
             highest = table.q[k]
     return highest
-
-
-@kernel
-def temperature(table: QTable) -> float:
-    """Present temperature: falls from `hot` to `cold` linearly (`ramp`) or in one step at `ceiling` experiences."""
-    knobs = table.knobs
-    share = table.experiences / knobs.ceiling if knobs.ramp else 0.0
-    if table.experiences >= knobs.ceiling:
-        cold: float = knobs.cold
-        return cold
-    heat: float = knobs.cold + (1.0 - share) * (knobs.hot - knobs.cold)
-    return heat
 
 
 @kernel

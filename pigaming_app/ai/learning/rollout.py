@@ -10,15 +10,16 @@ from typing import Any
 
 from pigaming_app.ai.brain.baselines import IDLE, RANDOM
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.experiments.cast import Cast, Family, Think, dispatcher
+from pigaming_app.ai.learning.cast import Cast, Family, Think, dispatcher
 from pigaming_app.ai.plugin_faults import bound, check
 from pigaming_app.games.batch import initial_states
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
+from pigaming_app.games.setup import longest
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled
 from pigaming_app.sim.record import copy, packed, unpack
-from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.plugins.endless import overseer
 
 Loop = Callable[[Any, Any, Any, int], None]
@@ -111,11 +112,6 @@ class Batch:
     def ended(self) -> list[Any]:
         """All matches as plain records."""
         return [unpack(self.state, row) for row in self.matches] if self.fast else list(self.matches)
-
-
-def longest(setup: Setup) -> int:
-    """Ticks after which a match is over."""
-    return round((setup.minutes * 60 + games()[setup.game].variants[setup.variant].overtime) * HZ)
 
 
 def rehearse(setup: Setup, kinds: Sequence[BrainKind | None]) -> None:

@@ -6,10 +6,10 @@ import gymnasium
 import pytest
 
 import pigaming_app.gym  # noqa: F401  (registers the environments)
-from pigaming_app.ai.experiments import league
-from pigaming_app.ai.experiments.training import Training as TableTraining
+from pigaming_app.ai.learning import league
+from pigaming_app.ai.learning.training import Training as TableTraining
 from pigaming_app.ai.ppo.training import Training, in_threads
-from pigaming_app.ai.qlearning.rewards import RECIPES
+from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.sim.rng import SEEDS, seeded, training_seed

@@ -1,4 +1,4 @@
-"""Rewards of the Q-learner and all other parameters of its training, as one recipe.
+"""Rewards of the Q-learner and all other parameters of its training, as one recipe, which a trained table keeps.
 
 RECIPES[1] and RECIPES[2] are the original's two reward tables. Every choice that its paper leaves open is a named field
 here, with our choice as default; the Lab edits the same fields. In two of them our default is not the paper's reading:
@@ -14,15 +14,8 @@ docs/thesis.md has the results of both readings.
 
 from dataclasses import dataclass, fields, replace
 
-from pigaming_app.ai.qlearning.features import SECTORS, opponent_of, wall_of
-from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.toml_table import quote
-from pigaming_app.sim.world import Action
-
-CREEP = 10.0  # px/s; a slower robot counts as standing
 
 ANY, SWITCH, HEAT = (-1000.0, 1000.0), (0, 1), (0.001, 1000.0)
 BOUNDS: dict[str, tuple[float, float]] = {
@@ -89,41 +82,3 @@ class RecipeRecord(Recipe):
 
 
 RECIPES = {1: Recipe(), 2: replace(Recipe(), behind_always=1, still=-10.0)}
-
-
-@kernel
-def action_reward(match: PiTanks, seat: int, opponent: int, state: int, action: Action, knobs: RecipeRecord) -> float:
-    """Immediate reward for choosing `action` in `state`, points."""
-    reward = 0.0
-    if action.fire and not (knobs.loaded and match.tanks[seat].cooldown):
-        direction = opponent_of(state)
-        if knobs.look < direction < SECTORS - knobs.look:
-            reward += knobs.miss
-        elif wall_of(state) != direction or not knobs.off_wall:
-            robot, other = match.robots[seat], match.robots[opponent]
-            if not knobs.in_sight or is_clear(match, robot.x, robot.y, other.x, other.y, 0.0):
-                reward += knobs.hit
-    speed = match.robots[seat].linear
-    if (-CREEP < speed < CREEP) if knobs.moving else action.linear == 0.0:
-        reward += knobs.still
-    return reward
-
-
-@kernel
-def transition_reward(before: int, after: int, knobs: RecipeRecord) -> float:
-    """Reward for the transition from one decision's state to the next one's, points."""
-    begun = exposed(before, knobs) if knobs.exposure else opponent_behind(before, knobs)
-    reward: float = knobs.behind if exposed(after, knobs) and (knobs.behind_always or not begun) else 0.0
-    return reward
-
-
-@kernel
-def exposed(state: int, knobs: RecipeRecord) -> int:
-    """1 if the opponent is behind and the closest wall is in another direction."""
-    return 1 if opponent_behind(state, knobs) and wall_of(state) != opponent_of(state) else 0
-
-
-@kernel
-def opponent_behind(state: int, knobs: RecipeRecord) -> int:
-    """1 if the direction of the opponent counts as behind."""
-    return 1 if knobs.behind_from <= opponent_of(state) <= knobs.behind_to else 0

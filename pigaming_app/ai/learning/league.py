@@ -14,13 +14,13 @@ from time import perf_counter
 from typing import NamedTuple
 
 from pigaming_app.ai.brain_files import is_path, stem_of
-from pigaming_app.ai.experiments.ratings import Rating, ratings
-from pigaming_app.ai.experiments.rollout import Batch, longest, rehearse
+from pigaming_app.ai.learning.ratings import Rating, ratings
+from pigaming_app.ai.learning.rollout import Batch, rehearse
 from pigaming_app.ai.plugin_faults import bound, check
 from pigaming_app.ai.registry import BRAINS, find_brain, known_brains
 from pigaming_app.games.game import ALLIES, PAIRS, Setup, Variant
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import ChoiceError, make_setup, require_game, require_one_of
+from pigaming_app.games.setup import ChoiceError, longest, make_setup, require_game, require_one_of
 from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import ROBOTS

@@ -4,16 +4,13 @@ Matches run one after the other by the training rules, two per seed with the sid
 compiles the Lab's kernels.
 """
 
-import os
-import sys
-from threading import Thread
-
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.ai.experiments.training import ARENA, GAME, MINUTES, Training, training_setup
-from pigaming_app.ai.qlearning.rewards import Recipe
+from pigaming_app.ai.learning.rollout import Batch
+from pigaming_app.ai.learning.training import ARENA, GAME, MINUTES, Training, training_setup
+from pigaming_app.ai.qlearning.recipe import Recipe
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.sim.world import HZ
+from pigaming_app.storage.background import exit_with_parent
 
 HANDMADE = "hand3"  # the strongest hand-written brain
 
@@ -82,16 +79,6 @@ def compile_all() -> None:
         evaluation = Evaluation(one, other, 2, 1, minutes=1 / (60 * HZ), fast=True)
         while not evaluation.over:
             evaluation.play(1)
-
-
-def exit_with_parent() -> None:
-    """Exit this process with code 1 as soon as its standard input closes, as it does when the parent ends."""
-
-    def wait() -> None:
-        os.read(sys.stdin.fileno(), 1)  # a buffered read would abort the interpreter at its normal end
-        os._exit(1)
-
-    Thread(target=wait, daemon=True).start()
 
 
 if __name__ == "__main__":  # a separate process, so that compiling never delays a frame

@@ -2,8 +2,8 @@
 
 import pytest
 
-from pigaming_app.ai.experiments.evaluation import HANDMADE, Evaluation
-from pigaming_app.ai.experiments.training import GAME, contest
+from pigaming_app.ai.learning.evaluation import HANDMADE, Evaluation
+from pigaming_app.ai.learning.training import GAME, contest
 from pigaming_app.ai.registry import BRAINS
 
 HARD, IDLE, OWN = BRAINS[GAME]["hard"], BRAINS[GAME]["idle"], BRAINS[GAME][HANDMADE]

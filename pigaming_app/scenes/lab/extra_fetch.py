@@ -9,7 +9,7 @@ import sys
 from subprocess import Popen
 from threading import Thread
 
-from pigaming_app.ai.experiments.compiler import launch
+from pigaming_app.storage.background import launch
 
 NONE, FETCHING, DONE, BUILT, FAILED = "none", "fetching", "done", "built", "failed"
 FOREIGN, RESTART = "foreign", "restart"  # of the process, see boot/fetch.py

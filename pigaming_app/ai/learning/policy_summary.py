@@ -7,7 +7,7 @@ of a trained robot: probabilities proportional to exp(Q / T) at the final temper
 from dataclasses import dataclass
 
 from pigaming_app.ai.qlearning.features import PLACES
-from pigaming_app.ai.qlearning.learner import ACTIONS, MOVES, QTable
+from pigaming_app.ai.qlearning.table import ACTIONS, MOVES, QTable
 
 STATES = PLACES * PLACES  # states per direction
 CLEAR = 0.05  # excess over a uniform policy that counts as a preference

@@ -6,7 +6,7 @@ from math import log10
 
 import pytest
 
-from pigaming_app.ai.experiments.ratings import ratings
+from pigaming_app.ai.learning.ratings import ratings
 
 SWEEP, DRAW, HALF = (2.0, 0.0), (1.0, 1.0), (1.5, 0.5)  # points from the two matches of a seed
 

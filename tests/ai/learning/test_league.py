@@ -4,9 +4,9 @@ from math import sqrt
 
 import pytest
 
-from pigaming_app.ai.experiments import league
-from pigaming_app.ai.experiments.league import duel, wilson
-from pigaming_app.ai.experiments.rollout import Batch
+from pigaming_app.ai.learning import league
+from pigaming_app.ai.learning.league import duel, wilson
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.sim.kernel import can_compile

@@ -4,21 +4,17 @@ It keeps running when the player leaves the Lab and ends with the arcade: a norm
 exits because its standard input is closed.
 """
 
-import contextlib
-import os
 import sys
 from threading import Lock
 from typing import TYPE_CHECKING
 
-from pigaming_app.sim.kernel import PACKAGE, can_compile
+from pigaming_app.sim.kernel import can_compile
+from pigaming_app.storage.background import launch
 
 if TYPE_CHECKING:
     from subprocess import Popen
 
-PATIENCE = 10  # POSIX nice value of the process
-BLAS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")  # threads of NumPy's matrix products
-
-COMMAND = (sys.executable, "-m", "pigaming_app.ai.experiments.evaluation")
+COMMAND = (sys.executable, "-m", "pigaming_app.ai.learning.evaluation")
 
 
 class Compiler:
@@ -48,28 +44,3 @@ class Compiler:
     def code(self) -> int | None:
         """Exit code of the process; None before it starts and while it runs."""
         return self._process.poll() if self._process else None
-
-
-def launch(command: tuple[str, ...], answers: bool = False) -> "Popen[bytes]":
-    """Start a background process with a pipe as standard input, and with `answers` as standard output. Raises OSError.
-
-    NumPy's matrix products stay in the threads that call them.
-    """
-    import subprocess  # late, for the start of the arcade
-
-    null = subprocess.DEVNULL
-    names = ("CREATE_NO_WINDOW", "BELOW_NORMAL_PRIORITY_CLASS")  # defined on Windows only
-    flags: int = sum(getattr(subprocess, name, 0) for name in names)
-    process = subprocess.Popen(
-        command,
-        cwd=PACKAGE.parent,
-        env=os.environ | dict.fromkeys(BLAS, "1"),
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE if answers else null,
-        stderr=null,
-        creationflags=flags,
-    )
-    if hasattr(os, "setpriority"):  # not on Windows
-        with contextlib.suppress(OSError):
-            os.setpriority(os.PRIO_PROCESS, process.pid, PATIENCE)
-    return process

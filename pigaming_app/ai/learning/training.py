@@ -10,10 +10,11 @@ from functools import cache
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.experiments.rollout import Batch
-from pigaming_app.ai.qlearning.learner import LearnerMind, QTable, learn, learn_last, temperature
+from pigaming_app.ai.learning.q_learner import learn, learn_last, temperature
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.qlearning.player import Learned, player
-from pigaming_app.ai.qlearning.rewards import RECIPES, Recipe, RecipeRecord
+from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe, RecipeRecord
+from pigaming_app.ai.qlearning.table import LearnerMind, QTable
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.batch import initial_states
