@@ -7,10 +7,12 @@ import sys
 import tarfile
 import venv
 import zipfile
+from email import message_from_bytes
 from importlib import metadata
 from pathlib import Path
 
 import pytest
+from trove_classifiers import classifiers
 
 import pigaming_app
 from pigaming_app.boot.interpreter import ARCADE, python_of, requirements, site_packages
@@ -109,6 +111,18 @@ def test_the_wheel_has_the_package_and_the_assets_and_no_tests(wheel):
     assert inside == package | {f"pigaming_app/{name}" for name in shipped} | {"pigaming_app/commit.txt"}
     for kind in ("fonts", "text", "arenas", "brains", "sounds"):
         assert any(name.startswith(f"pigaming_app/assets/{kind}/") for name in inside)
+
+
+def test_the_metadata_of_the_wheel_are_complete(wheel):
+    with zipfile.ZipFile(wheel) as file:
+        (name,) = (name for name in file.namelist() if name.endswith(".dist-info/METADATA"))
+        data = message_from_bytes(file.read(name))
+    assert data["Author"] == "The PiGaming developers"
+    assert data["License-Expression"] == "MIT"
+    assert {*data.get_all("Classifier")} <= classifiers
+    spoken = {line.rpartition(" :: ")[2] for line in data.get_all("Classifier") if line.startswith("Natural")}
+    assert spoken == {"English", "Portuguese", "Spanish", "French", "German"}
+    assert data["Keywords"]
 
 
 def test_the_sdist_is_complete(sdist):

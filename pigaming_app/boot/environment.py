@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import IO
 
 from pigaming_app.boot.interpreter import (
+    ROOT,
     StartError,
     environment_folders,
     fingerprint,
@@ -30,6 +31,11 @@ from pigaming_app.boot.interpreter import (
 )
 
 PIP_OPTIONS = ("--only-binary=:all:", "--no-input", "--disable-pip-version-check", "--retries=2", "--progress-bar=off")
+CONSTRAINTS = ROOT / "constraints.txt"  # the versions to install; `python -m tests.constraints` renews them
+UNSUITABLE = r"No matching distribution|conflicting dependencies|Could not open requirements file"  # messages of pip
+UNCONSTRAINED = (
+    "constraints.txt does not suit this Python or system: taking the newest versions in pyproject.toml's ranges."
+)
 NOT_ALLOWED = {errno.EACCES, errno.EPERM, errno.EROFS}
 NO_VENV = (
     "Python's venv module is missing: install it (Debian, Ubuntu, Raspberry Pi OS: sudo apt install python3-venv) "
@@ -162,7 +168,11 @@ def install(place: Path, groups: set[str], downloads: Callable[[str, str, str], 
         installed = packages([site_packages(place)])
         if missing := [requirement for requirement in wanted if is_missing(installed, requirement)]:
             report(f"fetching {_names(missing)} (only once; it may take a minute).")
-        code, output = _run([str(python_of(place)), "-I", "-m", "pip", "install", *PIP_OPTIONS, *wanted], downloads)
+        pip = [str(python_of(place)), "-I", "-m", "pip", "install", *PIP_OPTIONS]
+        code, output = _run([*pip, f"--constraint={CONSTRAINTS}", *wanted], downloads)
+        if code and re.search(UNSUITABLE, output):
+            report(UNCONSTRAINED)
+            code, output = _run([*pip, *wanted], downloads)
         if code:
             raise StartError(_cause(output, place, wanted))
         _write(place / "ready", "\n".join([fingerprint(place), *sorted(groups)]))

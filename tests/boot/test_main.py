@@ -21,7 +21,7 @@ from pigaming_app.boot import fetch, interpreter, start
 
 ROOT = Path(__file__).resolve().parents[2]
 BARE = sys._base_executable
-FILES = ("main.py", "pyproject.toml", "pigaming_app/__init__.py", "pigaming_app/boot/__init__.py")
+FILES = ("main.py", "pyproject.toml", "constraints.txt", "pigaming_app/__init__.py", "pigaming_app/boot/__init__.py")
 FILES += tuple(f"pigaming_app/boot/{name}.py" for name in ("start", "interpreter", "environment", "fetch", "version"))
 JOB = """
 import sys
@@ -37,6 +37,7 @@ from pathlib import Path
 if "--version" in sys.argv:
     sys.exit()
 wanted = [word for word in sys.argv[2:] if not word.startswith("-")]
+constrained = any(word.startswith("--constraint=") and os.path.exists(word.partition("=")[2]) for word in sys.argv)
 with open(Path(__file__).parent / "calls", "a") as calls:
     print(*wanted, file=calls)
 mood = os.environ.get("MOOD", "")
@@ -45,6 +46,8 @@ if mood == "endless":
 elif mood == "slow":
     while not os.path.exists(os.environ["MET"]):
         time.sleep(0.02)
+elif mood == "outdated" and constrained:
+    sys.exit("ERROR: No matching distribution found for numpy==2.4.6")
 elif mood and (mood.partition(":")[0] in " ".join(wanted)):
     sys.exit("ERROR: " + mood.partition(":")[2])
 """
@@ -208,6 +211,31 @@ def test_other_requirements_are_installed_when_the_list_has_changed(furnished):
     assert "tqdm" in calls(furnished)[-1]
 
 
+# Versions
+
+
+def test_versions_that_cannot_be_installed_give_way_to_the_ranges_with_one_line(furnished):
+    ended = started(furnished, MOOD="outdated")
+    assert ended.stdout == f"{furnished / '.venv'}\n"
+    assert ended.stderr.count(install.UNCONSTRAINED) == 1
+    first, second = calls(furnished)
+    assert first == second
+
+
+def test_offline_the_versions_are_tried_once(furnished):
+    refused(started(furnished, MOOD="numpy:WARNING: Retrying after connection broken"))
+    assert len(calls(furnished)) == 1
+
+
+def test_each_package_that_a_job_installs_has_a_version_within_its_range():
+    lines = [line for line in install.CONSTRAINTS.read_text().splitlines() if not line.startswith("#")]
+    for requirement in interpreter.requirements([interpreter.ARCADE, *extras()]):
+        name = re.split("[<>]", requirement)[0]
+        versions = [line.partition("==")[2].split(" ;")[0] for line in lines if line.startswith(f"{name}==")]
+        assert versions, name
+        assert not any(interpreter.is_missing({name: version}, requirement) for version in versions)
+
+
 # The first start
 
 
@@ -358,13 +386,15 @@ def test_a_version_fits_or_not(requirement, version, lacking):
     assert interpreter.is_missing({"numpy": version}, requirement) is lacking
 
 
+def extras():
+    return {*tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]}
+
+
 def test_the_project_file_has_only_requirements_that_boot_supports():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    extras = project["optional-dependencies"]
-    for one in [*project["dependencies"], *(one for extra in extras.values() for one in extra)]:
+    for one in interpreter.requirements([interpreter.ARCADE, *extras()]):
         assert re.fullmatch(r"[a-z0-9-]+>=[\d.]+,<[\d.]+", one)
     named = {name for groups in (start.NEEDED, start.OPTIONAL) for names in groups.values() for name in names}
-    assert named | {*start.EXTRA_OF_WORD.values(), *start.EXTRA_OF_FILE.values()} <= set(extras)
+    assert named | {*start.EXTRA_OF_WORD.values(), *start.EXTRA_OF_FILE.values()} <= extras()
 
 
 def test_no_registry_is_named():

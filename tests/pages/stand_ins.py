@@ -94,6 +94,7 @@ ELSEWHERE = (
     Elsewhere(r".*tests\.bench\.reproduce_table.*", MINUTES_LONG, "tests/bench/test_reproduce_table.py"),
     Elsewhere(r".*tests\.bench\.figures.*", MINUTES_LONG, "tests/pages/test_figures.py"),
     Elsewhere(r".*tests\.pages\.pictures", "it writes into the project", "tests/pages/test_pictures.py"),
+    Elsewhere(r".*tests\.constraints", "it needs uv, and writes into the project", "tests/boot/test_main.py"),
     Elsewhere(r"python3 examples/ppo_torch\.py .*", "it needs PyTorch", "examples/ppo_torch.py"),
     Elsewhere(r"(pip|pipx|uvx|uv|.*-m pip) .*", "packages are fetched", "tests/test_package.py"),
     Elsewhere(r"sudo .*", "packages of the system", ".ci/run"),
