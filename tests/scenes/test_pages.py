@@ -166,9 +166,7 @@ def hints(scene: Scene, device: Device) -> Iterator[ButtonPrompts]:
         yield scene.page.prompts
     elif isinstance(scene, ControlsTest):
         yield scene._prompts()
-    elif isinstance(scene, MatchSetupPage):
-        yield scene.navigation.prompts
-    elif isinstance(scene, OptionsPage):
+    elif isinstance(scene, MatchSetupPage | OptionsPage):
         yield scene.prompts
 
 

@@ -18,20 +18,19 @@ from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, fit_text, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, heading
+from pigaming_app.ui.widgets.labels import black_out
 
-IDLE = 60.0  # s without input before the return to the title
 ROWS, TOP, HIGH, PITCH = 7, 212, 88, 104  # px; the first row begins a new event
 NEW = "new"
 SEEDS = 10_000  # an event's fixtures derive theirs from this one
@@ -39,19 +38,15 @@ SEEDS = 10_000  # an event's fixtures derive theirs from this one
 log = logging.getLogger("pigaming")
 
 
-class EventsPage:
+class EventsPage(Page):
     """The list of events, the one played last first."""
 
+    title, idle = "events.title", 60.0
+    hints = ((Button.FIRE, "events.hint_choose"), (Button.Y, "events.hint_manage"), (Button.BACK, "events.hint_back"))
+
     def __init__(self, context: Context) -> None:
-        self.context = context
+        super().__init__(context, Focus([FocusSpot(NEW, row_box(0))]))
         self.saved: list[event_files.Listed] = []
-        hints = [
-            (Button.FIRE, "events.hint_choose"),
-            (Button.Y, "events.hint_manage"),
-            (Button.BACK, "events.hint_back"),
-        ]
-        self.focus = Focus([FocusSpot(NEW, row_box(0))])
-        self.navigation = Navigation(context, self.focus, hints, IDLE)
 
     def on_enter(self) -> None:
         """Read the list of events."""
@@ -61,34 +56,33 @@ class EventsPage:
             [FocusSpot(name, row_box(i)) for i, name in enumerate((NEW, *map(str, range(len(self.saved)))))]
         )
 
-    def handle(self, event: InputEvent) -> StackOperation:
+    def press(self, event: InputEvent) -> StackOperation:
         """FIRE opens an event, or begins a new one; Y manages an event."""
-        event = self.navigation.prompts.as_button(event)
         if event.button is Button.Y and self.focus.name != NEW:
             self.context.sounds.play("accept")
             listed = self.saved[int(self.focus.name)]
             running = RunningEvent(listed.path, listed.event) if listed.event else None
             return Push(EventPage(self.context, listed.path, running, Pop()))
-        chosen = self.focus.activated(event)
-        if chosen is None:
-            return self.navigation.handle(event)
-        if chosen == NEW:
+        return super().press(event)
+
+    def choose(self, name: str, event: InputEvent) -> StackOperation:
+        if name == NEW:
             self.context.sounds.play("accept")
             return Push(SetupPage(self.context, Draft(), self.begin))
-        listed = self.saved[int(chosen)]
+        listed = self.saved[int(name)]
         if listed.event is None:
             self.context.sounds.play("refused")
             return None
         self.context.sounds.play("accept")
         return Push(page_of(self.context, RunningEvent(listed.path, listed.event)))
 
-    def update(self, seconds: float) -> StackOperation:
-        return self.navigation.update(seconds)
+    @property
+    def subtitle(self) -> str:
+        return self.context.words("events.invitation")
 
-    def draw(self, screen: pygame.Surface) -> None:
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the rows."""
         words = self.context.words
-        screen.blit(backdrop(), (0, 0))
-        heading(words("events.title"), words("events.invitation")).draw(screen)
         black_out(screen, *(spot.rect for spot in self.focus.spots))
         for i, spot in enumerate(self.focus.spots):
             hot = spot.name == self.focus.name
@@ -99,7 +93,6 @@ class EventsPage:
         if not self.saved:
             text(words("events.none"), LABEL, MIST, "head").draw(screen, 960, 560)
         self.focus.draw(screen)
-        self.navigation.prompts.draw(screen)
 
     def begin(self, draft: Draft) -> StackOperation | str:
         """Make and save a new event; returns the page of its first match, or the sentence why there is none."""

@@ -5,46 +5,44 @@ import pygame
 from pigaming_app.events.ladder import ALL, climbed_games, stars_and_losses, table_of
 from pigaming_app.scenes.flow.brain_names import LIT
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.ladder.climber import Climber, begun, device_of, resumable_climbs
 from pigaming_app.scenes.ladder.climbers import Climbers, game_name
 from pigaming_app.scenes.ladder.rungs import LadderPage
 from pigaming_app.scenes.ladder.strengths import Strengths
 from pigaming_app.scenes.ladder.summit import Summit
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.game_tile import TILE_H, TileStrip, tile
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST, STEEL, dim, panel
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, dim, panel
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, heading
+from pigaming_app.ui.widgets.labels import black_out
 
-IDLE = 60.0  # s without input before the return to the title
-MESSAGE_SECONDS = 6.0  # s, display time of a message
 TOP = 212  # px
 ALL_BOX = pygame.Rect(LEFT, TOP + TILE_H + 24, RIGHT - LEFT, 132)
 RULES_Y = 876
-HINTS = [
-    (Button.FIRE, "ladder.hint_ok"),
-    (Button.Y, "ladder.hint_climbers"),
-    (Button.X, "ladder.hint_strengths"),
-    (Button.BACK, "ladder.hint_back"),
-]
 
 
-class LadderChoice:
+class LadderChoice(Page):
     """The page with a tile for each game, and one for all. `game`: focused at first."""
 
+    title = "ladder.title"
+    idle, stay = 60.0, 6.0
+    hints = (
+        (Button.FIRE, "ladder.hint_ok"),
+        (Button.Y, "ladder.hint_climbers"),
+        (Button.X, "ladder.hint_strengths"),
+        (Button.BACK, "ladder.hint_back"),
+    )
+
     def __init__(self, context: Context, game: str) -> None:
-        self.context = context
         self.tiles = TileStrip(climbed_games(), TOP)
-        self.focus = Focus(self._spots(), game)
+        super().__init__(context, Focus(self._spots(), game))
         self._follow()
-        self.navigation = Navigation(context, self.focus, HINTS, IDLE, MESSAGE_SECONDS)
         self.saved: dict[str, Climber] = {}
 
     def on_enter(self) -> None:
@@ -52,11 +50,10 @@ class LadderChoice:
         self.context.sounds.music(True)
         self.saved, damaged = resumable_climbs()
         if damaged:
-            self.navigation.show_message(self.context.words("ladder.damaged"))
+            self.show_message(self.context.words("ladder.damaged"), wrong=True)
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """FIRE chooses a ladder, Y shows the best climbers, X the strength of the AIs, BACK leaves."""
-        event = self.navigation.prompts.as_button(event)
+    def press(self, event: InputEvent) -> StackOperation:
+        """FIRE chooses a ladder, Y shows the best climbers, X the strength of the AIs."""
         if event.button is Button.Y:
             self.context.sounds.play("accept")
             return Push(Climbers(self.context, self.focus.name))
@@ -64,31 +61,30 @@ class LadderChoice:
             self.context.sounds.play("accept")
             climbed = climbed_games()
             return Push(Strengths(self.context, self.focus.name if self.focus.name in climbed else climbed[0]))
-        chosen = self.focus.activated(event)
-        if chosen is None:
-            operation = self.navigation.handle(event)
-            self._follow()
-            return operation
+        turn = super().press(event)
+        self._follow()
+        return turn
+
+    def choose(self, name: str, event: InputEvent) -> StackOperation:
         self.context.sounds.play("accept")
-        return Push(self._page(chosen, event))
+        return Push(self._page(name, event))
 
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         self.tiles.update(seconds)
-        return self.navigation.update(seconds)
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    @property
+    def subtitle(self) -> str:
+        return self.context.words("ladder.invitation")
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the tiles and the rules."""
         words = self.context.words
-        screen.blit(backdrop(), (0, 0))
-        heading(words("ladder.title"), words("ladder.invitation")).draw(screen)
         self.tiles.draw(screen, self._tile)
         black_out(screen, ALL_BOX)
         wide_tile(game_name(words, ALL), self._line(ALL), self.focus.name == ALL).draw(screen, *ALL_BOX.topleft)
         self.focus.draw(screen)
         text(words("ladder.rules"), BODY, MIST).draw(screen, 960, RULES_Y)
-        if self.navigation.sentence:
-            caption(self.navigation.sentence, ALARM).draw(screen, 960, self.navigation.prompts.y)
-        else:
-            self.navigation.prompts.draw(screen)
 
     # ---- inside
 

@@ -3,7 +3,6 @@
 Any seated device may operate it: up and down select a row, left and right change its value, FIRE starts.
 """
 
-import logging
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
@@ -18,27 +17,24 @@ from pigaming_app.scenes.features.registry import draw_arena
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, change_rules, last_choice, load_cached, playable_arenas
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import match_setup_view as choice
 from pigaming_app.scenes.lobby.seats import EMPTY, Seats
+from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.results.high_score_tables import contest, format_score, table_of
 from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import PLAYERS, reads_large
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage, backdrop, span
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, frame, heading
+from pigaming_app.ui.widgets.labels import black_out, frame
 
-IDLE = 60.0  # s without input before the return to the title
 INPUT_LOCKOUT = 0.35  # s during which a start is ignored, because players may still hammer on "ready"
 SLIDE_SECONDS = 0.18  # s, slide-in of another arena
 FRAME = pygame.Rect(LEFT, 216, span(0, 8)[1], 660)
@@ -46,49 +42,53 @@ PICTURE = FRAME.inflate(-24, -24)
 MARGIN = 8  # px around the arena preview
 ROW_X, ROW_W = span(8, 4)
 GO = pygame.Rect(ROW_X, 780, ROW_W, 96)
-log = logging.getLogger(__name__)
 
 
-class MatchSetupPage:
+class MatchSetupPage(Page):
     """Setup page for the match of `seats`. `game_choice`: see `Results`."""
 
+    title, idle = "setup.title", 60.0
+
     def __init__(self, context: Context, game: str, seats: Seats, game_choice: SceneFactory | None = None) -> None:
+        self.access = Access(context, seats.devices)
         self.context, self.game, self.seats, self.game_choice = context, games()[game], seats, game_choice
         self.arenas = playable_arenas(game)
         self.versions: dict[str, str] = {}  # of the user's own arenas
         self.chosen = last_choice(context, game)
         self.rows = rows(self.game, self.variant)
-        self.clock, self.slide, self.direction = 0.0, SLIDE_SECONDS, 1
-        self.access = Access(context, seats.devices)
+        self.slide, self.direction = SLIDE_SECONDS, 1
         self.going = False  # start requested, waiting for the preloader
         self.things: tuple[ThingSpec, ...] = ()  # on the mat, for a match with real robots
-        build = [(Button.Y, "things.hint_build")] if self._on_mat else []
         self.editor = draw_arena(context, game)
+        spots = [FocusSpot(name, box) for name, box in self.rows.items()]
+        super().__init__(context, Focus(spots, "arena"), self.access)
+
+    @property
+    def hints(self) -> Hints:
+        build = [(Button.Y, "things.hint_build")] if self._on_mat else []
         draw = [(Button.X, "setup.hint_editor")] if self.editor else []
-        hints = [(Button.FIRE, "setup.hint_go"), (Button.RIGHT, "setup.hint_change"), *build, *draw]
-        hints.append((Button.BACK, "setup.hint_back"))
-        self.focus = Focus([FocusSpot(name, box) for name, box in self.rows.items()], "arena")
-        self.navigation = Navigation(context, self.focus, hints, IDLE, device=lambda: self.access.hint_device)
+        change = [(Button.FIRE, "setup.hint_go"), (Button.RIGHT, "setup.hint_change")]
+        return [*change, *build, *draw, (Button.BACK, "setup.hint_back")]
 
     def on_enter(self) -> None:
         """Reset on first display and on return from the results."""
-        self.clock, self.going = 0.0, False
+        self.age, self.going = 0.0, False
         self.context.sounds.music(True)
         self._find_arenas()
         if self._on_mat and self.context.mat:
             self.things = self.context.mat.things
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """Change a value, start or go back."""
-        admitted = self.access.admit(self.navigation.prompts.as_button(event))
-        if admitted is None or self.going:
-            return None
-        event = admitted
+        """Nothing counts while the match is loaded."""
+        return None if self.going else super().handle(event)
+
+    def press(self, event: InputEvent) -> StackOperation:
+        """Change a value or start."""
         match event.button:
             case Button.LEFT | Button.RIGHT:
                 self._change(self.focus.name, 1 if event.button is Button.RIGHT else -1)
             case Button.FIRE | Button.START:
-                return self._go() if self.clock > INPUT_LOCKOUT else None
+                return self._go() if self.age > INPUT_LOCKOUT else None
             case Button.Y if self._on_mat and self.context.mat:
                 self.context.sounds.play("accept")
                 return Push(self.context.mat.arena_page(self.seats.devices))
@@ -99,25 +99,18 @@ class MatchSetupPage:
                 self.focus.handle(event)
                 return self._click(event)
             case _:
-                return self.navigation.handle(event)
+                return super().press(event)
         return None
 
-    def update(self, seconds: float) -> StackOperation:
-        """Animate the preview; go back if a seat lost its device, leave when abandoned."""
-        self.clock += seconds
+    def advance(self, seconds: float) -> StackOperation:
+        """Animate the preview; go back if a seat lost its device."""
         if any(device and not self.context.controls.connected(device) for device in self.seats.devices()):
             return Pop()
-        if self.access.update(seconds):
-            self.context.sounds.play("back")
-            return Pop()
         self.slide = min(SLIDE_SECONDS, self.slide + seconds)
-        turn = self.navigation.update(seconds)
-        return self._begin() if self.going else turn
+        return self._begin() if self.going else None
 
-    def draw(self, screen: pygame.Surface) -> None:
-        words = self.context.words
-        screen.blit(backdrop(), (0, 0))
-        heading(words("setup.title")).draw(screen)
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the preview and the rows."""
         choice.lineup(self._lineup()).draw(screen, RIGHT, 112)
         black_out(screen, FRAME, *self.rows.values())
         self._picture(screen)
@@ -126,7 +119,6 @@ class MatchSetupPage:
         self._records(screen)
         choice.focus_outline(self.rows[self.focus.name].h).draw(screen, *self.rows[self.focus.name].topleft)
         self.focus.draw(screen)
-        self.navigation.prompts.draw(screen)
 
     # ---- inside
 
@@ -148,7 +140,8 @@ class MatchSetupPage:
         return mat is not None and mat.scans and bool(self.seats.real())
 
     def _go(self) -> StackOperation:
-        self._save_selection()
+        if self.context.settings.keep_choices:
+            self.save()
         self.context.sounds.play("accept")
         self.going = True
         return self._begin()
@@ -172,15 +165,6 @@ class MatchSetupPage:
         now = self.chosen
         seats, minutes = self.seats.seats(), float(self._minutes)
         return Setup(self.game.name, now.arena, seats, minutes, 0, now.variant, now.goal)
-
-    def _save_selection(self) -> None:
-        """Save the selection for the next start, if visitors' choices are kept."""
-        if not self.context.settings.keep_choices:
-            return
-        try:
-            self.context.settings.save(folders().config)
-        except NotSaved as error:
-            log.warning("%s", error)
 
     def _row(self, name: str) -> LitImage:
         """Render a row."""
@@ -302,7 +286,7 @@ class MatchSetupPage:
         choice.draw_things(screen, self.things, (x0 + dx, y0), k)
         starts = start_positions(self._setup())
         for i, _ in self._lineup():
-            stage = int((self.clock * 0.7 + 0.25 * i) % 1.0 * 1.5 * effects.WAVE_STEPS)
+            stage = int((self.age * 0.7 + 0.25 * i) % 1.0 * 1.5 * effects.WAVE_STEPS)
             if stage < effects.WAVE_STEPS // 2:
                 wave = effects.wave(PLAYERS[i], stage)
                 screen.blit(

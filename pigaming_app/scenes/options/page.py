@@ -63,9 +63,9 @@ class OptionsPage(SettingsPage):
     def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
         added = added_rows().get(name)
         if added:
-            pictures.added(added.picture, int(self.clock * 2) % 2).draw(screen, *CENTRE)
+            pictures.added(added.picture, int(self.age * 2) % 2).draw(screen, *CENTRE)
         else:
-            pictures.sketch(screen, name, chosen, self.clock)
+            pictures.sketch(screen, name, chosen, self.age)
 
     def held(self) -> StackOperation:
         """Clear the high scores and ghosts."""

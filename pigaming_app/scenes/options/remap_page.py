@@ -55,7 +55,7 @@ class RemapPage(SettingsPage):
         return None
 
     def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
-        lit = not self.awaited or self.clock % 1.0 < 0.5
+        lit = not self.awaited or self.age % 1.0 < 0.5
         pictures.key(name, self._sign, lit).draw(screen, *dials.CENTRE)
 
     # ---- rows

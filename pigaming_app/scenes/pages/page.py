@@ -30,13 +30,14 @@ class Page:
     """A scene with a heading and prompts. `focus`: of its elements; `gate`: decides who may press, else everybody."""
 
     title = ""  # key of the heading
-    idle = 90.0  # s without input until `when_idle`
+    idle = 90.0  # s without input
+    when_idle: StackOperation = Home()  # after them
     stay = 4.0  # s for which a message is shown
     prompts_y, prompts_room = 980, ROOM  # px
 
     def __init__(self, context: Context, focus: Focus | None = None, gate: Access | None = None) -> None:
         self.context, self.focus, self.gate = context, focus or Focus([NOWHERE]), gate
-        self.clock = 0.0  # s since it was opened
+        self.age = 0.0  # s since it was opened
         self.wrong = False  # the message is bad news
         self._message, self._message_left = "", 0.0
 
@@ -72,10 +73,6 @@ class Page:
         """Advance what moves on the page, by `seconds` of real time."""
         return None
 
-    def when_idle(self) -> StackOperation:
-        """Nobody has touched the page for a while."""
-        return Home()
-
     def paint(self, screen: pygame.Surface) -> None:
         """Draw what lies between heading and prompts."""
 
@@ -95,12 +92,12 @@ class Page:
 
     def update(self, seconds: float) -> StackOperation:
         """Animate; leave after a while without input."""
-        self.clock += seconds
+        self.age += seconds
         self._message_left -= seconds
         self.focus.update(seconds)
         if self.gate and self.gate.update(seconds):
             return self.leave()
-        return self.advance(seconds) or (self.when_idle() if self.context.idle > self.idle else None)
+        return self.advance(seconds) or (self.when_idle if self.context.idle > self.idle else None)
 
     def draw(self, screen: pygame.Surface) -> None:
         screen.blit(backdrop(), (0, 0))

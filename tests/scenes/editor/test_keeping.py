@@ -231,7 +231,7 @@ def test_an_arena_is_played_renamed_shared_and_deleted(mouse: Mouse, home: Path)
     arcade.press(Button.FIRE)
     (shared,) = (home / "data" / "shared").glob("*.toml")
     assert shared.read_text() == load("race", page.name).source
-    assert str(shared) in page.navigation.sentence
+    assert str(shared) in page.message
     arcade.press(Button.DOWN)
     arcade.press(Button.FIRE)
     assert own_arenas("race")
@@ -243,7 +243,7 @@ def test_an_arena_is_played_renamed_shared_and_deleted(mouse: Mouse, home: Path)
 def test_in_a_kiosk_nothing_is_deleted_or_replaced(mouse: Mouse) -> None:
     mouse.arcade.context.kiosk = True
     store.save("race", "mine", store.titled(drawing_of(load("race", "classic").source), "MINE"), "new-1")
-    assert DrawingPage(mouse.arcade.context, "race", "mine").rows == ["edit", "play"]
+    assert [spot.name for spot in DrawingPage(mouse.arcade.context, "race", "mine").focus.spots] == ["edit", "play"]
     naming = NamePage(mouse.arcade.context, "race", "new-1", "MINE", lambda name: None)
     assert not naming.is_possible("MINE")
     assert naming.is_possible("OURS")

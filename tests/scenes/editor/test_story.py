@@ -119,7 +119,7 @@ def test_a_game_without_tools_has_no_editor(arcade: Arcade, monkeypatch: pytest.
     monkeypatch.delitem(cast(dict[str, object], EDITORS), "football")
     page = MatchSetupPage(arcade.context, "football", seats("football"))
     arcade.open(page)
-    assert Button.X not in page.navigation.prompts.buttons
+    assert Button.X not in page.prompts.buttons
     arcade.press(Button.X)
     assert arcade.stack.top is page
     arcade.open(Gallery(arcade.context, "football"))

@@ -170,7 +170,7 @@ def test_a_list_is_pasted_or_dropped_and_a_bad_one_is_refused(arcade: Arcade, tm
     arcade.context.dropped += [tmp_path / "list.csv", tmp_path / "list.bin", tmp_path / "nowhere.txt"]
     arcade.frame(draw=True)
     assert len(page.draft.entrants) == 7
-    assert page.navigation.sentence == "nowhere.txt: " + arcade.context.words("events.unread")
+    assert page.message == "nowhere.txt: " + arcade.context.words("events.unread")
     page.focus.move_to("0")
     arcade.press(Button.X)
     assert page.draft.entrants[0].name == "Bea"
@@ -192,11 +192,11 @@ def test_a_list_is_refused_as_a_whole_with_file_line_and_reason(
     page = EntrantsPage(arcade.context, Draft(), lambda draft: "no")
     page.add_list(text)
     assert page.draft.entrants == []
-    assert page.navigation.sentence == arcade.context.words(f"events.{key}", **words)
+    assert page.message == arcade.context.words(f"events.{key}", **words)
     (tmp_path / "list.csv").write_text(text, encoding="utf-8")
     arcade.context.dropped.append(tmp_path / "list.csv")
     page.update(0.1)
-    assert page.navigation.sentence == "list.csv: " + arcade.context.words(f"events.{key}", **words)
+    assert page.message == "list.csv: " + arcade.context.words(f"events.{key}", **words)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -208,7 +208,7 @@ def test_what_is_said_of_a_list_is_legible_on_the_page(arcade: Arcade, language:
     lists = (name, "Ana\nAna", f"Ana,a,b,{name}", f"Ana={name}", "\n".join(f"N{i}" for i in range(99)))
     for text in (*lists, f"Name;Anmerkungen;Jahrgangsstufe;{name};Klassenleitung\nAna\nBea\n"):
         page.add_list(text, "Anmeldungen Tag der offenen Tür.csv")
-        assert fit_size(page.navigation.sentence, BODY, SENTENCE_ROOM, "body") >= 36, page.navigation.sentence
+        assert fit_size(page.message, BODY, SENTENCE_ROOM, "body") >= 36, page.message
     assert len(page.draft.entrants) == 2
 
 
@@ -218,28 +218,28 @@ def test_the_clipboard_may_be_empty(arcade: Arcade) -> None:
     page.focus.move_to("paste")
     arcade.press(Button.FIRE)
     assert page.draft.entrants == []
-    assert page.navigation.sentence
+    assert page.message
 
 
 def test_too_few_entrants_do_not_begin(arcade: Arcade) -> None:
     page = EntrantsPage(arcade.context, Draft(entrants=[Entrant("ANA"), Entrant("BEA")]), lambda draft: "never asked")
     arcade.open(page)
     arcade.press(Button.START)
-    assert page.navigation.sentence == arcade.context.words("events.few", fewest=3)
+    assert page.message == arcade.context.words("events.few", fewest=3)
 
 
 def test_only_what_can_be_done_now_is_offered(arcade: Arcade) -> None:
     page = EntrantsPage(arcade.context, Draft(Format.GRAND_PRIX), lambda draft: "")
     arcade.open(page)
     page.draw(arcade.screen)
-    assert page.navigation.prompts.buttons == [Button.FIRE, Button.BACK]
+    assert page.prompts.buttons == [Button.FIRE, Button.BACK]
     page.add_list("AAA\nBBB\nCCC")
-    page.navigation.update(9.0)
+    page.update(9.0)
     page.draw(arcade.screen)
-    assert page.navigation.prompts.buttons == [Button.FIRE, Button.START, Button.BACK]
+    assert page.prompts.buttons == [Button.FIRE, Button.START, Button.BACK]
     arcade.press(Button.UP)
     page.draw(arcade.screen)
-    assert page.navigation.prompts.buttons == [Button.X, Button.Y, Button.START, Button.BACK]
+    assert page.prompts.buttons == [Button.X, Button.Y, Button.START, Button.BACK]
 
 
 @pytest.mark.parametrize("form", Format)

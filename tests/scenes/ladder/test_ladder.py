@@ -211,7 +211,7 @@ def test_a_damaged_file_is_told_in_one_line_and_a_full_disk_too(
     (folders().data / climb_files.FILE).write_bytes(b"\xff\xfe broken")
     choice = arcade.shown(LadderChoice)
     choice.on_enter()
-    assert choice.navigation.sentence == arcade.context.words("ladder.damaged")
+    assert choice.message == arcade.context.words("ladder.damaged")
     arcade.shown(LadderChoice)
     monkeypatch.setattr(climb_files, "write_with_backup", refuse)
     arcade.open(LadderPage(arcade.context, Climber(Climb("pitanks"), 1, KEYS[0])))

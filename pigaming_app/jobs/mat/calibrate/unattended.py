@@ -95,7 +95,7 @@ def calibrate(seed: int, robot: bool = False, view: str = "good", anyway: bool =
             while page.focus.name not in ("save", "anyway"):
                 operator.press(Button.RIGHT)
             operator.press(Button.FIRE)
-            trouble = page.navigation.sentence or None
+            trouble = page.message or None
         elif finding.accurate and finding.ground and finding.ground.quality.advice:
             trouble = english().long_sentence(finding.ground.quality.advice)
         saved = operator.stack.top is operator.page

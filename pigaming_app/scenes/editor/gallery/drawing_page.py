@@ -12,67 +12,64 @@ from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box
-from pigaming_app.ui.draw.layers import LEFT, Layer, LitImage, backdrop, span
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box
+from pigaming_app.ui.draw.layers import LEFT, Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, frame, heading
 
-IDLE, STAY, CONFIRM_SECONDS = 90.0, 6.0, 3.0  # s
+CONFIRM_SECONDS = 3.0
 FRAME = pygame.Rect(LEFT, 216, span(0, 8)[1], 660)
 ROW_X, ROW_W = span(8, 4)
 ROW_H, PITCH = 96, 114  # px
 SIGNS = {"edit": "pencil", "play": "play", "rename": "rename", "share": "share", "delete": "delete"}
-SENTENCE_Y = 906
 
 
-class DrawingPage:
+class DrawingPage(Page):
     """The page of an arena or a draft of the user."""
 
+    stay = 6.0
+    hints = ((Button.FIRE, "editor.hint_choose"), (Button.BACK, "editor.hint_back"))
+
     def __init__(self, context: Context, game: str, name: str) -> None:
-        self.context, self.game, self.name = context, game, name
+        self.game, self.name = game, name
         self.drawing = store.opened(game, name)
         self.confirm_left = 0.0
-        self.focus = Focus([FocusSpot(row, row_box(i)) for i, row in enumerate(self.rows)])
-        hints = [(Button.FIRE, "editor.hint_choose"), (Button.BACK, "editor.hint_back")]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, STAY)
-
-    @property
-    def rows(self) -> list[str]:
-        """What can be done. In a kiosk nothing can be deleted or renamed."""
-        return [row for row in SIGNS if not self.context.kiosk or row in ("edit", "play")]
+        rows = [row for row in SIGNS if not context.kiosk or row in ("edit", "play")]  # nothing is deleted or renamed
+        super().__init__(context, Focus([FocusSpot(row, row_box(i)) for i, row in enumerate(rows)]))
 
     def on_enter(self) -> None:
         """Read the drawing again, as it may have been changed and renamed."""
         self.context.sounds.music(True)
         self.drawing = store.opened(self.game, self.name)
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        event = self.navigation.prompts.as_button(event)
-        chosen = self.focus.activated(event)
-        if chosen:
-            self.focus.move_to(chosen)
-            return self._do(chosen, event, self.drawing) if self.drawing else Pop()
-        before, turn = self.focus.name, self.navigation.handle(event)
+    def press(self, event: InputEvent) -> StackOperation:
+        """Whoever moves on does not delete."""
+        before = self.focus.name
+        turn = super().press(event)
         self.confirm_left = self.confirm_left if self.focus.name == before else 0.0
         return turn
 
-    def update(self, seconds: float) -> StackOperation:
-        self.confirm_left -= seconds
-        if self.drawing is None:
-            return Pop()
-        return self.navigation.update(seconds)
+    def choose(self, name: str, event: InputEvent) -> StackOperation:
+        return self._do(name, event, self.drawing) if self.drawing else Pop()
 
-    def draw(self, screen: pygame.Surface) -> None:
+    def advance(self, seconds: float) -> StackOperation:
+        self.confirm_left -= seconds
+        return None if self.drawing else Pop()
+
+    @property
+    def heading(self) -> LitImage:
+        return heading(self.drawing_title, self.context.words(f"games.{self.game}"))
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the arena and the rows."""
         words = self.context.words
-        screen.blit(backdrop(), (0, 0))
-        heading(self.title, words(f"games.{self.game}")).draw(screen)
         black_out(screen, FRAME, *(spot.rect for spot in self.focus.spots))
         if self.drawing:
             inner = FRAME.inflate(-24, -24)
@@ -82,13 +79,10 @@ class DrawingPage:
             asked = spot.name == "delete" and self.confirm_left > 0.0
             key = "editor.sure" if asked else f"editor.{spot.name}"
             row(SIGNS[spot.name], words(key), spot.name == self.focus.name).draw(screen, *spot.rect.topleft)
-        if sentence := self.navigation.sentence:
-            text(sentence, BODY, FOCUS).draw(screen, 960, SENTENCE_Y)
         self.focus.draw(screen)
-        self.navigation.prompts.draw(screen)
 
     @property
-    def title(self) -> str:
+    def drawing_title(self) -> str:
         found = store.title_of(self.drawing, self.context.words.language) if self.drawing else ""
         return found or self.name
 
@@ -105,7 +99,7 @@ class DrawingPage:
                 return self._play(event)
             case "rename":
                 self.context.sounds.play("accept")
-                return Push(NamePage(self.context, self.game, self.name, self.title, self._rename))
+                return Push(NamePage(self.context, self.game, self.name, self.drawing_title, self._rename))
             case "share":
                 self._share(drawing)
             case _:
@@ -151,7 +145,7 @@ class DrawingPage:
         return Pop()
 
     def _say(self, key: str, wrong: bool = False, **values: object) -> None:
-        self.navigation.show_message(self.context.words(key, **values))
+        self.show_message(self.context.words(key, **values), wrong)
         self.context.sounds.play("refused" if wrong else "accept")
 
 

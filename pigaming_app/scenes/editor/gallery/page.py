@@ -18,20 +18,15 @@ from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import load_cached
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.sim.arena import ArenaError
-from pigaming_app.ui.draw import ALARM, BODY
-from pigaming_app.ui.draw.layers import backdrop
-from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, heading
+from pigaming_app.ui.widgets.labels import black_out
 
-IDLE = 90.0  # s without input until the title
 SHOWN = COLUMNS * ROWS
 SURPRISES = 1_000_000  # seeds
-MESSAGE_Y = 930  # px
 
 
 @dataclass(frozen=True)
@@ -59,8 +54,11 @@ class Surprise:
             self.drawing = drawing_of(self._make(secrets.randbelow(SURPRISES)))
 
 
-class Gallery:
+class Gallery(Page):
     """The gallery of a game, which Y changes to the next one."""
+
+    title = "editor.title"
+    hints = ((Button.FIRE, "editor.hint_open"), (Button.Y, "editor.hint_game"), (Button.BACK, "editor.hint_back"))
 
     def __init__(self, context: Context, game: str) -> None:
         self.context = context
@@ -69,9 +67,7 @@ class Gallery:
         self.cards: list[Card] = []
         self.surprise: Surprise | None = None  # being made since it was asked for
         self._read()
-        self.focus = Focus(self._spots())
-        hints = [(Button.FIRE, "editor.hint_open"), (Button.Y, "editor.hint_game"), (Button.BACK, "editor.hint_back")]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, 4.0)
+        super().__init__(context, Focus(self._spots()))
 
     def on_enter(self) -> None:
         """First display, or return from a drawing."""
@@ -80,9 +76,8 @@ class Gallery:
         self._read()
         self._scroll()
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """FIRE opens a card, Y shows the next game, BACK leaves."""
-        event = self.navigation.prompts.as_button(event)
+    def press(self, event: InputEvent) -> StackOperation:
+        """FIRE opens a card, Y shows the next game."""
         if event.button is Button.Y:
             names = [game for game in games() if game in EDITORS]
             self.game = names[(names.index(self.game) + 1) % len(names)]
@@ -91,9 +86,6 @@ class Gallery:
             self.on_enter()
             self.context.sounds.play("move")
             return None
-        if (chosen := self.focus.activated(event)) is not None:
-            self.context.sounds.play("accept")
-            return self.cards[int(chosen)].open()
         if event.button is Button.DOWN and not event.repeat and self._further():
             self.context.sounds.play("move")
             return None
@@ -101,17 +93,22 @@ class Gallery:
             self._show(int(self.focus.name) - COLUMNS)
             self.context.sounds.play("move")
             return None
-        return self.navigation.handle(event)
+        return super().press(event)
 
-    def update(self, seconds: float) -> StackOperation:
-        """Animate; open the surprise that was asked for."""
-        turn = self.navigation.update(seconds)
-        return turn or (self._surprise() if self.surprise else None)
+    def choose(self, name: str, event: InputEvent) -> StackOperation:
+        self.context.sounds.play("accept")
+        return self.cards[int(name)].open()
 
-    def draw(self, screen: pygame.Surface) -> None:
-        words = self.context.words
-        screen.blit(backdrop(), (0, 0))
-        heading(words("editor.title"), words(f"games.{self.game}")).draw(screen)
+    def advance(self, seconds: float) -> StackOperation:
+        """Open the surprise that was asked for."""
+        return self._surprise() if self.surprise else None
+
+    @property
+    def subtitle(self) -> str:
+        return self.context.words(f"games.{self.game}")
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the cards."""
         for i, one in enumerate(self.cards[self.first : self.first + SHOWN], self.first):
             box = view.card_box(i - self.first)
             black_out(screen, box)
@@ -123,9 +120,6 @@ class Gallery:
             else:
                 view.big_sign(one.sign).draw(screen, *box.topleft)
         self.focus.draw(screen)
-        if self.navigation.sentence:
-            text(self.navigation.sentence, BODY, ALARM).draw(screen, 960, MESSAGE_Y)
-        self.navigation.prompts.draw(screen)
 
     # ---- cards
 

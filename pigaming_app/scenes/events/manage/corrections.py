@@ -45,7 +45,7 @@ class ResultsList(Page):
     """The matches that have been played, on pages of ROWS."""
 
     title = "events.results"
-    idle, stay = 60.0, HOLD_IN_KIOSK
+    idle, when_idle, stay = 60.0, Pop(), HOLD_IN_KIOSK
     hints = (
         (Button.FIRE, "events.hint_correct"),
         (Button.Y, "events.hint_again"),
@@ -98,9 +98,6 @@ class ResultsList(Page):
     def advance(self, seconds: float) -> StackOperation:
         """Open a correction once the button has been held long enough."""
         return self._correct(self.focus.name) if self.holding.update(seconds) else None
-
-    def when_idle(self) -> StackOperation:
-        return Pop()
 
     @property
     def subtitle(self) -> str:
@@ -176,7 +173,7 @@ class Correction(SettingsPage):
     """The places of one match, and the reason why they change."""
 
     table, saves = "events", False
-    idle, stay = 60.0, 5.0
+    idle, when_idle, stay = 60.0, Pop(), 5.0
     hints = (
         (Button.RIGHT, "options.hint_change"),
         (Button.X, "events.hint_words"),
@@ -200,9 +197,6 @@ class Correction(SettingsPage):
             title = self.context.words("events.note")
             return Push(TextPage(self.context, title, self.own, MAX_NOTE, self._write))
         return self.activate(SAVE, event) if event.button is Button.START else super().press(event)
-
-    def when_idle(self) -> StackOperation:
-        return Pop()
 
     @property
     def heading(self) -> LitImage:

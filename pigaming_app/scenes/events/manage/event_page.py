@@ -34,7 +34,7 @@ class EventPage(SettingsPage):
     """The event in a file; `running` is None if the file is damaged. `gone`: the way out after it has been deleted."""
 
     table, saves = "events", False
-    idle, stay = 60.0, 5.0
+    idle, when_idle, stay = 60.0, Pop(), 5.0
 
     def __init__(self, context: Context, path: Path, running: RunningEvent | None, gone: StackOperation) -> None:
         self.path, self.running, self.gone = path, running, gone
@@ -95,9 +95,6 @@ class EventPage(SettingsPage):
 
     def held(self) -> StackOperation:
         return {RENAME: self._open_title, DELETE: self._delete}.get(self.focus.name, self._withdraw)()
-
-    def when_idle(self) -> StackOperation:
-        return Pop()
 
     def picture(self, name: str, chosen: int) -> LitImage:
         return sign(SIGNS[name], name != RENAME)

@@ -5,56 +5,51 @@ import pygame
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached, playable_arenas
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, text_width
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text, wrap_balanced
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, heading
+from pigaming_app.ui.widgets.labels import black_out
 
-IDLE = 120.0  # s without input before the return to the title
 HEAD_Y, TOP, HIGH, PITCH, GAP, WIDEST = 246, 300, 94, 104, 24, 640  # px
 ROWS = 6  # arenas of a game that fit
 
 
-class ArenasPage:
+class ArenasPage(Page):
     """The page of a draft."""
 
+    title, idle = "events.arena", 120.0
+    hints = ((Button.FIRE, "events.hint_turn"), (Button.BACK, "events.hint_back"))
+
     def __init__(self, context: Context, draft: Draft) -> None:
-        self.context, self.draft = context, draft
+        self.draft = draft
         self.cells = {
             f"{game} {arena}": (game, arena) for game in draft.games for arena in playable_arenas(game)[:ROWS]
         }
-        self.focus = Focus(self._spots())
-        hints = [(Button.FIRE, "events.hint_turn"), (Button.BACK, "events.hint_back")]
-        self.navigation = Navigation(context, self.focus, hints, IDLE)
+        super().__init__(context, Focus(self._spots()))
 
-    def on_enter(self) -> None:
-        """Nothing to do."""
-
-    def handle(self, event: InputEvent) -> StackOperation:
+    def press(self, event: InputEvent) -> StackOperation:
         """FIRE chooses an arena, or leaves it out; START and BACK return."""
-        event = self.navigation.prompts.as_button(event)
         if event.button is Button.START:
             self.context.sounds.play("accept")
             return Pop()
-        if event.button is Button.CLICK:
-            self.focus.handle(event)
-        if chosen := self.focus.activated(event):
-            self.context.sounds.play("move" if self.draft.toggle_arena(*self.cells[chosen]) else "refused")
-            return None
-        return self.navigation.handle(event)
+        return super().press(event)
 
-    def update(self, seconds: float) -> StackOperation:
-        return self.navigation.update(seconds)
+    def choose(self, name: str, event: InputEvent) -> StackOperation:
+        self.context.sounds.play("move" if self.draft.toggle_arena(*self.cells[name]) else "refused")
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    @property
+    def subtitle(self) -> str:
+        return self.context.words("events.arenas_line")
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw a column for each game."""
         words = self.context.words
-        screen.blit(backdrop(), (0, 0))
-        heading(words("events.arena"), words("events.arenas_line")).draw(screen)
         black_out(screen, *(spot.rect for spot in self.focus.spots))
         for i, game in enumerate(self.draft.games):
             text(words(f"games.{game}"), LABEL, ICE, "head", "l", self._width).draw(screen, self._left(i), HEAD_Y)
@@ -64,7 +59,6 @@ class ArenasPage:
             turn = str(1 + turns.index(arena)) if arena in turns else ""
             cell(title, turn, spot.rect.w, spot.name == self.focus.name).draw(screen, *spot.rect.topleft)
         self.focus.draw(screen)
-        self.navigation.prompts.draw(screen)
 
     # ---- inside
 

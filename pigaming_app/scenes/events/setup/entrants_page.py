@@ -21,21 +21,19 @@ from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.features.registry import saved_brains
 from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.storage.parsing import one_line
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon, text_width
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, fit_text, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, heading
+from pigaming_app.ui.widgets.labels import black_out
 from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 
-IDLE = 180.0  # s without input before the return to the title
-MESSAGE_SECONDS = 4.0
 MAX_LIST = 100_000  # bytes of a dropped file
 MAX_SHOWN, MOST_SHOWN = 20, 44  # characters of a file's name, of a line that is refused; of columns
 SENTENCE_ROOM = RIGHT - LEFT - 60  # px
@@ -43,62 +41,62 @@ TEAMS = 4  # that can be chosen here
 TOP, GAP = 204, 14  # px
 NARROW = 300  # px: a cell with little room for a team
 GRIDS = {32: (4, 80), 66: (6, 58)}  # columns, and px from row to row, by number of entrants at most
-DEEDS_Y, DEED_H, DEED_GAP = 852, 70, 24  # px
+ACTIONS_Y, ACTION_H, ACTION_GAP = 852, 70, 24  # px
 LETTERS, ADD_AI, STRENGTH, PASTE, BEGIN = "letters", "add_ai", "strength", "paste", "begin"
 SIGNS = {LETTERS: "plus", ADD_AI: "ai", PASTE: "list", BEGIN: "play"}
-DEEDS = {LETTERS: 402, ADD_AI: 292, STRENGTH: 272, PASTE: 402, BEGIN: 264}  # px, width of each
+ACTIONS = {LETTERS: 402, ADD_AI: 292, STRENGTH: 272, PASTE: 402, BEGIN: 264}  # px, width of each
 
 Begin = Callable[[Draft], "StackOperation | str"]
 
 log = logging.getLogger("pigaming")
 
 
-class EntrantsPage:
+class EntrantsPage(Page):
     """The page of a draft. `begin`: see `SetupPage`."""
 
+    title, idle = "events.who", 180.0
+
     def __init__(self, context: Context, draft: Draft, begin: Begin) -> None:
-        self.context, self.draft, self.begin = context, draft, begin
+        self.draft, self.begin = draft, begin
         self.brains = brains_for(draft.games)
         self.brain = "level3"
-        self.focus = Focus(self._spots(), LETTERS)
-        self.navigation = Navigation(context, self.focus, self._hints(), IDLE, MESSAGE_SECONDS)
+        super().__init__(context, Focus(self._spots(), LETTERS))
         context.dropped.clear()
 
     def on_enter(self) -> None:
         """First display, or return from the letters."""
         self.focus.set_spots(self._spots())
 
-    def handle(self, event: InputEvent) -> StackOperation:
+    def press(self, event: InputEvent) -> StackOperation:
         """FIRE does what is selected, X removes an entrant, START begins."""
-        event = self.navigation.prompts.as_button(event)
         if event.button is Button.START:
-            return self._do(BEGIN)
+            return self._begin()
         if event.button is Button.X:
             self._remove(self.focus.name)
             return None
         if event.button is Button.Y and self.draft.format is Format.GRAND_PRIX:
             self._change_team(self.focus.name)
             return None
-        chosen = self.focus.activated(event)
-        if event.button is Button.CLICK:
-            self.focus.handle(event)
-        return self._do(chosen) if chosen in DEEDS else self.navigation.handle(event)
+        return super().press(event)
 
-    def update(self, seconds: float) -> StackOperation:
-        """Read dropped files; return to the title when idle."""
+    def advance(self, seconds: float) -> StackOperation:
+        """Read dropped files."""
         while self.context.dropped:
             self._read(self.context.dropped.pop(0))
-        return self.navigation.update(seconds)
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    @property
+    def subtitle(self) -> str:
+        return self.context.words("events.count", count=len(self.draft.entrants))
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the entrants and the actions."""
         words, draft = self.context.words, self.draft
-        screen.blit(backdrop(), (0, 0))
-        heading(words("events.who"), words("events.count", count=len(draft.entrants))).draw(screen)
         black_out(screen, *(spot.rect for spot in self.focus.spots))
         for spot in self.focus.spots:
             hot = spot.name == self.focus.name
-            if spot.name in DEEDS:
-                deed(self._label(spot.name), SIGNS.get(spot.name, ""), spot.rect.w, hot).draw(
+            if spot.name in ACTIONS:
+                action(self._label(spot.name), SIGNS.get(spot.name, ""), spot.rect.w, hot).draw(
                     screen, *spot.rect.topleft
                 )
             else:
@@ -111,12 +109,14 @@ class EntrantsPage:
             text(words("events.nobody"), LABEL, MIST, "head").draw(screen, 960, 610)
             text(words("events.drop"), BODY, MIST).draw(screen, 960, 690)
         self.focus.draw(screen)
-        if self.navigation.sentence:
-            size = fit_size(self.navigation.sentence, BODY, SENTENCE_ROOM, "body")
-            caption(self.navigation.sentence, FOCUS, size=size).draw(screen, 960, self.navigation.prompts.y)
+
+    def draw_foot(self, screen: pygame.Surface) -> None:
+        """Draw the message, which may be long, or the prompts."""
+        if self.message:
+            size = fit_size(self.message, BODY, SENTENCE_ROOM, "body")
+            caption(self.message, FOCUS, size=size).draw(screen, 960, self.prompts_y)
         else:
-            self.navigation.prompts.items = tuple(self._hints())
-            self.navigation.prompts.draw(screen)
+            self.prompts.draw(screen)
 
     # ---- changes
 
@@ -153,7 +153,7 @@ class EntrantsPage:
         message = words("events.added", count=count)
         if found.ignored:
             message += "  ·  " + words("events.ignored", columns=one_line(", ".join(found.ignored), MOST_SHOWN))
-        self.navigation.show_message(message)
+        self.show_message(message)
         self.context.sounds.play("ready")
 
     def _require_brain(self, brain: str) -> None:
@@ -177,12 +177,12 @@ class EntrantsPage:
 
     def _refuse(self, sentence: str, file: str = "") -> None:
         """Show why not. `file`: name of the file that is refused."""
-        self.navigation.show_message(f"{one_line(file, MAX_SHOWN)}: {sentence}" if file else sentence)
+        self.show_message(f"{one_line(file, MAX_SHOWN)}: {sentence}" if file else sentence)
         self.context.sounds.play("refused")
 
     def _change_team(self, spot: str) -> None:
         """The next team of an entrant; after the last one, none."""
-        if spot not in DEEDS:
+        if spot not in ACTIONS:
             entrant = self._entrant(spot)
             teams = ("", *(self.context.words(f"events.team_{number}") for number in range(1, TEAMS + 1)))
             now = teams.index(entrant.team) if entrant.team in teams else 0
@@ -190,7 +190,7 @@ class EntrantsPage:
             self.context.sounds.play("move")
 
     def _remove(self, spot: str) -> None:
-        if spot in DEEDS:
+        if spot in ACTIONS:
             return
         index = int(spot)
         del self.draft.entrants[index]
@@ -198,21 +198,21 @@ class EntrantsPage:
         self.focus.move_to(str(min(index, len(self.draft.entrants) - 1)) if self.draft.entrants else LETTERS)
         self.context.sounds.play("back")
 
-    def _do(self, deed: str) -> StackOperation:
-        if deed == LETTERS:
+    def choose(self, name: str, event: InputEvent) -> StackOperation:
+        if name == LETTERS:
             self.context.sounds.play("accept")
             return Push(LettersPage(self.context, self.add, lambda: [entrant.name for entrant in self.draft.entrants]))
-        if deed == ADD_AI:
+        if name == ADD_AI:
             refusal = self._add(Entrant(self._ai_name(), self.brain))
             self.context.sounds.play("refused" if refusal else "ready")
             if refusal:
-                self.navigation.show_message(refusal)
-        elif deed == STRENGTH:
+                self.show_message(refusal)
+        elif name == STRENGTH:
             self.brain = self.brains[(self.brains.index(self.brain) + 1) % len(self.brains)]
             self.context.sounds.play("move")
-        elif deed == PASTE:
+        elif name == PASTE:
             self._paste()
-        elif deed == BEGIN:
+        elif name == BEGIN:
             return self._begin()
         return None
 
@@ -221,7 +221,7 @@ class EntrantsPage:
         few = len(self.draft.entrants) < FEWEST
         result = words("events.few", fewest=FEWEST) if few else self.begin(self.draft)
         if isinstance(result, str):
-            self.navigation.show_message(result)
+            self.show_message(result)
             self.context.sounds.play("refused")
             return None
         self.context.sounds.play("accept")
@@ -229,9 +229,10 @@ class EntrantsPage:
 
     # ---- inside
 
-    def _hints(self) -> list[tuple[Button, str]]:
+    @property
+    def hints(self) -> Hints:
         """The prompts of what can be done now: an entrant changes, and enough of them begin."""
-        named, teams = self.focus.name not in DEEDS, self.draft.format is Format.GRAND_PRIX
+        named, teams = self.focus.name not in ACTIONS, self.draft.format is Format.GRAND_PRIX
         return [
             *([] if named else [(Button.FIRE, "events.hint_choose")]),
             *([(Button.X, "events.hint_remove")] if named else []),
@@ -252,10 +253,10 @@ class EntrantsPage:
         numbered = (f"{base[:8]}{number}" for number in range(10, 100))
         return next(name for name in (base, *more, *numbered) if name not in taken)
 
-    def _label(self, deed: str) -> str:
+    def _label(self, action: str) -> str:
         words = self.context.words
-        if deed != STRENGTH:
-            return words(f"events.{deed}")
+        if action != STRENGTH:
+            return words(f"events.{action}")
         return brain_name(words, self.draft.games[0], self.brain)
 
     def _spots(self) -> list[FocusSpot]:
@@ -268,9 +269,9 @@ class EntrantsPage:
         )
         cells = [FocusSpot(str(i), box) for i, box in enumerate(boxes)]
         x, spots = LEFT, []
-        for name, w in DEEDS.items():
-            spots.append(FocusSpot(name, pygame.Rect(x, DEEDS_Y, w, DEED_H)))
-            x += w + DEED_GAP
+        for name, w in ACTIONS.items():
+            spots.append(FocusSpot(name, pygame.Rect(x, ACTIONS_Y, w, ACTION_H)))
+            x += w + ACTION_GAP
         return [*cells, *spots]
 
 
@@ -289,16 +290,16 @@ def one_a_line(text: str) -> str:
 
 
 @cached
-def deed(word: str, sign: str, w: int, hot: bool) -> LitImage:
+def action(word: str, sign: str, w: int, hot: bool) -> LitImage:
     """A box with an icon, if any, and a word; top left at (0, 0)."""
-    layer, color = Layer(0, 0, w, DEED_H), ICE if hot else MIST
-    layer.glow.line(cut_box(0, 0, w, DEED_H, 12), FOCUS if hot else STEEL, THIN, True)
+    layer, color = Layer(0, 0, w, ACTION_H), ICE if hot else MIST
+    layer.glow.line(cut_box(0, 0, w, ACTION_H, 12), FOCUS if hot else STEEL, THIN, True)
     lead = 60 if sign else 0
     size = fit_size(word, BODY, w - lead - 24)
     left = (w - lead - text_width(word, size)) / 2
     if sign:
-        icon(layer.glow, sign, left + 20, DEED_H / 2, 20, FOCUS if hot else MIST, THIN)
-    layer.canvas.crisp.text(word, size, left + lead, DEED_H / 2, color, "head")
+        icon(layer.glow, sign, left + 20, ACTION_H / 2, 20, FOCUS if hot else MIST, THIN)
+    layer.canvas.crisp.text(word, size, left + lead, ACTION_H / 2, color, "head")
     return layer.render()
 
 

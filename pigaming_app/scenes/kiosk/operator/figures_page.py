@@ -7,58 +7,53 @@ import pygame
 
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import game_title
-from pigaming_app.scenes.flow.navigation import Navigation
-from pigaming_app.scenes.flow.stack import Home, StackOperation
+from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.kiosk.operator.chart import OTHERS, bars_of, chart, games_of
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.day_log import days, now
 from pigaming_app.storage.day_report import DayReport, report_of, to_csv
 from pigaming_app.storage.parsing import describe_error
-from pigaming_app.storage.safe_files import NotSaved, write_atomic
+from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import ALARM, BODY, ICE, LABEL, MIST, Color
-from pigaming_app.ui.draw.layers import RIGHT, backdrop, span
+from pigaming_app.ui.draw.layers import RIGHT, span
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.arrows import as_direction, draw_arrows
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame, heading
+from pigaming_app.ui.widgets.labels import black_out, frame
 
 FOLDER = "reports"  # of exports, in the data folder
 PANEL = pygame.Rect(span(8, 4)[0], 210, span(8, 4)[1], 700)
-IDLE, SENTENCE_SECONDS = 90.0, 5.0  # s
 PITCH = 66  # px from line to line
 log = logging.getLogger("pigaming")
 
 
-class FiguresPage:
+class FiguresPage(Page):
     """Today first; left and right show other days."""
 
     untimed = True
+    title, stay = "operator.figures", 5.0
+    hints = (
+        (Button.RIGHT, "operator.hint_day"),
+        (Button.FIRE, "operator.hint_export"),
+        (Button.BACK, "options.hint_back"),
+    )
 
     def __init__(self, context: Context) -> None:
-        self.context = context
+        super().__init__(context, Focus([FocusSpot("export", PANEL)]))
         self.data = folders().data
         today = now().date()
         self.days = sorted({*days(self.data), today})
         self.trouble = False  # the log cannot be read
         self.report = DayReport(today)
         self._show(today)
-        focus = Focus([FocusSpot("export", PANEL)])
-        hints = [
-            (Button.RIGHT, "operator.hint_day"),
-            (Button.FIRE, "operator.hint_export"),
-            (Button.BACK, "options.hint_back"),
-        ]
-        self.navigation = Navigation(context, focus, hints, IDLE, SENTENCE_SECONDS)
 
-    def on_enter(self) -> None:
-        pass
-
-    def handle(self, event: InputEvent) -> StackOperation:
+    def press(self, event: InputEvent) -> StackOperation:
         """Left and right change the day, FIRE exports it."""
-        event = as_direction(self.navigation.prompts.as_button(event), self.arrows)
+        event = as_direction(event, self.arrows)
         if event.button in (Button.LEFT, Button.RIGHT):
             at = self.days.index(self.report.day) + (1 if event.button is Button.RIGHT else -1)
             if 0 <= at < len(self.days):
@@ -66,18 +61,11 @@ class FiguresPage:
                 self._show(self.days[at])
         elif event.button in (Button.FIRE, Button.START):
             self._export()
-        elif event.button is Button.BACK:
-            return self.navigation.handle(event)
         return None
 
-    def update(self, seconds: float) -> StackOperation:
-        turn = self.navigation.update(seconds)
-        return Home() if turn else None
-
-    def draw(self, screen: pygame.Surface) -> None:
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the day, its chart and its numbers."""
         words, report = self.context.words, self.report
-        screen.blit(backdrop(), (0, 0))
-        heading(words("operator.figures")).draw(screen)
         text(words.day(report.day), LABEL, ICE, "head", "r").draw(screen, RIGHT - 80, 112)
         draw_arrows(screen, self.arrows)
         black_out(screen, PANEL)
@@ -90,9 +78,6 @@ class FiguresPage:
             y = PANEL.y + 53 + PITCH * i
             text(name, BODY, MIST, "body", "l", 360).draw(screen, PANEL.x + 36, y)
             text(value, LABEL, color, "head", "r", 230).draw(screen, PANEL.right - 36, y)
-        if self.navigation.sentence:
-            call_to_action(self.navigation.sentence, "", BODY).draw(screen, 960, 930)
-        self.navigation.prompts.draw(screen)
 
     @property
     def arrows(self) -> dict[Button, tuple[int, int]]:
@@ -111,14 +96,9 @@ class FiguresPage:
     def _export(self) -> None:
         """Write the matches of the day as CSV."""
         path = self.data / FOLDER / f"pigaming-{self.report.day}.csv"
-        try:
-            write_atomic(path, to_csv(self.report).encode())
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
-            self.navigation.show_message(self.context.words("app.unsaved"))
-            return
-        self.context.sounds.play("accept")
-        self.navigation.show_message(self.context.words("operator.exported", file=f"{FOLDER}/{path.name}"))
+        if self.save(lambda: write_atomic(path, to_csv(self.report).encode())):
+            self.context.sounds.play("accept")
+            self.show_message(self.context.words("operator.exported", file=f"{FOLDER}/{path.name}"))
 
 
 def _short(words: Words, game: str) -> str:

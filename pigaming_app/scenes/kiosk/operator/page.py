@@ -33,6 +33,7 @@ class OperatorPage(SettingsPage):
 
     def __init__(self, context: Context, below: Sequence[Scene] = ()) -> None:
         self.below = below
+        self.when_idle = Pop() if below else Home()
         self.safe_start = SafeStartNotice(context)
         rows = (SAFE_START, *ROWS) if self.safe_start.due else ROWS
         super().__init__(context, rows)
@@ -47,9 +48,6 @@ class OperatorPage(SettingsPage):
             if isinstance(scene, InMatch):
                 scene.advance_paused(seconds)
         return None
-
-    def when_idle(self) -> StackOperation:
-        return Pop() if self.below else Home()
 
     def held(self) -> StackOperation:
         self.context.sounds.play("accept")

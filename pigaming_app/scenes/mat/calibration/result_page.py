@@ -17,14 +17,14 @@ from pigaming_app.hardware.session import store
 from pigaming_app.hardware.signals import ExposureState, Image
 from pigaming_app.hardware.vision.exposure import warning_of
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.navigation import Navigation
 from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.mat.calibration.residual_plot import AREA, SIDE, arrows, fact, figure
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, MIST, STEEL, Color
-from pigaming_app.ui.draw.layers import LitImage, backdrop
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.i18n import english
@@ -36,8 +36,6 @@ HIGH = 84  # px, height of a chip
 FOOT = 836  # px, top of the chips
 GAUGE = 146  # px, pitch of the gauges
 PROMPTS_ROOM = 2 * (SIDE.x - 960) - 48  # px, left of the warning beside the plot
-SENTENCE_SECONDS = 6.0  # seconds for which a sentence is shown
-IDLE = 600.0  # seconds without input until the title
 
 UNKNOWN = ExposureState()
 
@@ -69,18 +67,20 @@ class CalibrationResult:
         return self.accurate and self.ground is not None and self.ground.quality.sufficient
 
 
-class ResultPage:
+class ResultPage(Page):
     """The page: save, again, or back. `retry`: makes the page that repeats the calibration."""
 
+    idle, stay = 600.0, 6.0
+    prompts_room = PROMPTS_ROOM
+    hints = ((Button.FIRE, "calibrate.hint_ok"), (Button.BACK, "calibrate.hint_back"))
+
     def __init__(self, context: Context, finding: CalibrationResult, retry: Callable[[], Scene]) -> None:
-        self.context, self.finding, self.retry = context, finding, retry
+        self.finding, self.retry = finding, retry
         names = ("save", "again", "leave") if finding.good else ("again", "leave")
         if finding.accurate and not finding.good:
             names = ("again", "anyway", "leave")
-        self.focus = Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(names)])
+        super().__init__(context, Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(names)]))
         self.arrows: tuple[LitImage, int] | None = None
-        hints = [(Button.FIRE, "calibrate.hint_ok"), (Button.BACK, "calibrate.hint_back")]
-        self.navigation = Navigation(context, self.focus, hints, IDLE, SENTENCE_SECONDS, room=PROMPTS_ROOM)
         small = finding.picture
         self.picture = None if small is None else grey_surface(small)
 
@@ -89,23 +89,19 @@ class ResultPage:
         if self.finding.residuals and not self.finding.trouble:
             log.info("calibration: %s", english().long_sentence(self.finding.residuals.verdict))
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """Left and right select, FIRE activates."""
-        event = self.navigation.prompts.as_button(event)
-        if turn := self.navigation.handle(event):
-            return turn
-        chosen = self.focus.activated(event)
-        return self._do(chosen) if chosen else None
-
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         self.finding.site.advance(seconds)
-        return self.navigation.update(seconds)
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
-        words, finding = self.context.words, self.finding
-        screen.blit(backdrop(), (0, 0))
+    @property
+    def heading(self) -> LitImage:
+        finding = self.finding
         title = "good" if finding.good else "failed" if finding.residuals is None or finding.trouble else "bad"
-        heading(words(f"calibrate.{title}"), color=ICE if finding.good else ALARM).draw(screen)
+        return heading(self.context.words(f"calibrate.{title}"), color=ICE if finding.good else ALARM)
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the errors, or the failure, and what can be done."""
+        words, finding = self.context.words, self.finding
         black_out(screen, AREA)
         if finding.residuals is None or finding.trouble:
             self._draw_failure(screen)
@@ -116,10 +112,12 @@ class ResultPage:
             state = "focus" if spot.name == self.focus.name else "on"
             chip(words(f"calibrate.{spot.name}"), spot.rect.w, state, HIGH).draw(screen, *spot.rect.topleft)
         self.focus.draw(screen)
-        if self.navigation.sentence:
-            for line in paragraph(self.navigation.sentence, 1600, 1, FOCUS, "c"):
-                line.draw(screen, 960, 1046)
-        self.navigation.prompts.draw(screen)
+
+    def draw_foot(self, screen: pygame.Surface) -> None:
+        """Draw the message below the prompts."""
+        for line in paragraph(self.message, 1600, 1, FOCUS, "c") if self.message else ():
+            line.draw(screen, 960, 1046)
+        self.prompts.draw(screen)
 
     # ---- drawing
 
@@ -200,11 +198,10 @@ class ResultPage:
 
     # ---- actions
 
-    def _do(self, name: str) -> StackOperation:
+    def choose(self, name: str, event: InputEvent) -> StackOperation:
         finding = self.finding
         if name == "leave":
-            self.context.sounds.play("back")
-            return Pop()
+            return self.leave()
         if name == "again":
             self.context.sounds.play("accept")
             return Swap(self.retry())
@@ -219,7 +216,7 @@ class ResultPage:
         except NotSaved as trouble:
             log.warning("%s", trouble)
             self.context.sounds.play("back")
-            self.navigation.show_message(self.context.words("calibrate.unsaved", path=path))
+            self.show_message(self.context.words("calibrate.unsaved", path=path))
             return None
         self.context.sounds.play("accept")
         return Pop()

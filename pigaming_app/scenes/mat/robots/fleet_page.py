@@ -51,7 +51,7 @@ class FleetPage(SettingsPage):
         self.check = FleetState(session, context.settings)
         self.flood = FloodLight()
         self.flood.level = 0.0
-        self.reopen_in, self.age = 0.0, EVERY
+        self.reopen_in, self.since_read = 0.0, EVERY
         self.aside, self.sheet = BlockLayout(), pygame.Surface((1920, 1080))
         self.lines: list[tuple[str, Color, str, Color]] = []  # per robot: radio and vision status
         real = session.radio and not session.emulated
@@ -77,7 +77,7 @@ class FleetPage(SettingsPage):
     def advance(self, seconds: float) -> StackOperation:
         """Refresh the readings."""
         words = self.context.words
-        self.age += seconds
+        self.since_read += seconds
         if self.reopen_in > 0.0:
             self.reopen_in -= seconds
             if self.reopen_in <= 0.0:
@@ -91,8 +91,8 @@ class FleetPage(SettingsPage):
             else:
                 self.show_message(words("fleet.measured" if self.check.latencies else "fleet.nobody"))
             self.context.sounds.play("accept")
-        if self.age >= EVERY:
-            self.age = 0.0
+        if self.since_read >= EVERY:
+            self.since_read = 0.0
             self.lines = [self._read(robot) for robot in range(ROBOTS)]
         self.aside.update(seconds, self._blocks(), self.discs.circles(EVERYBODY) if self.discs else ())
         return None

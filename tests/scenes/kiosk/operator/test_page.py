@@ -199,7 +199,7 @@ def test_an_export_that_fails_is_a_sentence(arcade: Arcade) -> None:
     (folders().data / FOLDER).write_text("in the way")
     arcade.open(FiguresPage(arcade.context))
     arcade.press(Button.FIRE)
-    assert arcade.shown(FiguresPage).navigation.sentence == arcade.context.words("app.unsaved")
+    assert arcade.shown(FiguresPage).message == arcade.context.words("app.unsaved")
 
 
 def test_a_log_that_cannot_be_read_is_no_failure(arcade: Arcade) -> None:

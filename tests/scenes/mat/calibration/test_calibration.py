@@ -175,7 +175,7 @@ def test_a_folder_that_cannot_be_written(arcade: Operated, made: CalibrationResu
     (tmp_path / "config").chmod(0o500)
     concluded(arcade, made)
     arcade.press(Button.FIRE)
-    assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).navigation.sentence
+    assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).message
 
 
 def with_picture(made: CalibrationResult, exposure: float, blur: float) -> CalibrationResult:
@@ -266,7 +266,7 @@ def test_a_failed_save_is_reported_and_nothing_is_lost(
     concluded(arcade, made)
     monkeypatch.setattr(store, "write_with_backup", full)
     arcade.press(Button.FIRE)
-    assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).navigation.sentence
+    assert str(store.calibration_file(arcade.site.name)) in arcade.shown(ResultPage).message
     monkeypatch.undo()
 
 
