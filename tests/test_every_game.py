@@ -167,7 +167,7 @@ def test_every_match_draws_headless_and_drawing_changes_nothing(game, arena):
     from pigaming_app.scenes.views.registry import SCREENS
 
     assert game in SCREENS, f"{game} has no view: add it to scenes.views.registry.SCREENS"
-    from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
+    from pigaming_app.scenes.bench.frame_times import AllEffects
 
     pygame.display.init()
     pygame.font.init()

@@ -8,7 +8,7 @@ import pytest
 
 import pigaming_football
 from pigaming_app.games.arenas import load
-from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
+from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.preview import fitted
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.ui.i18n import LANGUAGES, Words

@@ -2,4 +2,4 @@
 
 from pigaming_app.scenes.features.feature import Feature
 
-FEATURE = Feature("bench", rooms=("jobs.bench", "scenes.walk"))
+FEATURE = Feature("bench", rooms=("jobs.bench", "scenes.bench", "scenes.walk"))

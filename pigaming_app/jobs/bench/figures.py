@@ -164,6 +164,6 @@ def _two_processes(game: str, variant: str) -> float:
 def _frames(game: str, variant: str) -> list[float]:
     """Milliseconds of each frame of a busy match, sorted, on a dummy display."""
     os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
-    from pigaming_app.scenes.views.frame_times import frame_times
+    from pigaming_app.scenes.bench.frame_times import frame_times
 
     return sorted(frame_times(game, variant, FRAMES))

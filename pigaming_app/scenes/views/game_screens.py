@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import pygame
 
@@ -13,17 +13,6 @@ from pigaming_app.sim.arena import Arena
 from pigaming_app.ui.draw import Color, GlowCanvas, Point, shape_points
 from pigaming_app.ui.draw.frame_budget import Steps
 from pigaming_app.ui.i18n import Words
-
-
-class BenchmarkMatch(Protocol):
-    """A match or a synthetic replacement."""
-
-    arena: Arena
-    state: Any
-
-    def tick(self) -> None:
-        """Advance by 1/50 s."""
-
 
 LESSONS_PER_PAGE = 4
 
@@ -43,7 +32,6 @@ class GameScreens:
 
     - `view(arena, state, players, options, words)`: the view of a match.
     - `tile(canvas, x, y)`: its picture, in 560 x 284 px below and right of (x, y); the title shows it smaller.
-    - `busy(variant)`: its most laborious match, for the benchmark of frame times; None: a match of four AIs.
     - `fire`: text key (table `howto`) of what FIRE does; empty: nothing.
     - `preview(arena, w, h, allies)`: an arena as additive light in w x h px.
     - `confetti(canvas, placed, size, shape, color)`: a piece of it at the celebration.
@@ -55,7 +43,6 @@ class GameScreens:
 
     view: Callable[[Arena, Any, list[str], ViewOptions, Words | None], MatchView]
     tile: Callable[[GlowCanvas, float, float], None]
-    busy: Callable[[str], BenchmarkMatch] | None = None
     fire: str = ""
     preview: Callable[[Arena, int, int, bool], Steps[pygame.Surface]] = walls
     confetti: Callable[[GlowCanvas, Placed, float, int, Color], None] = player_shape

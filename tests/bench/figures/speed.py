@@ -4,7 +4,7 @@ from statistics import median
 
 from pigaming_app.games.registry import games
 from pigaming_app.jobs.bench import figures, memory
-from pigaming_app.scenes.views.frame_times import frame_times
+from pigaming_app.scenes.bench.frame_times import frame_times
 from pigaming_app.sim.kernel import can_compile
 
 GAME = "pitanks"

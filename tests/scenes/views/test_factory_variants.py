@@ -23,8 +23,8 @@ from pigaming_app.games.factory.state import (
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.views.benchmark.factory import BusyFactory
-from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
+from pigaming_app.scenes.bench.busy_drivers import BusyFactory
+from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.factory import contest, countdowns, star_panel
 from pigaming_app.scenes.views.factory.hud import CALLS
 from pigaming_app.scenes.views.factory.next_step import is_task

@@ -31,7 +31,7 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
+from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.factory.next_step import next_slot
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.record import digest

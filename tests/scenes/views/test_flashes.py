@@ -5,7 +5,7 @@ import pygame
 import pytest
 
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.views.frame_times import busy_match
+from pigaming_app.scenes.bench.frame_times import busy_match
 from pigaming_app.scenes.views.particles import CALM_BURSTS, Particles
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.view import ShownEffects

@@ -3,8 +3,8 @@
 import pygame
 import pytest
 
+from pigaming_app.scenes.bench.busy_pitanks import BusyPiTanks
 from pigaming_app.scenes.views.background import Background
-from pigaming_app.scenes.views.benchmark.pitanks import BusyPiTanks
 from pigaming_app.scenes.views.hud.score import ScoreHud
 from pigaming_app.ui.draw.frame_budget import Unfinished, budget
 from tests.scenes.cache import empty_cache

@@ -7,8 +7,9 @@ import pytest
 
 from pigaming_app.games.pitanks.rules import judge
 from pigaming_app.games.pitanks.state import OWN_BULLETS
+from pigaming_app.scenes.bench.busy_pitanks import BusyPiTanks
+from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.benchmark.pitanks import AllEffects, BusyPiTanks
 from pigaming_app.scenes.views.hud.parts import CLOCK
 from pigaming_app.scenes.views.pitanks.banner import CELLS
 from pigaming_app.scenes.views.pitanks.view import PiTanksView

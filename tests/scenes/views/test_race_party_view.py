@@ -10,8 +10,8 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.race.course import locate, point_at
 from pigaming_app.games.race.state import LINES, OIL, OWN_OILS, SHIELD, TURBO
-from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
-from pigaming_app.scenes.views.benchmark.race import BusyRace
+from pigaming_app.scenes.bench.busy_race import BusyRace
+from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.particles import MAX_PARTICLES
 from pigaming_app.scenes.views.race.lines import CHECKPOINT, START, line_signs
 from pigaming_app.scenes.views.race.party.events import AGAIN

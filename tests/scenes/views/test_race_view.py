@@ -10,8 +10,8 @@ import pytest
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.state import LINES
-from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
-from pigaming_app.scenes.views.benchmark.race import BusyRace
+from pigaming_app.scenes.bench.busy_race import BusyRace
+from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.games.race import preview
 from pigaming_app.scenes.views.particles import MAX_PARTICLES
 from pigaming_app.scenes.views.race import ghost_files as ghosts

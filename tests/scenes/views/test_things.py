@@ -7,8 +7,8 @@ from pigaming_app.games.arenas import arenas, load, parse
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
 from pigaming_app.scenes.views.pitanks.events import PiTanksEventDetector
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.things.on_mat import halo, place

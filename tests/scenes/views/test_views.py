@@ -6,7 +6,8 @@ import pygame
 import pytest
 
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, POWERS, SHIELD
-from pigaming_app.scenes.views.benchmark.pitanks import AllEffects, BusyPiTanks
+from pigaming_app.scenes.bench.busy_pitanks import BusyPiTanks
+from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.hud.score import layout
 from pigaming_app.scenes.views.particles import MAX_PARTICLES
 from pigaming_app.scenes.views.preview import walls

@@ -18,7 +18,6 @@ from pigaming_app.games.factory.state import (
     SHARED_SLOTS,
     Factory,
 )
-from pigaming_app.scenes.views.benchmark.factory import BusyFactory
 from pigaming_app.scenes.views.factory.background import draw_floor
 from pigaming_app.scenes.views.factory.view import FactoryView
 from pigaming_app.scenes.views.game_screens import GameScreens, Placed
@@ -160,7 +159,6 @@ LESSONS = {
 SCREENS = GameScreens(
     FactoryView,
     tile,
-    BusyFactory,
     "hint_lift",
     preview,
     crate,

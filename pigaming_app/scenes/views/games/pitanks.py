@@ -4,7 +4,6 @@ import math
 from dataclasses import replace
 
 from pigaming_app.games.pitanks.state import RICOCHET, SHIELD, TRIPLE, PiTanks
-from pigaming_app.scenes.views.benchmark.pitanks import BusyPiTanks
 from pigaming_app.scenes.views.game_screens import GameScreens
 from pigaming_app.scenes.views.lesson import Actor, Lesson
 from pigaming_app.scenes.views.pitanks.view import PiTanksView
@@ -66,7 +65,6 @@ LESSONS = {
 SCREENS = GameScreens(
     PiTanksView,
     tile,
-    lambda variant: BusyPiTanks(variant=variant),
     fire="hint_fire",
     lessons=LESSONS,
     lesson_pages=("pickups", "party"),

@@ -6,8 +6,6 @@ from collections.abc import Callable
 import pygame
 
 from pigaming_app.games.race.state import LINES, Race
-from pigaming_app.games.registry import games
-from pigaming_app.scenes.views.benchmark.race import BusyRace
 from pigaming_app.scenes.views.game_screens import GameScreens, Placed
 from pigaming_app.scenes.views.lesson import Actor, Lesson
 from pigaming_app.scenes.views.preview import fitted
@@ -78,10 +76,6 @@ def chequer(ink: GlowCanvas, placed: Placed, size: float, shape: int, color: Col
         ink.fill(placed([(x, y), (x + size, y), (x + size, y + size), (x, y + size)]), BLACK)
 
 
-def busy(variant: str) -> BusyRace:
-    return BusyRace(laps=max(games()["race"].variants[variant].goals), variant=variant)
-
-
 def _in_lap(line: int, passed: int) -> Callable[[Race], None]:
     """A lesson in which the first racer's own line is `line`, and it has crossed `passed` lines of its lap."""
 
@@ -126,5 +120,5 @@ LESSONS = {
 }
 
 SCREENS = GameScreens(
-    RaceView, tile, busy, "hint_recover", preview, chequer, lessons=LESSONS, lesson_pages=("standard", "party")
+    RaceView, tile, "hint_recover", preview, chequer, lessons=LESSONS, lesson_pages=("standard", "party")
 )

@@ -3,14 +3,19 @@
 Two hundred particles are kept alive, and every number of the match changes.
 """
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
 from time import perf_counter
+from typing import Any, Protocol
 
 import pygame
 
-from pigaming_app.scenes.views.benchmark.drivers import BusyDrivers
-from pigaming_app.scenes.views.benchmark.pitanks import AllEffects
-from pigaming_app.scenes.views.game_screens import BenchmarkMatch
+from pigaming_app.scenes.bench.busy_drivers import BusyDrivers, BusyFactory
+from pigaming_app.scenes.bench.busy_pitanks import BusyPiTanks
+from pigaming_app.scenes.bench.busy_race import BusyRace
 from pigaming_app.scenes.views.registry import SCREENS
+from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT
 from pigaming_app.ui.i18n import Words
 
@@ -19,10 +24,35 @@ FPS = 60
 FIRST = 60  # warm-up frames, not counted
 
 
+class BenchmarkMatch(Protocol):
+    """A match or a synthetic replacement."""
+
+    arena: Arena
+    state: Any
+
+    def tick(self) -> None:
+        """Advance by 1/50 s."""
+
+
+@dataclass
+class AllEffects:
+    """View options with every effect on."""
+
+    flashes: str = "full"
+    shake: bool = True
+    calm: bool = False
+
+
+BUSY: dict[str, Callable[[str], BenchmarkMatch]] = {
+    "pitanks": lambda variant: BusyPiTanks(variant=variant),
+    "factory": BusyFactory,
+    "race": lambda variant: BusyRace(variant=variant),
+}  # by rule set
+
+
 def busy_match(game: str, variant: str) -> BenchmarkMatch:
     """The most laborious match of a game."""
-    busy = SCREENS[game].busy
-    return busy(variant) if busy else BusyDrivers(game, variant)
+    return BUSY.get(game, partial(BusyDrivers, game))(variant)
 
 
 def frame_times(game: str, variant: str, frames: int) -> list[float]:

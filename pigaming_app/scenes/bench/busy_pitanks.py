@@ -6,7 +6,6 @@ bounties, stars and the banner.
 
 import math
 import random
-from dataclasses import dataclass
 
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import Seat, Setup
@@ -16,15 +15,6 @@ from pigaming_app.sim.arena import Arena, build
 from pigaming_app.sim.world import DT, HZ
 
 BULLETS = 30
-
-
-@dataclass
-class AllEffects:
-    """View options with every effect on."""
-
-    flashes: str = "full"
-    shake: bool = True
-    calm: bool = False
 
 
 class BusyPiTanks:
