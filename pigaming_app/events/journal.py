@@ -1,51 +1,46 @@
 """What happens in an event, one entry after the other. Spec and journal together are the whole event."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from pigaming_app.events.spec import Entrant, Outcome
+from pigaming_app.storage.schema import Line
 
 
-@dataclass(frozen=True)
-class Recorded:
+class Recorded(Struct, frozen=True, tag_field="entry", tag="result"):
     """The result of a match."""
 
     outcome: Outcome
 
 
-@dataclass(frozen=True)
-class Corrected:
+class Corrected(Struct, frozen=True, tag_field="entry", tag="correction"):
     """A result in place of a recorded one; its note gives the reason."""
 
     outcome: Outcome
 
 
-@dataclass(frozen=True)
-class Added:
+class Added(Struct, frozen=True, tag_field="entry", tag="late"):
     """A late entrant."""
 
     entrant: Entrant
 
 
-@dataclass(frozen=True)
-class Withdrawn:
+class Withdrawn(Struct, frozen=True, tag_field="entry", tag="withdrawal"):
     """An entrant who will not play any more."""
 
-    name: str
+    name: Line
 
 
-@dataclass(frozen=True)
-class Postponed:
+class Postponed(Struct, frozen=True, tag_field="entry", tag="postponement"):
     """A match that others overtake, by its number."""
 
     fixture: int
 
 
-@dataclass(frozen=True)
-class Substituted:
+class Substituted(Struct, frozen=True, tag_field="entry", tag="substitute"):
     """An AI drives for an entrant from now on; an empty brain: the person is back."""
 
-    name: str
-    brain: str
+    name: Line
+    brain: Line
 
 
 Entry = Recorded | Corrected | Added | Withdrawn | Postponed | Substituted

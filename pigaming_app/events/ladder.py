@@ -9,11 +9,15 @@ climbs the one with fewer lost matches is better, then the earlier one.
 """
 
 from dataclasses import dataclass, replace
+from typing import Annotated
+
+from msgspec import Meta
 
 from pigaming_app.games.arenas import shipped_arenas
 from pigaming_app.games.game import LadderMatches, Outcome, Seat, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.storage.plugins.parts import hidden
+from pigaming_app.storage.schema import Line, between
 from pigaming_app.storage.scores import ScoreTable
 
 LEVELS = 5  # rungs, and levels of robots
@@ -28,14 +32,14 @@ RULES = "party"  # short matches, and an overtime instead of a tie
 class Climb:
     """The state of a climb between two matches. `game`: of every match, or ALL."""
 
-    game: str
-    rung: int = 1  # 1 to LEVELS; LEVELS + 1: at the top
+    game: Line
+    rung: Annotated[int, between(1, LEVELS + 1)] = 1  # 1 to LEVELS; LEVELS + 1: at the top
     eased: tuple[int, ...] = ()  # rungs from which on robots are one level weaker, in the order of choice
-    wins: int = 0  # on this rung, and losses
-    losses: int = 0
-    clear: int = 0  # clear losses in a row, since the last offer
-    beaten: int = 0  # level of the strongest robot beaten
-    lost: int = 0  # lost matches of the whole climb
+    wins: Annotated[int, Meta(ge=0, lt=NEEDED)] = 0  # on this rung, and losses
+    losses: Annotated[int, Meta(ge=0, lt=NEEDED)] = 0
+    clear: Annotated[int, between(0, MOST_LOST)] = 0  # clear losses in a row, since the last offer
+    beaten: Annotated[int, between(0, LEVELS)] = 0  # level of the strongest robot beaten
+    lost: Annotated[int, between(0, 10 * MOST_LOST)] = 0  # lost matches of the whole climb
 
     @property
     def level(self) -> int:

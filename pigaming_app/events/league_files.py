@@ -2,36 +2,59 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import Annotated
+
+from msgspec import Meta
 
 from pigaming_app.games.registry import games
-from pigaming_app.storage.parsing import MAX_BYTES, describe_error, parse_json, quote, read
+from pigaming_app.storage.parsing import MAX_BYTES, describe_error, quote, read
+from pigaming_app.storage.schema import PRINTABLE, Line, between, from_json
 
-MOST_POINTS = 10_000.0
-MOST_ENTRANTS = 100
-MAX_NAME = 60  # characters
+MOST_POINTS = 10_000
+Points = Annotated[float, between(-MOST_POINTS, MOST_POINTS)]
 
 
 @dataclass(frozen=True)
 class Strength:
     """Rating of one AI and its 95 % interval, in points."""
 
-    brain: str
-    rating: float
-    low: float
-    high: float
+    brain: Annotated[str, PRINTABLE, Meta(min_length=1, max_length=60)]
+    rating: Points
+    rating95: tuple[Points, Points]
+
+    def __post_init__(self) -> None:
+        if not self.low <= self.rating <= self.high:
+            raise ValueError("the rating is outside its interval")
+
+    @property
+    def low(self) -> float:
+        """The lower end of the interval."""
+        return self.rating95[0]
+
+    @property
+    def high(self) -> float:
+        """The upper end of the interval."""
+        return self.rating95[1]
 
 
 @dataclass(frozen=True)
 class Ratings:
-    """The ratings of a league, best first. `matches`: of each pair."""
+    """The ratings of a league. `matches`: of each pair."""
 
-    game: str
-    variant: str
-    matches: int
-    strengths: tuple[Strength, ...]
+    game: Line
+    variant: Line
+    matches: Annotated[int, Meta(ge=1)]
+    standings: Annotated[tuple[Strength, ...], Meta(min_length=2, max_length=100)]
+
+    def __post_init__(self) -> None:
+        if len({strength.brain for strength in self.standings}) < len(self.standings):
+            raise ValueError("it names an AI twice")
+
+    @property
+    def strengths(self) -> list[Strength]:
+        """The ratings, best first."""
+        return sorted(self.standings, key=lambda one: -one.rating)
 
 
 def file_name(game: str) -> str:
@@ -55,29 +78,7 @@ def ratings_of(game: str, folders: Sequence[Path]) -> tuple[Ratings | None, list
 
 def parse(raw: bytes, game: str) -> Ratings:
     """The ratings in a file. Raises ValueError with the reason if it is not a league of this game."""
-    match parse_json(raw):
-        case {"game": str(name), "variant": str(variant), "matches": int(matches), "standings": list(standings)}:
-            pass
-        case _:
-            raise ValueError("it is not a league")
-    if name != game or variant not in games()[game].variants:
-        raise ValueError(f"it is a league of {quote(name)}, {quote(variant)}")
-    if isinstance(matches, bool) or matches < 1 or not 1 < len(standings) <= MOST_ENTRANTS:
-        raise ValueError("it has no matches or no entrants")
-    strengths = [_strength(entry) for entry in standings]
-    if len({strength.brain for strength in strengths}) < len(strengths):
-        raise ValueError("it names an AI twice")
-    return Ratings(game, variant, matches, tuple(sorted(strengths, key=lambda one: -one.rating)))
-
-
-def _strength(entry: Any) -> Strength:
-    match entry:
-        case {"brain": str(brain), "rating": rating, "rating95": [low, high]}:
-            pass
-        case _:
-            raise ValueError(f"{quote(entry)} is not the rating of an AI")
-    points = [value for value in (rating, low, high) if isinstance(value, int | float) and not isinstance(value, bool)]
-    plausible = len(points) == 3 and all(isfinite(value) and abs(value) <= MOST_POINTS for value in points)
-    if not plausible or not low <= rating <= high or not brain.isprintable() or not 0 < len(brain) <= MAX_NAME:
-        raise ValueError(f"{quote(entry)} is not the rating of an AI")
-    return Strength(brain, float(rating), float(low), float(high))
+    ratings = from_json(raw, Ratings)
+    if ratings.game != game or ratings.variant not in games()[game].variants:
+        raise ValueError(f"it is a league of {quote(ratings.game)}, {quote(ratings.variant)}")
+    return ratings

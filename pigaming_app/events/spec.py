@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
+from pigaming_app.storage.schema import Finite, Line
+
 FEWEST, MOST = 3, 64  # entrants
 SEATS = (2, 3, 4)  # entrants of a match
 MAX_ROUNDS = 64
@@ -35,9 +37,9 @@ class Advance(StrEnum):
 class Entrant:
     """A person (`brain` is empty) or an AI. `brain`: a registered name, or the path of a file."""
 
-    name: str
-    brain: str = ""
-    team: str = ""
+    name: Line
+    brain: Line = ""
+    team: Line = ""
 
 
 @dataclass(frozen=True)
@@ -51,18 +53,18 @@ class EventSpec:
     empty; empty: they stay empty.
     """
 
-    title: str
+    title: Line
     format: Format
-    games: tuple[str, ...]
+    games: tuple[Line, ...]
     entrants: tuple[Entrant, ...]
     rounds: int = 0
     seats: int = 2
-    arenas: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    minutes: Mapping[str, float] = field(default_factory=dict)
-    variants: Mapping[str, str] = field(default_factory=dict)
+    arenas: Mapping[Line, tuple[Line, ...]] = field(default_factory=dict)
+    minutes: Mapping[Line, Finite] = field(default_factory=dict)
+    variants: Mapping[Line, Line] = field(default_factory=dict)
     seed: int = 1
     advance: Advance = Advance.HALF
-    fill: str = ""
+    fill: Line = ""
 
     def game_of(self, round_number: int) -> str:
         """The game of a round, from 1."""
@@ -100,9 +102,9 @@ class Outcome:
     """Result of a fixture. `places`: the entrants of each place, best first; equal ones together, sorted by name."""
 
     fixture: int
-    places: tuple[tuple[str, ...], ...]
-    scores: Mapping[str, float] = field(default_factory=dict)
-    note: str = ""
+    places: tuple[tuple[Line, ...], ...]
+    scores: Mapping[Line, Finite] = field(default_factory=dict)
+    note: Line = ""
     extra: int = 0  # see Fixture
 
 

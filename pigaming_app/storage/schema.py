@@ -21,7 +21,8 @@ from pigaming_app.storage.parsing import ParseError, one_line, parse_json, parse
 T = TypeVar("T")
 _UNPRINTABLE = r"\x00-\x1f\x7f-\xa0\xad\u061c\u200b-\u200f\u2028-\u202f\u205f-\u206f\ud800-\uf8ff\ufeff\ufff0-\uffff"
 _PRINTABLE = rf"^[^{_UNPRINTABLE}]*\Z"
-Line = Annotated[str, Meta(max_length=400, pattern=_PRINTABLE)]
+PRINTABLE = Meta(pattern=_PRINTABLE)
+Line = Annotated[str, PRINTABLE, Meta(max_length=400)]
 Finite = Annotated[float, Meta(ge=-1e300, le=1e300)]
 Share = Annotated[float, Meta(ge=0.0, le=1.0)]
 Count = Annotated[int, Meta(ge=0)]
@@ -35,6 +36,16 @@ _NOUNS = {
     "null": "nothing",
     "datetime": "a time",
 }
+
+
+def between(low: float, high: float) -> Meta:
+    """The limits of a number from `low` to `high`, both included."""
+    return Meta(ge=low, le=high)
+
+
+def one_of(*words: str) -> Meta:
+    """The limits of a text that is one of these words."""
+    return Meta(pattern=rf"^({'|'.join(words)})\Z")
 
 
 def from_json(text: str | bytes, kind: type[T], form: int | None = None) -> T:
@@ -97,6 +108,8 @@ def _reason(message: str) -> str:
     text, _, place = message.rpartition(" - at ")
     text, place = (text, place.strip("`").removeprefix("$").removeprefix(".")) if text else (message, "")
     text = text.replace(f"matching regex {_PRINTABLE!r}", "of printable characters")
+    if words := re.search(r"`str` matching regex '\^\((.*)\)\\\\Z'", text):
+        text = text.replace(words[0], f"one of {words[1].replace('|', ', ')}")
     text = re.sub(r"^Object missing required field `(.*)`$", r"\1 is missing", text, flags=re.DOTALL)
     text = re.sub(r"^Object contains unknown field `(.*)`$", r"\1 is not a key here", text, flags=re.DOTALL)
     text = re.sub(r"^Invalid (enum )?value (.*)$", r"\2 is not possible", text, flags=re.DOTALL)

@@ -9,19 +9,20 @@ import logging
 import os
 import re
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field
 from datetime import time
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Annotated, Any, get_type_hints
+
+from msgspec import Meta
 
 from pigaming_app.storage.file_lock import locked
 from pigaming_app.storage.parsing import one_line, parse_toml, quote
 from pigaming_app.storage.safe_files import read_or_restore, write_with_backup
+from pigaming_app.storage.schema import PRINTABLE, between, one_of, typed
 
 FILE = "settings.toml"
-LEGACY_KEYS = ("arena", "minutes", "variant")  # top-level settings of PiTanks, from when it was the only game
 LEVELS = ("level1", "level2", "level3", "level4", "level5")  # of AIs
-LEGACY_LEVELS = {"easy": "level1", "normal": "level3", "hard": "level5"}  # from when there were three
 MAX_NAME = 60  # characters
 MAX_GAMES = 64
 MAX_DEVICES = 16  # with changed controls, and functions of each
@@ -61,124 +62,37 @@ def folders() -> Folders:
         raise NoHome(f"this user has no home folder: {advice}") from None
 
 
-class Validator(Protocol):
-    """A check of a setting's value."""
-
-    def error(self, value: object) -> str | None:
-        """The reason why a value is invalid, as a phrase that follows "is"; None if it is valid."""
-
-
-@dataclass(frozen=True)
-class Range:
-    """Numbers from `low` to `high`, both included; whole numbers only if `low` is an int."""
-
-    low: float
-    high: float
-
-    def error(self, value: object) -> str | None:
-        whole = isinstance(self.low, int)
-        if isinstance(value, bool) or not isinstance(value, int if whole else int | float):
-            return "not a whole number" if whole else "not a number"
-        return None if self.low <= value <= self.high else f"not between {self.low} and {self.high}"
+Short = Annotated[str, PRINTABLE, Meta(max_length=MAX_NAME)]  # a name of something that may no longer exist
+Seat = Annotated[int, between(1, 4)]
+Volume = Annotated[int, between(0, 10)]
+HEX_KEY = Meta(pattern=r"^([0-9a-f]{32})?\Z")
+Functions = Annotated[dict[Short, Annotated[int, Meta(ge=0, lt=1024)]], Meta(min_length=1, max_length=MAX_DEVICES)]
 
 
-@dataclass(frozen=True)
-class OneOf:
-    """One of these words."""
-
-    words: tuple[str, ...]
-
-    def error(self, value: object) -> str | None:
-        return None if value in self.words else f"none of {', '.join(self.words)}"
+def different(seats: list[int]) -> str:
+    """The reason why a list of seats is invalid; empty if it is valid."""
+    return "not different numbers" if len(set(seats)) < len(seats) else ""
 
 
-class Boolean:
-    """True or false."""
-
-    def error(self, value: object) -> str | None:
-        return None if isinstance(value, bool) else "neither true nor false"
+def none_or_eight(corners: list[int]) -> str:
+    """The reason why a list of corners is invalid; empty if it is valid."""
+    return "" if len(corners) in (0, 8) else "neither empty nor eight numbers"
 
 
-class ShortText:
-    """A name of something that may no longer exist; users of the setting must check."""
-
-    def error(self, value: object) -> str | None:
-        short = isinstance(value, str) and len(value) <= MAX_NAME and value.isprintable()
-        return None if short else "not a short text"
-
-
-@dataclass(frozen=True)
-class SeatNumbers:
-    """A list of different whole numbers from 1 to 4; all four if `all_of_them`."""
-
-    all_of_them: bool = False
-
-    def error(self, value: object) -> str | None:
-        valid = isinstance(value, list) and all(type(seat) is int and 1 <= seat <= 4 for seat in value)
-        if not valid or len(set(value)) != len(value):  # type: ignore[call-overload, arg-type]
-            return "not a list of different numbers from 1 to 4"
-        return "not all of 1, 2, 3, 4" if self.all_of_them and len(value) != 4 else None  # type: ignore[arg-type]
-
-
-class RobotKinds:
-    """A list of four names, each empty or of a kind that may no longer exist."""
-
-    def error(self, value: object) -> str | None:
-        short = isinstance(value, list) and len(value) == 4 and not any(ShortText().error(name) for name in value)
-        return None if short else "not a list of four short texts"
-
-
-class TimeOfDay:
-    """A time of day such as 22:30."""
-
-    def error(self, value: object) -> str | None:
-        valid = isinstance(value, str) and re.fullmatch("([01][0-9]|2[0-3]):[0-5][0-9]", value)
-        return None if valid else "no time such as 22:30"
-
-
-class ChangedControls:
-    """Whole numbers by function, by device: see ui/input/remap.py. Users of the setting must check the names."""
-
-    def error(self, value: object) -> str | None:
-        tables = list(value.values()) if isinstance(value, dict) and len(value) <= MAX_DEVICES else [None]
-        codes = [
-            code for table in tables if isinstance(table, dict) and len(table) <= MAX_DEVICES for code in table.values()
-        ]
-        valid = all(isinstance(table, dict) and table for table in tables) and all(
-            type(code) is int and 0 <= code < 1024 for code in codes
-        )
-        return None if valid else "not a table of tables of key or button numbers"
-
-
-class HexKey:
-    """Nothing, or 32 hexadecimal digits."""
-
-    def error(self, value: object) -> str | None:
-        valid = isinstance(value, str) and re.fullmatch("([0-9a-f]{32})?", value)
-        return None if valid else "neither empty nor 32 hexadecimal digits"
-
-
-class Corners:
-    """An empty list, or eight whole numbers: the corners of the picture, px of the canvas."""
-
-    def error(self, value: object) -> str | None:
-        whole = isinstance(value, list) and all(type(number) is int and abs(number) < 10000 for number in value)
-        return None if whole and len(value) in (0, 8) else "neither empty nor eight whole numbers"  # type: ignore[arg-type]
-
-
-def _setting(default: Any, validator: Validator) -> Any:
-    return field(default=default, metadata={"validator": validator})
+def time_of_day(text: str) -> str:
+    """The reason why a text is no time; empty if it is one."""
+    return "" if re.fullmatch(r"([01]\d|2[0-3]):[0-5]\d", text) else "not a time such as 22:30"
 
 
 @dataclass
 class Choice:
     """The last choices in the setup of one game; empty or 0 is the game's default."""
 
-    arena: str = _setting("", ShortText())
-    minutes: int = _setting(0, Range(0, 60))
-    variant: str = _setting("", ShortText())
-    goal: int = _setting(0, Range(0, 99))
-    rounds: int = _setting(1, Range(1, 9))
+    arena: Short = ""
+    minutes: Annotated[int, between(0, 60)] = 0
+    variant: Short = ""
+    goal: Annotated[int, between(0, 99)] = 0
+    rounds: Annotated[int, between(1, 9)] = 1
 
 
 _DEFAULT = Choice()
@@ -190,58 +104,56 @@ Flat = dict[Key, Any]
 class Settings:
     """The operator's settings, and the last choices before a match."""
 
-    language: str = _setting("en", OneOf(("en", "pt", "es", "fr", "de")))
-    music: int = _setting(6, Range(0, 10))
-    sounds: int = _setting(8, Range(0, 10))
-    flashes: str = _setting("full", OneOf(("off", "soft", "full")))
-    shake: bool = _setting(True, Boolean())
-    calm: bool = _setting(False, Boolean())  # nothing flashes more than three times a second, nothing shakes
-    large_text: bool = _setting(False, Boolean())  # in menus, where there is room
-    rumble: bool = _setting(True, Boolean())  # of the pads
-    display: int = _setting(0, Range(0, 15))
-    fullscreen: bool = _setting(True, Boolean())
-    phones: bool = _setting(False, Boolean())  # phones may join as pads
-    phones_network: str = _setting("", ShortText())  # name or address of their interface; empty: the first one
-    phones_port: int = _setting(8787, Range(1024, 65535))
-    attract_seconds: float = _setting(60.0, Range(5.0, 3600.0))  # without input
-    corners: list[int] = field(
-        default_factory=list, metadata={"validator": Corners()}
-    )  # of the picture on the projector
-    strength: str = _setting("level3", OneOf(LEVELS))  # of the AIs that fill the seats
-    camera: int = _setting(0, Range(0, 63))  # over the mat
-    arena_mm: float = _setting(2112.0, Range(500.0, 10000.0))  # the arena's width on the mat
-    camera_mm: float = _setting(2500.0, Range(0.0, 10000.0))  # the camera's height above it; 0: measured with a robot
-    lid_mm: float = _setting(70.0, Range(0.0, 300.0))  # the height of the robots' lids
-    port: str = _setting("", ShortText())  # of the radio; empty: the first one found
-    baud: int = _setting(57600, Range(1200, 921600))
-    radio: str = _setting("api2", OneOf(("api2", "api1", "transparent", "udp", "stock")))  # its mode
-    arena_id: int = _setting(0, Range(0, 16383))  # of this computer and its robots; 0: drawn on first use
-    wifi_key: str = _setting("", HexKey())  # of this arena and its Wi-Fi robots; empty: drawn on first use
-    radio_channel: int = _setting(0, Range(0, 26))  # of the XBees, 11 to 26; 0: follows from the arena id
-    radio_pan: int = _setting(0, Range(0, 65534))  # of the XBees; 0: follows from the arena id
-    mat: bool = _setting(False, Boolean())  # real robots are selectable
-    blocks: bool = _setting(False, Boolean())  # things on the mat are blocks with markers, for a mat without projector
-    real: list[int] = field(
-        default_factory=list, metadata={"validator": SeatNumbers()}
-    )  # seats with real robots, last chosen
-    radios: list[int] = field(
-        default_factory=lambda: [1, 2, 3, 4], metadata={"validator": SeatNumbers(True)}
+    language: Annotated[str, one_of("en", "pt", "es", "fr", "de")] = "en"
+    music: Volume = 6
+    sounds: Volume = 8
+    flashes: Annotated[str, one_of("off", "soft", "full")] = "full"
+    shake: bool = True
+    calm: bool = False  # nothing flashes more than three times a second, nothing shakes
+    large_text: bool = False  # in menus, where there is room
+    rumble: bool = True  # of the pads
+    display: Annotated[int, between(0, 15)] = 0
+    fullscreen: bool = True
+    phones: bool = False  # phones may join as pads
+    phones_network: Short = ""  # name or address of their interface; empty: the first one
+    phones_port: Annotated[int, between(1024, 65535)] = 8787
+    attract_seconds: Annotated[float, between(5.0, 3600.0)] = 60.0  # without input
+    corners: Annotated[list[Annotated[int, Meta(gt=-10_000, lt=10_000)]], none_or_eight] = field(
+        default_factory=list
+    )  # of the picture on the projector, px of the canvas: x and y of all four
+    strength: Annotated[str, one_of(*LEVELS)] = "level3"  # of the AIs that fill the seats
+    camera: Annotated[int, between(0, 63)] = 0  # over the mat
+    arena_mm: Annotated[float, between(500.0, 10000.0)] = 2112.0  # the arena's width on the mat
+    camera_mm: Annotated[float, between(0.0, 10000.0)] = 2500.0  # its height above it; 0: measured with a robot
+    lid_mm: Annotated[float, between(0.0, 300.0)] = 70.0  # the height of the robots' lids
+    port: Short = ""  # of the radio; empty: the first one found
+    baud: Annotated[int, between(1200, 921600)] = 57600
+    radio: Annotated[str, one_of("api2", "api1", "transparent", "udp", "stock")] = "api2"  # its mode
+    arena_id: Annotated[int, between(0, 16383)] = 0  # of this computer and its robots; 0: drawn on first use
+    wifi_key: Annotated[str, HEX_KEY] = ""  # of this arena and its Wi-Fi robots; empty: drawn on first use
+    radio_channel: Annotated[int, between(0, 26)] = 0  # of the XBees, 11 to 26; 0: follows from the arena id
+    radio_pan: Annotated[int, between(0, 65534)] = 0  # of the XBees; 0: follows from the arena id
+    mat: bool = False  # real robots are selectable
+    blocks: bool = False  # things on the mat are blocks with markers, for a mat without projector
+    real: Annotated[list[Seat], different] = field(default_factory=list)  # seats with real robots, last chosen
+    radios: Annotated[list[Seat], Meta(min_length=4), different] = field(
+        default_factory=lambda: [1, 2, 3, 4]
     )  # of each marker
-    camera_delay: int = _setting(-1, Range(-1, 120))  # ms by which the camera's stamps are late; -1: never measured
-    kinds: list[str] = field(
-        default_factory=lambda: [""] * 4, metadata={"validator": RobotKinds()}
+    camera_delay: Annotated[int, between(-1, 120)] = -1  # ms by which the camera's stamps are late; -1: never measured
+    kinds: Annotated[list[Short], Meta(min_length=4, max_length=4)] = field(
+        default_factory=lambda: [""] * 4
     )  # of the robot on each radio; empty: as it announces
-    pad_driving: str = _setting("", ShortText())  # driving style last chosen on a pad; empty: never
-    keys_driving: str = _setting("", ShortText())  # the same on the keyboard
-    keypad: bool = _setting(False, Boolean())  # a key of the number pad was pressed once
-    scoreboard: int = _setting(0, Range(0, 16))  # the display of the second screen, from 1; 0: none
-    volume_cap: int = _setting(10, Range(0, 10))  # of music and sounds
-    quiet_from: str = _setting("00:00", TimeOfDay())  # title and attract mode are silent from here
-    quiet_until: str = _setting("00:00", TimeOfDay())  # to here; the same time: never
-    group_minutes: int = _setting(0, Range(0, 120))  # from the title to the title; 0: no limit
-    keep_choices: bool = _setting(False, Boolean())  # visitors' choices stay and are saved
-    controls: dict[str, dict[str, int]] = field(
-        default_factory=dict, metadata={"validator": ChangedControls()}
+    pad_driving: Short = ""  # driving style last chosen on a pad; empty: never
+    keys_driving: Short = ""  # the same on the keyboard
+    keypad: bool = False  # a key of the number pad was pressed once
+    scoreboard: Annotated[int, between(0, 16)] = 0  # the display of the second screen, from 1; 0: none
+    volume_cap: Volume = 10  # of music and sounds
+    quiet_from: Annotated[str, time_of_day] = "00:00"  # title and attract mode are silent from here
+    quiet_until: Annotated[str, time_of_day] = "00:00"  # to here; the same time: never
+    group_minutes: Annotated[int, between(0, 120)] = 0  # from the title to the title; 0: no limit
+    keep_choices: bool = False  # visitors' choices stay and are saved
+    controls: Annotated[dict[Short, Functions], Meta(max_length=MAX_DEVICES)] = field(
+        default_factory=dict
     )  # changed keys and buttons, by key cluster (keys1 to keys4) and by kind of pad
     games: dict[str, Choice] = field(default_factory=dict)  # by name: [games.pitanks] in the file
 
@@ -275,9 +187,10 @@ class Settings:
 
     def choose(self, name: str, value: object) -> None:
         """Change a setting. Raises ValueError with the reason if the value is invalid."""
-        if error := next(entry.metadata["validator"] for entry in fields(self) if entry.name == name).error(value):
-            raise ValueError(f"{name} = {value!r} is {error}")
-        setattr(self, name, value)
+        try:
+            setattr(self, name, _valid(Settings, name, value))
+        except ValueError as error:
+            raise ValueError(f"{name} = {value!r}: {error}") from None
 
     def settle(self, *names: str) -> None:
         """Make the present choices those of the house: all, or of VISITORS those named once there are visitors."""
@@ -396,11 +309,7 @@ def _names(keys: list[Key]) -> str:
 def _fill_all(settings: Settings, table: dict[str, Any], path: Path) -> list[str]:
     """Apply the valid entries of a file; returns sentences on the others."""
     games = table.pop("games", {})
-    legacy = {key: table.pop(key) for key in LEGACY_KEYS if key in table}
-    problems = _fill(settings.choice("pitanks"), legacy, f"{path}: ") if legacy else []
-    if isinstance(strength := table.get("strength"), str):
-        table["strength"] = LEGACY_LEVELS.get(strength, strength)
-    problems += _fill(settings, table, f"{path}: ")
+    problems = _fill(settings, table, f"{path}: ")
     for game, entries in games.items() if isinstance(games, dict) else [("games", games)]:
         if not isinstance(entries, dict):
             problems.append(f"{path}: {one_line(game, MAX_NAME)} is not a table; it is ignored.")
@@ -420,12 +329,24 @@ def _fill_all(settings: Settings, table: dict[str, Any], path: Path) -> list[str
 def _fill(target: Any, table: dict[str, Any], where: str) -> list[str]:
     """Apply the valid entries of a table; returns a sentence for each of the others."""
     problems = []
-    validators = {entry.name: entry.metadata["validator"] for entry in fields(target) if "validator" in entry.metadata}
     for key, value in table.items():
-        if key not in validators:
+        if key == "games" or key not in TYPES[type(target)]:
             problems.append(f"{where}{one_line(key, MAX_NAME)} is not a setting; it is ignored.")
-        elif error := validators[key].error(value):
-            problems.append(f"{where}{key} = {quote(value)} is {error}; {getattr(target, key)!r} is used.")
-        else:
-            setattr(target, key, float(value) if isinstance(getattr(target, key), float) else value)
+            continue
+        try:
+            setattr(target, key, _valid(type(target), key, value))
+        except ValueError as error:
+            problems.append(f"{where}{key} = {quote(value)}: {error}; {getattr(target, key)!r} is used.")
     return problems
+
+
+TYPES = {kind: get_type_hints(kind, include_extras=True) for kind in (Choice, Settings)}  # by names of settings
+
+
+def _valid(kind: Any, name: str, value: object) -> Any:
+    """The value of a setting. Raises ValueError with the reason if it is invalid."""
+    found = typed(value, TYPES[kind][name])
+    for check in getattr(TYPES[kind][name], "__metadata__", ()):
+        if callable(check) and (reason := check(found)):
+            raise ValueError(reason)
+    return found

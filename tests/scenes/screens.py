@@ -248,7 +248,7 @@ def strengths(arcade: Arcade) -> Strengths:
     rows = [
         (brain, 900.0 - 160.0 * i) for i, brain in enumerate((*AIS["pitanks"].rivals, "classic", "random", "hand1"))
     ]
-    rated = tuple(Strength(brain, rating, rating - 90.0, rating + 90.0) for brain, rating in rows)
+    rated = tuple(Strength(brain, rating, (rating - 90.0, rating + 90.0)) for brain, rating in rows)
     scene.ratings, scene.age = Ratings("pitanks", "original", 100_000, rated), 9.0
     return scene
 

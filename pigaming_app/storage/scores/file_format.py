@@ -20,10 +20,8 @@ from dataclasses import dataclass, field
 from datetime import date
 from typing import Annotated, Any
 
-from msgspec import Meta
-
 from pigaming_app.storage.parsing import QUOTE_LENGTH, ParseError, one_line
-from pigaming_app.storage.schema import from_toml, to_plain, to_toml, typed, valid_entries
+from pigaming_app.storage.schema import between, from_toml, to_plain, to_toml, typed, valid_entries
 from pigaming_app.storage.scores.table import Score, ScoreTable, is_score, worth_keeping
 
 FORMAT = 1
@@ -77,7 +75,7 @@ class Problems:
 class ScoresFile:
     """The file; its tables are validated one by one."""
 
-    resets: Annotated[int, Meta(ge=0, le=10**9)] = 0
+    resets: Annotated[int, between(0, 10**9)] = 0
     table: tuple[Any, ...] = ()
 
 

@@ -7,6 +7,8 @@ from typing import Annotated
 
 from msgspec import Meta
 
+from pigaming_app.storage.schema import between
+
 LENGTH = 10  # rows of a table
 DAYS = 7  # retention of daily tables, back from today; as many future days, in case the clock was wrong
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -24,9 +26,9 @@ class ScoreTable:
     feat: Name  # points, lap, race, time …
     timed: bool = False  # milliseconds, lower is better; else points, higher is better
     rules: Name = ""
-    length: Annotated[float, Meta(ge=0, le=1000)] = 0  # minutes; laps or pallets in a game with a goal
-    people: Annotated[int, Meta(ge=1, le=99)] = 1  # in the match
-    side: Annotated[int, Meta(ge=0, le=99)] = 0  # people on the own team; 0: everyone played alone
+    length: Annotated[float, between(0, 1000)] = 0  # minutes; laps or pallets in a game with a goal
+    people: Annotated[int, between(1, 99)] = 1  # in the match
+    side: Annotated[int, between(0, 99)] = 0  # people on the own team; 0: everyone played alone
 
     def at_least(self, score: int, other: int) -> bool:
         """True if `score` is as good as `other`, or better."""

@@ -257,5 +257,5 @@ def test_the_ratings_of_each_game_are_one_press_away_and_the_users_own_come_firs
 
 def test_of_many_ais_the_page_shows_all_levels_and_the_best_others() -> None:
     names = [*(f"other{i}" for i in range(20)), *LEVELS]
-    rated = tuple(Strength(name, 500.0 - 10.0 * i, 0.0, 600.0) for i, name in enumerate(names))
+    rated = tuple(Strength(name, 500.0 - 10.0 * i, (0.0, 600.0)) for i, name in enumerate(names))
     assert [row.brain for row in shown(Ratings("race", "party", 1, rated))] == [*names[:7], *LEVELS]
