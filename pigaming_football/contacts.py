@@ -6,24 +6,12 @@ is that of `sim/sweep.py`.
 
 from typing import Any
 
-from pigaming_app.api.rules import (
-    FAR,
-    HEIGHT,
-    NEAR_UNIT,
-    RADIUS,
-    ROBOTS,
-    WIDTH,
-    disc_contact,
-    kernel,
-    node_at,
-    offset_from_wall,
-    wall_contact,
-)
+from pigaming_app.api.rules import HEIGHT, RADIUS, ROBOTS, WIDTH, disc_contact, first_wall, kernel, offset_from_wall
 
 from .state import LEFT, MIDDLE, RIGHT
 
 SLOP = 1e-6  # px, for rounding
-UNSEEN = 14.0  # px: from a node without a wall near it, the ball reaches none within this distance
+NEVER = 2.0  # time of a contact that is none, as of `disc_contact`
 X_RIM, Y_RIM, LINE, POST, WALL, ROBOT = 1, 2, 3, 10, 100, 200  # obstacles; the last three count upwards from here
 
 
@@ -36,18 +24,9 @@ def first_contact(match: Any, dx: float, dy: float, left: float, holder: int) ->
     ball = match.ball
     x, y, radius = ball.x, ball.y, match.rules.radius
     hit, first = rim_contact(match, x, y, dx, dy)
-    if match.grid[node_at(x, y)] >= NEAR_UNIT or dx * dx + dy * dy > UNSEEN * UNSEEN:
-        slack = RADIUS - radius - SLOP  # the walls' bounding boxes include RADIUS
-        west, east = (x + slack, x + dx - slack) if dx > 0.0 else (x + dx + slack, x - slack)
-        north, south = (y + slack, y + dy - slack) if dy > 0.0 else (y + dy + slack, y - slack)
-        for i in range(match.wall_count):
-            wall = match.walls[i]
-            if west < wall.right and east > wall.left and north < wall.bottom and south > wall.top and wall.health:
-                t = wall_contact(x, y, dx, dy, wall, radius)
-                if t < first:
-                    nx, ny = offset_from_wall(wall, x, y)
-                    if t > 0.0 or dx * nx + dy * ny < 0.0:
-                        hit, first = WALL + i, t
+    i, t = first_wall(match, x, y, dx, dy, radius)
+    if t < first:
+        hit, first = WALL + i, t
     for k in range(ROBOTS):
         robot, player = match.robots[k], match.players[k]
         if robot.present and k + 1 != holder:
@@ -63,7 +42,7 @@ def first_contact(match: Any, dx: float, dy: float, left: float, holder: int) ->
 def rim_contact(match: Any, x: float, y: float, dx: float, dy: float) -> tuple[int, float]:
     """First contact with the rim, a post, or the line of a goal (of the ball's centre), as `first_contact`."""
     radius, half = match.rules.radius, match.mouth
-    hit, first = 0, FAR
+    hit, first = 0, NEVER
     if radius <= x <= WIDTH - radius and radius < x + dx < WIDTH - radius and radius < y + dy < HEIGHT - radius:
         return hit, first  # from within, since the pitch is convex
     if dy < 0.0 and y + dy <= radius:

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 import pygame
 
-from pigaming_app.api.arenas import BUILT, Drawing, Part
+from pigaming_app.api.arenas import Drawing, Part
 from pigaming_app.api.editor import (
     SHORT,
     SOLID_WALL,
@@ -24,9 +24,6 @@ from pigaming_app.api.editor import (
     apart,
     following,
     legs,
-    number_of,
-    part_of,
-    point_of,
     rock,
     square,
     starts_of,
@@ -51,9 +48,9 @@ DROPS = (
 )  # fmt: skip
 EMPTY = Drawing(
     (
-        Part("goal", (("width", 180),), several=False),
+        Part.of("goal", several=False, width=180),
         *starts_of((300, 290, 0), (1300, 610, 180), (300, 610, 0), (1300, 290, 180)),
-        *(part_of("drop", at=at) for at in DROPS),
+        *(Part.of("drop", at=at) for at in DROPS),
     )
 )
 
@@ -100,13 +97,13 @@ class Drop(Shape):
     is_handle = True
 
     def reach(self, part: Part) -> Sequence[Point]:
-        return square(*point_of(part, "at"), BALL)
+        return square(*part.point("at"), BALL)
 
     def outlines(self, part: Part, k: int) -> Sequence[Outline]:
-        return (regular_polygon(20, BALL, 0.0, *point_of(part, "at")),)
+        return (regular_polygon(20, BALL, 0.0, *part.point("at")),)
 
     def draw(self, paper: Paper, part: Part, k: int) -> None:
-        x, y = point_of(part, "at")
+        x, y = part.point("at")
         paper.flat().dashes(regular_polygon(20, BALL, 0.0, x, y), MIST, THIN, 9, 8).disc(x, y, 5, MIST)
 
 
@@ -141,9 +138,9 @@ class FootballTools(Tools):
     }
     palette = (
         SOLID_WALL,
-        Tool("football_bumper", "wall", lambda a, b: rock(a, b).changed("thick", BUMPER), BUILT),
-        Tool("football_corner", "wall", lambda a, b: _corner(a, b), BUILT),
-        Tool("football_drop", "drop", lambda a, b: part_of("drop", at=whole(*b)), MAX_DROPS),
+        Tool("football_bumper", "wall", lambda a, b: rock(a, b).changed("thick", BUMPER)),
+        Tool("football_corner", "wall", lambda a, b: _corner(a, b)),
+        Tool("football_drop", "drop", lambda a, b: Part.of("drop", at=whole(*b)), MAX_DROPS),
     )
     empty = EMPTY
     pictures: ClassVar[Mapping[str, Callable[[Pen], None]]] = {
@@ -162,7 +159,7 @@ class FootballTools(Tools):
     def part(self, drawing: Drawing, item: Item) -> Part:
         if item.kind != "goal":
             return super().part(drawing, item)
-        return part_of("goal", width=_width(drawing.of("goal")[0]), line=0.0 if item.k == LEFT else WIDTH)
+        return Part.of("goal", width=_width(drawing.of("goal")[0]), line=0.0 if item.k == LEFT else WIDTH)
 
     def with_part(self, drawing: Drawing, item: Item, part: Part) -> Drawing:
         if item.kind != "goal":
@@ -195,19 +192,19 @@ class FootballTools(Tools):
 
 def _width(part: Part) -> float:
     """The width of a goal, px."""
-    return number_of(part, "width", USUAL, NARROWEST, WIDEST)
+    return part.number("width", USUAL, NARROWEST, WIDEST)
 
 
 def _line(part: Part) -> float:
     """x of a goal's line."""
-    return number_of(part, "line", 0.0)
+    return part.number("line", 0.0)
 
 
 def _corner(a: Point, b: Point) -> Part:
     """A wall across the corner that is nearest to a, below b."""
     x, y = (0.0 if a[0] < WIDTH / 2 else WIDTH), (0.0 if a[1] < HEIGHT / 2 else HEIGHT)
     cut = CUT if apart(a, b) < SHORT else min(max(abs(b[0] - x) + abs(b[1] - y), CUTS[0]), CUTS[1])
-    return part_of("wall", from_=whole(x, abs(y - cut)), to=whole(abs(x - cut), y), thick=30, solid=True)
+    return Part.of("wall", from_=whole(x, abs(y - cut)), to=whole(abs(x - cut), y), thick=30, solid=True)
 
 
 TOOLS = FootballTools()

@@ -4,21 +4,19 @@ Directions are a cosine and a sine relative to the own heading; places, and `lea
 defends the left goal in its own frame. So one network plays for either side.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.api.brains import MATE, OPPONENT, PRIZE, Percept, set_action
+from pigaming_app.api.brains import set_action
 from pigaming_app.api.networks import (
-    At,
     Encoding,
-    Found,
     NetworkSenses,
+    Sight,
     Subject,
     distance_of,
     encode_room,
     nearest_robot,
-    saturating,
     whole,
 )
 from pigaming_app.api.rules import DT, HEIGHT, HZ, RADIUS, ROBOTS, WIDTH, kernel, record
@@ -53,7 +51,6 @@ NEAR, FAR = 200.0, 920.0  # px: at which nearness is 1/2; half of the longest di
 SOON, LATER = 0.35, 0.8  # s ahead of the ball
 RAYS, STEPS = 8, 6  # directions in which it looks for room, and steps in each
 COS45 = 0.7071067811865476
-ANYWHERE = 1e18  # px^2
 LANE = 150.0  # px of clearance from which on a way counts as open
 
 
@@ -96,7 +93,7 @@ def encode_self(match: Any, seat: int, sign: float, ahead_x: float, ahead_y: flo
     inputs[PLACE + 1] = whole(sign * (2.0 * me.y / HEIGHT - 1.0))
     inputs[PLACE + 2], inputs[PLACE + 3] = whole(sign * ahead_x), whole(sign * ahead_y)
     lead = lead_of(match, side_of(me))
-    inputs[MATCH], inputs[MATCH + 1] = whole(saturating(1.0 * lead)), whole(lead / 4.0)
+    inputs[MATCH], inputs[MATCH + 1] = whole(lead / (1.0 + abs(lead))), whole(lead / 4.0)
     inputs[MATCH + 2] = whole((rules.ticks - match.tick) / (60.0 * HZ))
     inputs[MATCH + 3] = whole(match.golden_goal)
     inputs[MATCH + 4] = whole(match.ball.worth - 1.0)
@@ -182,7 +179,7 @@ def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: f
     mates, opponents = 0, 0
     own = sqrt(senses.x * senses.x + senses.y * senses.y)
     for _ in range(ROBOTS - 1):
-        j = nearest_robot(match, seat, told, ANYWHERE)
+        j = nearest_robot(match, seat, told)
         if j < 0:
             break
         told |= 1 << j
@@ -243,19 +240,19 @@ def act(match: Any, seat: int, choices: Any) -> None:
     set_action(match.actions[seat], DRIVES[choices[0]], TURNS[choices[1]], choices[2], choices[3])
 
 
-ENCODING = Encoding("football", GROUPS, HEADS, FootballSenses, encode, act)
+ENCODING = Encoding("football", GROUPS, HEADS, encode, act, FootballSenses)
 
 
-def percepts(match: Any, inputs: Sequence[float], at: At) -> Found:
+def percepts(match: Any, inputs: Sequence[float]) -> Iterator[Sight]:
     """Ball, mate and opponents."""
-    yield "ball", Percept(PRIZE, *at(distance_of(inputs[BALL + 2], NEAR), inputs[BALL], inputs[BALL + 1]))
+    yield Sight("ball", "prize", distance_of(inputs[BALL + 2], NEAR), inputs[BALL], inputs[BALL + 1])
     for k, topic, kind in (
-        (OTHERS, "mate", MATE),
-        (OTHERS + OTHER, "near", OPPONENT),
-        (OTHERS + 2 * OTHER, "others", OPPONENT),
+        (OTHERS, "mate", "mate"),
+        (OTHERS + OTHER, "near", "opponent"),
+        (OTHERS + 2 * OTHER, "others", "opponent"),
     ):
         if inputs[k]:
-            yield topic, Percept(kind, *at(FAR * (1.0 - inputs[k + 4]), inputs[k + 1], inputs[k + 2]))
+            yield Sight(topic, kind, FAR * (1.0 - inputs[k + 4]), inputs[k + 1], inputs[k + 2])
 
 
 SUBJECT = Subject(

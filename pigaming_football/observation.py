@@ -6,12 +6,13 @@ The right team's frame is turned by half a circle, so that one brain plays for e
 from math import atan2, pi, sqrt
 from typing import Annotated, Any
 
-from pigaming_app.api.rules import DT, HEIGHT, OTHERS, ROBOTS, WIDTH, kernel, record, turn_to, wrap
+from pigaming_app.api.rules import DT, HEIGHT, ROBOTS, WIDTH, kernel, record, turn_to, wrap
 
 from .rules import lead_of, side_of
 from .state import LEFT, MIDDLE
 
 FREE, OWN, MATE, OPPONENT = range(4)  # `Observation.held`
+OTHERS = ROBOTS - 1
 
 
 @record

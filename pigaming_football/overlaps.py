@@ -7,18 +7,7 @@ place that no wall separates from it (`nearest_free`).
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.api.rules import (
-    DT,
-    HEIGHT,
-    NEAR_UNIT,
-    RADIUS,
-    ROBOTS,
-    WIDTH,
-    is_clear,
-    kernel,
-    node_at,
-    offset_from_wall,
-)
+from pigaming_app.api.rules import DT, HEIGHT, RADIUS, ROBOTS, WIDTH, is_clear, kernel, offset_from_wall
 
 from .contacts import SLOP, reflect, touch
 from .state import LEFT, MIDDLE, RIGHT
@@ -92,14 +81,13 @@ def is_free(match: Any, x: float, y: float) -> int:
             dx, dy = x - robot.x, y - robot.y
             if dx * dx + dy * dy < reach * reach:
                 return 0
-    if match.grid[node_at(x, y)] >= NEAR_UNIT:
-        for i in range(match.wall_count):
-            wall = match.walls[i]
-            if wall.health:
-                dx, dy = offset_from_wall(wall, x, y)
-                reach = wall.half + radius - SLOP
-                if dx * dx + dy * dy < reach * reach:
-                    return 0
+    for i in range(match.wall_count):
+        wall = match.walls[i]
+        if wall.health and wall.left < x < wall.right and wall.top < y < wall.bottom:
+            dx, dy = offset_from_wall(wall, x, y)
+            reach = wall.half + radius - SLOP
+            if dx * dx + dy * dy < reach * reach:
+                return 0
     return 1
 
 

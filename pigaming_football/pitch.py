@@ -13,21 +13,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import dist, hypot
 
-from pigaming_app.api.arenas import (
-    FieldError,
-    Flaw,
-    Layout,
-    TomlTable,
-    build,
-    clear_starts,
-    narrow_gaps,
-    raise_first,
-    read_starts,
-    read_things,
-    read_walls,
-    start_faults,
-)
-from pigaming_app.api.rules import HEIGHT, RADIUS, ROBOTS, SOLID, WIDTH, Arena, Wall, World, offset_from_wall
+from pigaming_app.api.arenas import FieldError, Flaw, Layout, TomlTable, built_walls, layout_faults, read_layout
+from pigaming_app.api.rules import HEIGHT, RADIUS, ROBOTS, WIDTH, Wall, offset_from_wall
 
 from .space import Place, Space, traps
 from .state import MAX_DROPS, MIDDLE, Rules
@@ -62,9 +49,7 @@ class Ways:
     """Where ball and robots get on a layout, with its things or without."""
 
     def __init__(self, layout: Layout) -> None:
-        world = World()
-        build(world, Arena("", {}, layout.walls, layout.starts, "", things=layout.things))
-        walls: Sequence[Wall] = world.walls[: world.wall_count]
+        walls: Sequence[Wall] = built_walls(layout)
         self.walls, self.mouth = walls, layout.plan.mouth
         self.ball, self.robots = Space(walls, BALL, layout.plan.mouth), Space(walls, RADIUS)
         areas = (self.ball.area(*point) for point in layout.plan.drops)
@@ -100,9 +85,10 @@ class Ways:
 def read(table: TomlTable) -> Layout:
     """Parse a pitch. Raises FieldError."""
     layout, ways = _parsed(table)
-    raise_first(_faults(table, layout, ways))
+    for fault in _faults(table, layout, ways):
+        raise fault
     points = tuple(point for point in layout.plan.drops if not ways.refusal(point))
-    return replace(layout, starts=clear_starts(layout), plan=replace(layout.plan, drops=points))
+    return replace(layout, plan=replace(layout.plan, drops=points))
 
 
 def faults(table: TomlTable) -> Iterator[FieldError]:
@@ -110,8 +96,7 @@ def faults(table: TomlTable) -> Iterator[FieldError]:
     try:
         layout, ways = _parsed(table)
         yield from _faults(table, layout, ways)
-        yield from start_faults(replace(layout, starts=clear_starts(layout)))
-        yield from narrow_gaps(layout.walls)
+        yield from layout_faults(layout)
         if ways.pitch >= 0 and ways.room >= 0:
             yield from (BallTrap("ball", "no robot gets a ball out of there", place) for place in ways.traps())
     except FieldError as fault:
@@ -120,8 +105,7 @@ def faults(table: TomlTable) -> Iterator[FieldError]:
 
 def _parsed(table: TomlTable) -> tuple[Layout, Ways]:
     """A pitch that may be unplayable. Raises FieldError."""
-    table.only("title", "start", "wall", "thing", "goal", "drop")
-    walls = tuple(replace(wall, health=SOLID) for wall in read_walls(table))
+    layout = read_layout(table, "goal", "drop", solid=True)
     goal = table.table("goal")
     goal.only("width")
     mouth = goal.number("width", None, NARROWEST, WIDEST, " px") / 2
@@ -129,7 +113,7 @@ def _parsed(table: TomlTable) -> tuple[Layout, Ways]:
     for entry in table.tables("drop"):
         entry.only("at")
         points.append(entry.point("at"))
-    layout = Layout(walls, read_starts(table), Pitch(mouth, tuple(points)), read_things(table))
+    layout = replace(layout, plan=Pitch(mouth, tuple(points)))
     return layout, Ways(layout)
 
 

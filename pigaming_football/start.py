@@ -2,18 +2,18 @@
 
 from collections.abc import Mapping, Sequence
 
-from pigaming_app.api import PAIRS, Variant, named
+from pigaming_app.api import Variant
 from pigaming_app.api.arenas import FieldError
-from pigaming_app.api.rules import HZ, WIDTH, Arena, Setup, seat_robots, seeded
+from pigaming_app.api.rules import HZ, WIDTH, Arena, Setup, seat_robots
 
 from .pitch import Pitch
 from .rules import take_out
 from .state import LEFT, MIDDLE, RIGHT, Football, Rules
 
 OVERTIME = 60.0  # s, at most
-VARIANTS = named(
+VARIANTS = Variant.by_name(
     *(
-        Variant(name, (2, 3, 5), minutes, team_mode=PAIRS, teams=(0, 1, 0, 1), overtime=overtime)
+        Variant(name, (2, 3, 5), minutes, team_mode="pairs", teams=(0, 1, 0, 1), overtime=overtime)
         for name, minutes, overtime in (("standard", 3, 0.0), ("cup", 3, OVERTIME), ("party", 2, OVERTIME))
     )
 )
@@ -25,7 +25,7 @@ def start(match: Football, arena: Arena, setup: Setup) -> None:
     pitch = arena.plan
     if not isinstance(pitch, Pitch):
         raise FieldError("goal", "a table is missing")
-    match.random, match.rules, match.mouth = seeded(setup.seed), rules_of(setup), pitch.mouth
+    match.rules, match.mouth = rules_of(setup), pitch.mouth
     match.drop_count = len(pitch.drops)
     for spot, (x, y) in zip(match.drops, pitch.drops, strict=False):
         spot.x, spot.y = x, y

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from math import dist
 from random import Random
 
-from pigaming_app.api.arenas import Drawing, Part, TomlTable, Value, text_of
+from pigaming_app.api.arenas import Drawing, Part, TomlTable
 
 from .pitch import faults
 
@@ -27,7 +27,7 @@ def surprise(seed: int) -> str:
     random = Random(seed)
     found = next((pitch for _ in range(TRIES) if _is_playable(pitch := _pitch(seed, random))), None)
     assert found, f"seed {seed} makes no pitch"
-    return text_of(found)
+    return found.text()
 
 
 def _is_playable(drawing: Drawing) -> bool:
@@ -36,9 +36,9 @@ def _is_playable(drawing: Drawing) -> bool:
 
 def _pitch(seed: int, random: Random) -> Drawing:
     """A pitch that may be unplayable."""
-    parts = [Part("title", (("en", f"Surprise {seed}"), ("pt", f"Surpresa {seed}")), several=False)]
-    parts.append(Part("goal", (("width", _between(random, *GOALS)),), several=False))
-    parts += [_part("start", at=(x, y), heading=heading) for x, y, heading in STARTS]
+    parts = [Part.of("title", several=False, en=f"Surprise {seed}", pt=f"Surpresa {seed}")]
+    parts.append(Part.of("goal", several=False, width=_between(random, *GOALS)))
+    parts += [Part.of("start", at=(x, y), heading=heading) for x, y, heading in STARTS]
     cut = 0 if random.random() < BARE else _between(random, *CUTS)
     walls: list[Wall] = [((0, cut), (cut, 0), 30)] if cut else []
     for _ in range(int(random.random() * (BUMPERS[1] - BUMPERS[0] + 1)) + BUMPERS[0]):
@@ -48,8 +48,8 @@ def _pitch(seed: int, random: Random) -> Drawing:
     walls = [image for wall in walls for image in dict.fromkeys(_images(wall))]
     for place in PLACES:
         if all(dist(place, end) >= MARGIN for *ends, _ in walls for end in ends):
-            parts += [_part("drop", at=at) for at in dict.fromkeys(_around(*place))]
-    parts += [_part("wall", from_=a, to=b, thick=thick, solid=True) for a, b, thick in walls]
+            parts += [Part.of("drop", at=at) for at in dict.fromkeys(_around(*place))]
+    parts += [Part.of("wall", from_=a, to=b, thick=thick, solid=True) for a, b, thick in walls]
     return Drawing(tuple(parts))
 
 
@@ -79,10 +79,6 @@ def _around(x: int, y: int) -> list[Point]:
     """A point and its images."""
     u, v = 2 * CENTRE[0] - x, 2 * CENTRE[1] - y
     return [(x, y), (u, y), (x, v), (u, v)]
-
-
-def _part(kind: str, /, **entries: Value) -> Part:
-    return Part(kind, tuple((key.rstrip("_"), value) for key, value in entries.items()))
 
 
 def _between(random: Random, low: int, high: int) -> int:

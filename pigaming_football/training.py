@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.api.learning import LEARNER, OFF, POOL, Hyper, LineUp, Tallies, Task, is_over, sign
+from pigaming_app.api.learning import Hyper, LineUp, Tallies, Task
 from pigaming_app.api.rules import WIDTH, kernel
 
 from .network import ENCODING
@@ -65,12 +65,12 @@ def habits(random: Any) -> Mapping[str, float]:
 
 def pairs(share: int, rival: str) -> LineUp:
     """Two of the learner against two of a rival."""
-    return LineUp(share, (LEARNER, rival, LEARNER, rival))
+    return LineUp(share, ("learner", rival, "learner", rival))
 
 
 def alone(share: int, rival: str) -> LineUp:
     """One against one."""
-    return LineUp(share, (LEARNER, rival, OFF, OFF))
+    return LineUp(share, ("learner", rival, "off", "off"))
 
 
 TASK = Task(
@@ -82,14 +82,14 @@ TASK = Task(
         pairs(5, "hand3"),
         pairs(4, "hand2"),
         pairs(2, "hand1"),
-        pairs(3, LEARNER),
-        pairs(4, POOL),
+        pairs(3, "learner"),
+        pairs(4, "pool"),
         alone(3, "hand3"),
         alone(2, "hand2"),
-        alone(2, LEARNER),
-        alone(2, POOL),
-        LineUp(1, (LEARNER, "hand3", LEARNER, OFF)),
-        LineUp(1, (LEARNER, "hand3", POOL, "hand2")),
+        alone(2, "learner"),
+        alone(2, "pool"),
+        LineUp(1, ("learner", "hand3", "learner", "off")),
+        LineUp(1, ("learner", "hand3", "pool", "hand2")),
     ),
     gauges=("lead", "field", "nearness"),
     gauge=gauge,
@@ -112,12 +112,11 @@ def tally(match: Any, seat: int, senses: Any, totals: Any) -> None:
     totals[3], totals[4] = player.own_goals, ahead
     along = match.ball.x / WIDTH if side == LEFT else 1.0 - match.ball.x / WIDTH
     totals[5] = 0.5 if match.ball.out else along
-    totals[6] = sign(ahead) if match.over else 0.0
+    totals[6] = (ahead > 0) - (ahead < 0) if match.over else 0.0
 
 
 TALLIES = Tallies(
     ("goals", "assists", "shots", "own_goals", "lead", "field", "win"),
     {"lead": 2.0, "field": 1.0, "win": 5.0},
     tally,
-    is_over,
 )

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from pigaming_app.api.brains import BrainKind, GameAI, Route, every_level, follow
+from pigaming_app.api.brains import BrainKind, GameAI, Route, follow, levels
 from pigaming_app.api.rules import kernel, record
 
 PERIOD = 5  # ticks between decisions
@@ -23,8 +23,4 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
         follow(match, seat, mind.route, PERIOD)
 
 
-def reset(mind: Any, seed: int) -> None:
-    """Nothing to draw by lot."""
-
-
-AI = GameAI(every_level(BrainKind("collector", Mind, think, reset)))
+AI = GameAI(levels(BrainKind("collector", Mind, think)))

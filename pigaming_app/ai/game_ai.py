@@ -44,10 +44,11 @@ class GameAI:
         return {**kinds, **{name: kinds[level] for name, level in NAMED_LEVELS.items()}}
 
 
-def every_level(kind: BrainKind) -> dict[str, BrainKind]:
-    """One brain in place of all five levels."""
-    return {name: replace(kind, name=name) for name in LEVELS}
+def levels(*kinds: BrainKind) -> dict[str, BrainKind]:
+    """Five brains as the LEVELS, the weakest first; a single one stands for all of them."""
+    every = kinds * len(LEVELS) if len(kinds) == 1 else kinds
+    return {name: replace(kind, name=name) for name, kind in zip(LEVELS, every, strict=True)}
 
 
-RANDOM_ONLY = GameAI(every_level(baselines.RANDOM))
+RANDOM_ONLY = GameAI(levels(baselines.RANDOM))
 """Of a game without brains."""

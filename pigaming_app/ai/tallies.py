@@ -8,6 +8,12 @@ from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.kernel import kernel
 
 
+@kernel
+def is_over(match: MatchState, seat: int) -> int:
+    """1 if the match is over."""
+    return int(match.over)
+
+
 @dataclass(frozen=True)
 class Tallies:
     """The tallies of a game. `tally` and `is_done` are kernels.
@@ -21,13 +27,7 @@ class Tallies:
     names: tuple[str, ...]
     weights: Mapping[str, float]  # of the default reward; tallies that are not named count nothing
     tally: Callable[[Any, int, Any, Any], None]
-    is_done: Callable[[Any, int], int]
-
-
-@kernel
-def is_over(match: MatchState, seat: int) -> int:
-    """1 if the match is over."""
-    return int(match.over)
+    is_done: Callable[[Any, int], int] = is_over
 
 
 @kernel

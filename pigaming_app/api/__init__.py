@@ -4,8 +4,8 @@
 `look` (pictures, sounds), `editor` (drawing of arenas), `environments` (for learning libraries), which need pygame.
 """
 
-from pigaming_app.games.game import PAIRS, Game, LadderMatches, Variant, named
+from pigaming_app.games.game import Game, LadderMatches, Variant
 from pigaming_app.storage.plugins.found import API
 
 MODULES = ("rules", "arenas", "brains", "networks", "learning", "look", "editor", "environments")  # the others
-__all__ = ["API", "PAIRS", "Game", "LadderMatches", "Variant", "named"]
+__all__ = ["API", "Game", "LadderMatches", "Variant"]

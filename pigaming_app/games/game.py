@@ -76,11 +76,20 @@ class Variant:
     default_minutes: int
     goals: tuple[int, ...] = ()  # the choices; empty: the variant has no goal, only a time limit
     default_goal: int = 0
-    team_mode: str = FREE  # FREE, ALONE, PAIRS or ALLIES
+    team_mode: str = FREE  # free (choice), alone, pairs (two teams of at most two), allies (all in one team)
     teams: tuple[int, int, int, int] = (0, 1, 2, 3)  # default team of each seat
     overtime: float = 0.0  # s, by which a level match may exceed its minutes
     columns: tuple[str, ...] = ()  # of the results table; empty: those of the game
     feats: tuple[str, ...] = ()  # names of its high-score tables; empty: all of the game
+
+    def __post_init__(self) -> None:
+        if self.team_mode not in (FREE, ALONE, PAIRS, ALLIES):
+            raise ValueError(f"{self.name}: {self.team_mode} is no team mode; there are free, alone, pairs and allies")
+
+    @staticmethod
+    def by_name(*variants: "Variant") -> Mapping[str, "Variant"]:
+        """Variants for `Game.variants`; the first is the default."""
+        return {variant.name: variant for variant in variants}
 
 
 @dataclass(frozen=True)
@@ -109,8 +118,8 @@ class Game:
     state: type
     variants: Mapping[str, Variant]  # by name; the first is the default
     start: Callable[[Any, Arena, Setup], None]  # fill a fresh state
-    rules: Callable[[Setup], Any]  # the rule record of a match
     judge: Callable[[Any], None]  # one tick of the rules: read actions and poses, request speeds
+    rules: Callable[[Setup], Any] = simple.rules_of  # the rule record of a match
     senses: type = simple.Senses  # record with the parameters of an observation
     observation: type = simple.Observation
     observe: Callable[[Any, int, Any, Any], None] = simple.observe  # observe(match, seat, senses, observation)
@@ -141,8 +150,3 @@ class Game:
     def default(self) -> Variant:
         """The variant that is played unless another one is chosen."""
         return next(iter(self.variants.values()))
-
-
-def named(*variants: Variant) -> Mapping[str, Variant]:
-    """Variants by name."""
-    return {variant.name: variant for variant in variants}

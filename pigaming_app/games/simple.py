@@ -10,11 +10,12 @@ from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.arena import Arena, Layout, build, read_starts, read_walls
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
+from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.robot import use_turbo
 from pigaming_app.sim.things.mud import SLOW, in_mud
 from pigaming_app.sim.things.spec import read_things
 from pigaming_app.sim.toml_table import TomlTable
-from pigaming_app.sim.world import HZ, ROBOTS, World
+from pigaming_app.sim.world import HZ, ROBOTS, SOLID, World
 
 OTHERS = ROBOTS - 1
 
@@ -84,13 +85,30 @@ class Observation:
 
 def read(table: TomlTable) -> Layout:
     """Parse an arena: walls and starts. Raises FieldError."""
-    table.only("title", "start", "wall", "thing")
-    layout = Layout(read_walls(table), read_starts(table), things=read_things(table))
+    return read_layout(table)
+
+
+def read_layout(table: TomlTable, *own: str, solid: bool = False) -> Layout:
+    """Walls, starts and things of an arena file, without a plan. Raises FieldError, and for a table of another name.
+
+    `own`: names of the game's own tables. `solid`: no wall can be broken. Starts that things cover move beside them.
+    """
+    table.only("title", "start", "wall", "thing", *own)
+    walls = tuple(replace(wall, health=SOLID) if solid else wall for wall in read_walls(table))
+    layout = Layout(walls, read_starts(table), things=read_things(table))
     return replace(layout, starts=clear_starts(layout))
 
 
+def rules_of(setup: Any) -> Rules:
+    """The rules of a match: its time limit."""
+    rules = Rules()
+    rules.ticks = round(setup.minutes * 60 * HZ)
+    return rules
+
+
 def seat_robots(match: MatchState, arena: Arena, setup: Any) -> None:
-    """Build the arena of a fresh match and put the robots of the setup on their starts."""
+    """Fill a fresh match: arena, robots on their starts, the generator's seed, the time limit."""
+    match.random, match.rules.ticks = seeded(setup.seed), round(setup.minutes * 60 * HZ)
     build(match, arena)
     for robot, seat in zip(match.robots, setup.seats, strict=True):
         robot.present = int(seat.brain != "off")

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from math import sqrt
 from typing import Any
 
-from pigaming_app.ai.tallies import Tallies, is_over, sign
+from pigaming_app.ai.tallies import Tallies, sign
 from pigaming_app.games.factory.state import (
     DAMAGED,
     DELIVERED,
@@ -126,7 +126,6 @@ TALLIES: Mapping[str, Tallies] = {
         ("hits", "taken", "shots", "points", "lead", "win"),
         {"hits": 1.0, "taken": -1.0, "win": 5.0},
         tally_pitanks,
-        is_over,
     ),
     "race": Tallies(
         ("progress", "laps", "places", "finish", "win"),
@@ -138,7 +137,6 @@ TALLIES: Mapping[str, Tallies] = {
         ("steps", "delivered", "spoiled", "bumps", "lead", "win", "progress", "errand"),
         {"progress": 4.0, "errand": 2.0, "bumps": -0.5, "win": 5.0},
         tally_factory,
-        is_over,
     ),
     **parts("training", "TALLIES", Tallies),
 }  # by game

@@ -33,7 +33,7 @@ from pigaming_app.sim.grid import block_rim, wall_on_grid
 from pigaming_app.sim.robot import GAIN, RADIUS
 from pigaming_app.sim.things.spec import ThingSpec, mud_capsules, wall_capsules
 from pigaming_app.sim.toml_table import FieldError, TomlTable, quote
-from pigaming_app.sim.world import MUDS, ROBOTS, SOLID, WALLS, World
+from pigaming_app.sim.world import MUDS, ROBOTS, SOLID, WALLS, Wall, World
 
 LANGUAGES = ("en", "pt", "es", "fr", "de")
 NEEDED = ("en", "pt")  # of the languages; a title that lacks another is shown in English
@@ -123,6 +123,13 @@ def build(world: World, arena: Arena) -> None:
     for robot, start in zip(world.robots, arena.starts, strict=False):
         robot.x, robot.y, robot.heading = start.x, start.y, start.heading
         robot.gain, robot.turbo = GAIN, 1.0
+
+
+def built_walls(layout: Layout) -> list[Wall]:
+    """The walls of a layout as a match has them, those of its things included. Raises FieldError if they do not fit."""
+    world = World()
+    build(world, Arena("", {}, layout.walls, layout.starts, "", things=layout.things))
+    return world.walls[: world.wall_count]
 
 
 def add_things(world: World, things: Sequence[ThingSpec]) -> None:

@@ -15,10 +15,10 @@ crush catapults a robot.
 
 from math import sqrt
 
-from pigaming_app.sim.grid import NEAR_UNIT, node_at
+from pigaming_app.sim.grid import NEAR, NEAR_UNIT, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS, integrate
-from pigaming_app.sim.sweep import offset_from_wall
+from pigaming_app.sim.sweep import FAR, offset_from_wall, wall_contact
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH, Robot, World
 
 ROUNDS, MAX_ROUNDS = 6, 24  # limits on rounds of overlap resolution: usually, and in a crush
@@ -28,6 +28,7 @@ CRUSH = 0.5  # px of overlap above which ROUNDS is exceeded
 OVERLAP = 1.5  # px, permitted between two robots
 BERTH = 2.0 * RADIUS + 8.0  # px between the centres of a robot that is put back and any other
 ALL = (1 << ROBOTS) - 1  # a bit for each robot
+UNSEEN = NEAR - 36.0  # px: from a node without a wall near it, a point reaches none within this distance
 TOUCHED, MOVED = 1, 2  # by a wall
 APART = 4.0 * RADIUS * RADIUS  # px^2 between centres, from which two robots do not overlap
 TOO_CLOSE = (2.0 * RADIUS - OVERLAP) * (2.0 * RADIUS - OVERLAP)  # px^2, below which OVERLAP is exceeded
@@ -218,3 +219,28 @@ def undo_overlap(robot: Robot, x1: float, y1: float, other: Robot, x2: float, y2
         return 0
     robot.x, robot.y, other.x, other.y = x1, y1, x2, y2
     return 1
+
+
+@kernel
+def first_wall(world: World, x: float, y: float, dx: float, dy: float, radius: float) -> tuple[int, float]:
+    """The first inner wall, -1 for none, that a circle of at most RADIUS meets on its way by (dx, dy), and the time.
+
+    Times as in `sweep`: shares of the way, FAR (2) for none. A wall that it touches already counts only if the circle
+    moves into it. The rim of the arena is no inner wall.
+    """
+    hit, first = -1, FAR
+    unseen = UNSEEN - radius
+    if world.grid[node_at(x, y)] < NEAR_UNIT and (unseen > 0.0 and dx * dx + dy * dy <= unseen * unseen):
+        return hit, first
+    slack = RADIUS - radius - SLOP  # the walls' bounding boxes include RADIUS
+    west, east = (x + slack, x + dx - slack) if dx > 0.0 else (x + dx + slack, x - slack)
+    north, south = (y + slack, y + dy - slack) if dy > 0.0 else (y + dy + slack, y - slack)
+    for i in range(world.wall_count):
+        wall = world.walls[i]
+        if west < wall.right and east > wall.left and north < wall.bottom and south > wall.top and wall.health:
+            t = wall_contact(x, y, dx, dy, wall, radius)
+            if t < first:
+                nx, ny = offset_from_wall(wall, x, y)
+                if t > 0.0 or dx * nx + dy * ny < 0.0:
+                    hit, first = i, t
+    return hit, first

@@ -9,9 +9,10 @@ from typing import Annotated
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
+from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import CELL, COLUMNS, NODES, NODES_PADDED, ROWS, World
+from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, NODES_PADDED, ROWS, WIDTH, World
 
 SLACK = 2  # nodes that a goal may move before the field is rebuilt
 LOOK = 7  # lookahead down the field, nodes
@@ -116,6 +117,22 @@ def descend(route: Route, node: int) -> int:
     if 0 < north < steps_left:
         best, steps_left = node - COLUMNS, north
     return best
+
+
+@kernel
+def corner_after(route: Route) -> tuple[float, float]:
+    """The node that follows the waypoint on a way round walls, px."""
+    node = descend(route, node_at(route.waypoint_x, route.waypoint_y))
+    return node % COLUMNS * CELL, node // COLUMNS * CELL
+
+
+@kernel
+def random_place(world: World) -> tuple[float, float]:
+    """A place, px, drawn by lot with the match's generator, where a robot can stand and drive."""
+    node = 0
+    while node == 0:
+        node = free_node(world, uniform(world) * WIDTH, uniform(world) * HEIGHT)
+    return node % COLUMNS * CELL, node // COLUMNS * CELL
 
 
 @kernel

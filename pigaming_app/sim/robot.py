@@ -53,3 +53,11 @@ def stop_all(world: World) -> None:
     """Request zero speed of every robot."""
     for robot in world.robots:
         stop(robot)
+
+
+@kernel
+def put_back(robot: Robot, x: float, y: float, heading: float) -> None:
+    """Ask for a robot at rest at a pose, px and rad in 0..2 pi, before the next tick: a simulated one jumps there once
+    the place is free of others, a real one drives there by itself. `robot.recover` is 1 until then.
+    """
+    robot.recover, robot.recover_x, robot.recover_y, robot.recover_heading = 1, x, y, heading

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from pigaming_app.api.brains import LEVELS, BrainKind, GameAI
+from pigaming_app.api.brains import BrainKind, GameAI, levels
 from pigaming_app.api.networks import Handicap, shipped_brain
 from pigaming_app.api.rules import seeded, uniform
 
@@ -55,9 +55,9 @@ NET = shipped_brain("net", "football", "football", Handicap(sharpness=2.0), Path
 
 AI = GameAI(
     {
-        **{name: _footballer(name, strength) for name, strength in zip(LEVELS, STRENGTHS, strict=True)},
+        **levels(*(_footballer("", strength) for strength in STRENGTHS)),
         **{f"hand{i}": _footballer(f"hand{i}", strength) for i, strength in enumerate(HANDS, start=1)},
         "net": NET,
     },
-    rivals=(*LEVELS, "net"),
+    rivals=("level1", "level2", "level3", "level4", "level5", "net"),
 )

@@ -15,8 +15,16 @@ Every robot decides for itself, from its team's frame; a human mate is assigned 
 from math import atan2, pi, sqrt
 from typing import Any
 
-from pigaming_app.api.brains import choose_escape, descend, escape, set_action, ticks_stuck, turn_stick, update_route
-from pigaming_app.api.rules import CELL, COLUMNS, HEIGHT, WIDTH, is_clear, kernel, node_at, turn_to
+from pigaming_app.api.brains import (
+    choose_escape,
+    corner_after,
+    escape,
+    set_action,
+    ticks_stuck,
+    turn_stick,
+    update_route,
+)
+from pigaming_app.api.rules import HEIGHT, WIDTH, is_clear, kernel, turn_to
 
 from ..observation import FREE, MATE, OPPONENT, OWN, from_left, observe, polar
 from ..rules import side_of
@@ -35,6 +43,7 @@ LONG_SHOT = 750.0  # px
 LONGEST = 85  # ticks for which it holds the ball
 KEEPER_X, KEEPER_FAR, KEEPER_SHARE = 78.0, 300.0, 0.36  # px, px, and share of the ball's distance: its line
 ALONG_WALL = 150.0  # px within which it drives straight at a ball beside a wall, where no robot has room
+PASSED = 50.0  # px to a corner of the way round walls, within which it drives to the next one if it can
 GRAZE = BALL - 1.0  # px of room on a way on which it may slide along walls
 KEEPER_ROOM = 70.0  # px from its line within which it keeps its heading
 STUCK_TICKS, STUCK_DISTANCE = 40, 14.0
@@ -47,7 +56,7 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     """Observe and decide every PERIOD ticks; the action holds in between."""
     if (match.tick + mind.phase) % PERIOD:
         return
-    observe(match, seat, mind.senses, mind.obs)
+    observe(match, seat, mind, mind.obs)
     notice(mind)
     obs, action = mind.obs, match.actions[seat]
     if mind.freeing:
@@ -233,9 +242,8 @@ def drive_to(match: Any, seat: int, mind: Any, x: float, y: float, hurry: int, f
         gap, straight = polar(obs, x, y)
         if gap < ALONG_WALL and is_clear(match, robot.x, robot.y, route.goal_x, route.goal_y, GRAZE):
             distance, angle = gap, straight
-        elif distance < CELL:
-            node = descend(route, node_at(route.waypoint_x, route.waypoint_y))
-            node_x, node_y = node % COLUMNS * CELL, node // COLUMNS * CELL
+        elif distance < PASSED:
+            node_x, node_y = corner_after(route)
             if is_clear(match, robot.x, robot.y, node_x, node_y, GRAZE):
                 distance, angle = polar(obs, from_left(node_x, WIDTH, sign), from_left(node_y, HEIGHT, sign))
     ahead = 1.0

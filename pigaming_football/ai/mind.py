@@ -3,7 +3,7 @@
 from math import sqrt
 from typing import Any
 
-from pigaming_app.api.brains import Route, Senses
+from pigaming_app.api.brains import Route
 from pigaming_app.api.rules import HEIGHT, RADIUS, WIDTH, bell, kernel, record
 
 from ..observation import Observation
@@ -22,7 +22,6 @@ CHASER, KEEPER, SUPPORTER = range(3)
 class Mind:
     """Memory, and the handicaps of its level."""
 
-    senses: Senses
     obs: Observation
     route: Route
     speed: float  # share of the full stick, 0..1

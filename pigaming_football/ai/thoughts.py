@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from pigaming_app.api.brains import GOAL, MATE, OPPONENT, Percept, Thoughts, clamp, towards
+from pigaming_app.api.brains import Percept, Thoughts, towards
 from pigaming_app.api.rules import HEIGHT, WIDTH
 
 from ..observation import OWN, from_left, polar
@@ -40,11 +40,11 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
         percepts=tuple(_percepts(match, seat, mind)),
         rose=towards(obs.goal_bearing if obs.held == OWN else polar(obs, mind.meet_x, mind.meet_y)[1]),
         utilities={
-            "football_chase": clamp(1.0 - obs.ball_distance / FAR) if mind.role != CHASER else 1.0,
-            "football_keep": clamp(1.0 - mind.seen_x / WIDTH) if mind.role != KEEPER else 1.0,
+            "football_chase": max(0.0, 1.0 - obs.ball_distance / FAR) if mind.role != CHASER else 1.0,
+            "football_keep": max(0.0, 1.0 - mind.seen_x / WIDTH) if mind.role != KEEPER else 1.0,
             "football_support": 1.0 if mind.role == SUPPORTER else 0.0,
             "football_aim": 1.0 if obs.held == OWN else 0.0,
-            "free": 1.0 if mind.freeing else clamp(mind.stuck_ticks / STUCK_TICKS),
+            "free": 1.0 if mind.freeing else min(1.0, mind.stuck_ticks / STUCK_TICKS),
         },
         chosen=behaviour,
     )
@@ -59,8 +59,8 @@ def _percepts(match: Any, seat: int, mind: Any) -> Iterator[Percept]:
 
     for other in mind.obs.others:
         if other.present:
-            yield Percept(MATE if other.mate else OPPONENT, *at(other.x, other.y))
+            yield Percept("mate" if other.mate else "opponent", *at(other.x, other.y))
     if mind.obs.held == OWN:
-        yield Percept(GOAL, *at(WIDTH, MIDDLE))
+        yield Percept("goal", *at(WIDTH, MIDDLE))
     else:
-        yield Percept(GOAL, *at(mind.meet_x, mind.meet_y))
+        yield Percept("goal", *at(mind.meet_x, mind.meet_y))

@@ -11,7 +11,7 @@ from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import load, parse
 from pigaming_app.games.drawing.problems import Problem
 from pigaming_app.games.drawing.problems import problems as problems_of
-from pigaming_app.games.drawing.values import Drawing, Part, drawing_of, text_of
+from pigaming_app.games.drawing.values import Drawing, Part, drawing_of
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.arena import ArenaError
@@ -35,7 +35,7 @@ def kinds(drawing: Drawing) -> set[tuple[str, bool]]:
 
 def is_playable(drawing: Drawing) -> bool:
     try:
-        parse("football", text_of(drawing), "a.toml")
+        parse("football", drawing.text(), "a.toml")
     except ArenaError:
         return False
     return True
@@ -50,7 +50,7 @@ def wedge(degrees: float) -> Drawing:
 def is_freed(drawing: Drawing, x: float, y: float, seed: int) -> bool:
     """True if robots of level 5 get a ball that rests at (x, y) away from there before it is dropped anew."""
     one, two, three, four = (Seat("level5", team) for team in (0, 1, 0, 1))
-    arena = parse("football", text_of(drawing), "a.toml")
+    arena = parse("football", drawing.text(), "a.toml")
     match = new_match(Setup("football", "a", (one, two, three, four), 2.0, seed, "standard"), arena=arena)
     ball = match.state.ball
     ball.out, ball.x, ball.y, ball.vx, ball.vy, ball.anchor_x, ball.anchor_y = 0, x, y, 0.0, 0.0, x, y

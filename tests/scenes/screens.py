@@ -18,7 +18,7 @@ from pigaming_app.events.league_files import Ratings, Strength
 from pigaming_app.events.spec import Entrant, Format
 from pigaming_app.games.arenas import arenas, load, shipped_arenas
 from pigaming_app.games.drawing.problems import Problem
-from pigaming_app.games.drawing.values import drawing_of, text_of
+from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay
@@ -438,7 +438,7 @@ def drawn_arenas(arcade: Arcade, game: str, page: bool = False) -> Scene:
     """The gallery, or the page of an arena, with its widest name."""
     for name in (WIDEST.lower(), *(f"{WIDEST.lower()}-{i}" for i in range(4))):
         drawing = drawing_of(load(game, shipped_arenas(game)[0]).source)
-        write_atomic(store.draft_file(game, name), text_of(store.titled(drawing, WIDEST)).encode())
+        write_atomic(store.draft_file(game, name), store.titled(drawing, WIDEST).text().encode())
     if not page:
         return Gallery(arcade.context, game)
     scene = DrawingPage(arcade.context, game, WIDEST.lower())

@@ -29,6 +29,10 @@ def no_weights(fast: bool) -> Any:
     return packed([NoWeights()]) if fast else [NoWeights()]
 
 
+def no_reset(mind: Any, seed: int) -> None:
+    """A fresh mind as it is."""
+
+
 @dataclass(frozen=True)
 class BrainKind:
     """A brain as data and functions.
@@ -44,7 +48,7 @@ class BrainKind:
     name: str
     mind: type
     think: Callable[[Any, int, Any, Any], None]
-    reset: Callable[[Any, int], None]
+    reset: Callable[[Any, int], None] = no_reset
     weights: Callable[[bool], Any] = no_weights
     explain: Callable[[Any, int, Any, Any], Thoughts] | None = None
     plain: bool = False

@@ -44,9 +44,9 @@ class Encoding:
     game: str
     groups: tuple[tuple[str, int], ...]  # names and lengths of the groups of inputs, in order
     heads: tuple[tuple[str, int], ...]  # names and numbers of choices, in order
-    senses: type[NetworkSenses]
     encode: Callable[[Any, int, Any, Any], None]
     act: Callable[[Any, int, Any], None]
+    senses: type[NetworkSenses] = NetworkSenses  # record: what a level lacks, and scratch space of `encode`
 
     def __post_init__(self) -> None:
         if self.size % 2 or self.outputs % 2:
@@ -80,7 +80,7 @@ def saturating(value: float) -> float:
 
 
 @kernel
-def nearest_robot(match: MatchState, seat: int, told: int, within2: float) -> int:
+def nearest_robot(match: MatchState, seat: int, told: int, within2: float = ANYWHERE) -> int:
     """The nearest of the other robots whose bit in `told` is 0, -1 if none; `within2`: square of the range, px²."""
     me = match.robots[seat]
     best, nearest2 = -1, within2

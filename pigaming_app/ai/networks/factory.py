@@ -269,4 +269,4 @@ def act(match: Factory, seat: int, choices: list[int]) -> None:
     set_action(match.actions[seat], choices[0] - 1.0, TURNS[choices[1]], choices[2], choices[3])
 
 
-ENCODING = Encoding("factory", GROUPS, HEADS, FactorySenses, encode, act)
+ENCODING = Encoding("factory", GROUPS, HEADS, encode, act, FactorySenses)

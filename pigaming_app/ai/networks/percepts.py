@@ -1,63 +1,63 @@
 """The subjects of all games: topics of the inputs, and the places of perceived things."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
-from pigaming_app.ai.brain.thoughts import BULLET, GOAL, MATE, OPPONENT, PERSON, PRIZE, WAY, Percept
+from pigaming_app.ai.brain.thoughts import BULLET, GOAL, MATE, OPPONENT, PERSON, PRIZE, WAY
 from pigaming_app.ai.networks import factory, pitanks, race
 from pigaming_app.ai.networks.pitanks_things import MINE_NEAR
-from pigaming_app.ai.networks.subject import At, Found, Subject, distance_of
+from pigaming_app.ai.networks.subject import Sight, Subject, distance_of
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.games.simple import MatchState
 from pigaming_app.storage.plugins.parts import Registry
 
 
-def in_pitanks(match: PiTanks, inputs: Sequence[float], at: At) -> Found:
+def in_pitanks(match: PiTanks, inputs: Sequence[float]) -> Iterator[Sight]:
     """Robots, bullets, pick-up and mine. A bullet so far aside that its distance saturates has no place."""
     for k in range(pitanks.OTHERS, pitanks.PICKUP, pitanks.OTHER):
         if inputs[k]:
-            place = at(800.0 * (inputs[k + 2] + 1.0), inputs[k + 4], inputs[k + 5])
+            place = (800.0 * (inputs[k + 2] + 1.0), inputs[k + 4], inputs[k + 5])
             kind = MATE if inputs[k + 1] else OPPONENT
-            yield "near" if k == pitanks.OTHERS else "others", Percept(kind, *place, bool(inputs[k + 11]))
+            yield Sight("near" if k == pitanks.OTHERS else "others", kind, *place, bool(inputs[k + 11]))
     for k in range(pitanks.BULLETS, pitanks.MINE, 5):
         if inputs[k] and abs(inputs[k + 2]) < 1.0:
             flight, aside = distance_of(inputs[k + 1], 1.0 / 3.0) * match.rules.bullet_speed, 60.0 * inputs[k + 2]
             along, across = inputs[k + 3], inputs[k + 4]
-            yield "bullets", Percept(BULLET, *at(1.0, flight * along - aside * across, flight * across + aside * along))
+            yield Sight("bullets", BULLET, 1.0, flight * along - aside * across, flight * across + aside * along)
     k = pitanks.PICKUP
     if inputs[k + 2]:
-        yield "pickups", Percept(PRIZE, *at(distance_of(inputs[k + 2], 300.0), inputs[k], inputs[k + 1]))
+        yield Sight("pickups", PRIZE, distance_of(inputs[k + 2], 300.0), inputs[k], inputs[k + 1])
     k = pitanks.MINE
     if inputs[k + 2]:
-        yield "mines", Percept(BULLET, *at(MINE_NEAR * (1.0 - inputs[k + 2]), inputs[k], inputs[k + 1]))
+        yield Sight("mines", BULLET, MINE_NEAR * (1.0 - inputs[k + 2]), inputs[k], inputs[k + 1])
 
 
-def in_factory(match: MatchState, inputs: Sequence[float], at: At) -> Found:
+def in_factory(match: MatchState, inputs: Sequence[float]) -> Iterator[Sight]:
     """The first target and the way to it, robots and people."""
     k = factory.TARGETS
     if inputs[k]:
         way = factory.WAY
         if not inputs[way + 2]:
-            yield "target", Percept(WAY, *at(400.0 * inputs[way + 3], inputs[way], inputs[way + 1]))
-        yield "target", Percept(GOAL, *at(distance_of(inputs[k + 2], factory.NEAR), inputs[k + 3], inputs[k + 4]))
+            yield Sight("target", WAY, 400.0 * inputs[way + 3], inputs[way], inputs[way + 1])
+        yield Sight("target", GOAL, distance_of(inputs[k + 2], factory.NEAR), inputs[k + 3], inputs[k + 4])
     for k in range(factory.OTHERS, factory.PEOPLE, factory.OTHER):
         if inputs[k]:
-            place = at(distance_of(inputs[k + 1], factory.NEAR), inputs[k + 2], inputs[k + 3])
-            yield "others", Percept(MATE if inputs[k] > 0.0 else OPPONENT, *place)
+            place = (distance_of(inputs[k + 1], factory.NEAR), inputs[k + 2], inputs[k + 3])
+            yield Sight("others", MATE if inputs[k] > 0.0 else OPPONENT, *place)
     for k in range(factory.PEOPLE, factory.ROOM, factory.PERSON):
-        yield "people", Percept(PERSON, *at(distance_of(inputs[k], 150.0), inputs[k + 1], inputs[k + 2]))
+        yield Sight("people", PERSON, distance_of(inputs[k], 150.0), inputs[k + 1], inputs[k + 2])
 
 
-def in_race(match: MatchState, inputs: Sequence[float], at: At) -> Found:
+def in_race(match: MatchState, inputs: Sequence[float]) -> Iterator[Sight]:
     """Robots, and the point of the fastest line some way ahead."""
     for k in range(race.OTHERS, race.OILS, race.OTHER):
         if any(inputs[k : k + race.OTHER]) and abs(inputs[k + 2]) < 1.0:
-            place = at(1.0, race.NEAR * inputs[k + 1], 200.0 * inputs[k + 2])
-            yield "near" if k == race.OTHERS else "others", Percept(OPPONENT, *place)
+            place = (1.0, race.NEAR * inputs[k + 1], 200.0 * inputs[k + 2])
+            yield Sight("near" if k == race.OTHERS else "others", OPPONENT, *place)
     for i in (3, 5):
         k = race.COURSE + 6 * i
         if abs(inputs[k]) < 1.0 and abs(inputs[k + 1]) < 1.0:
-            place = at(1.0, 450.0 * inputs[k], (1.2 * race.AHEAD[i] + 40.0) * inputs[k + 1])
-            yield "course", Percept(WAY, *place)
+            place = (1.0, 450.0 * inputs[k], (1.2 * race.AHEAD[i] + 40.0) * inputs[k + 1])
+            yield Sight("course", WAY, *place)
 
 
 OURS = {

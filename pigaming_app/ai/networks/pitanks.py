@@ -311,4 +311,4 @@ def act(match: PiTanks, seat: int, choices: list[int]) -> None:
     set_action(match.actions[seat], choices[0] - 1.0, TURNS[choices[1]], choices[2], choices[3])
 
 
-ENCODING = Encoding("pitanks", GROUPS, HEADS, PiTanksSenses, encode, act)
+ENCODING = Encoding("pitanks", GROUPS, HEADS, encode, act, PiTanksSenses)

@@ -203,4 +203,4 @@ def act(match: Race, seat: int, choices: list[int]) -> None:
     set_action(match.actions[seat], DRIVES[choices[0]], TURNS[choices[1]], fire, choices[3])
 
 
-ENCODING = Encoding("race", GROUPS, HEADS, RaceSenses, encode, act)
+ENCODING = Encoding("race", GROUPS, HEADS, encode, act, RaceSenses)

@@ -6,17 +6,30 @@ from typing import Any, NamedTuple
 
 from pigaming_app.ai.networks.encoding import Encoding
 from pigaming_app.ai.ppo.learner import STANDARD, Hyper
+from pigaming_app.games.simple import MatchState
+from pigaming_app.sim.kernel import kernel
 
 SHARDS = 4  # independent parts of a training's matches
 LEARNER, EXPLOITER, POOL, OFF = "learner", "exploiter", "pool", "off"  # on a seat
 LEARNERS = (LEARNER, EXPLOITER)  # the network in training, and one that seeks its weaknesses; POOL: copies of both
 
 
+@kernel
+def no_result(match: MatchState, seat: int) -> float:
+    """No reward at the end of a match."""
+    return 0.0
+
+
+def no_habits(random: Any) -> Mapping[str, float]:
+    """None."""
+    return {}
+
+
 class LineUp(NamedTuple):
     """Who plays a kind of match, by seat, and in which teams; the players are moved on by a random number of seats."""
 
     share: int  # of the matches, relative to the other line-ups
-    seats: tuple[str, ...]  # LEARNER, EXPLOITER, POOL, OFF or the name of a brain
+    seats: tuple[str, ...]  # `learner`, its `exploiter`, `pool` (copies of both), `off`, or a brain
     teams: tuple[int, ...] | None = None  # None: those of the variant
     variants: tuple[str, ...] = ()  # empty: those of the task
     arenas: tuple[str, ...] = ()  # empty: those of the task
@@ -37,10 +50,12 @@ class Task:
     line_ups: Sequence[LineUp]
     gauges: tuple[str, ...]
     gauge: Callable[[Any, int, Any, Any], None]
-    result: Callable[[Any, int], float]  # reward of the end of a match
     reward: Callable[[Any, Any, Any, float], Any]  # reward(gains (..., gauges), inputs, choices, share of training)
     rivals: tuple[str, ...]  # brains against which win rates are measured
-    habits: Callable[[Any], Mapping[str, float]]  # habits(generator): fields of a network's senses, for a whole match
+    result: Callable[[Any, int], float] = no_result  # reward of the end of a match
+    habits: Callable[[Any], Mapping[str, float]] = (
+        no_habits  # habits(generator): fields of a network's senses, for a whole match
+    )
     cut: float = 0.0  # probability that a match is replaced by a fresh one after each update
     hyper: Hyper = STANDARD
     sharpness: float = 1.0  # of the trained network as a brain; see Handicap

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from math import hypot
 
-from pigaming_app.sim.arena import WallSpec
+from pigaming_app.sim.arena import Layout, WallSpec, start_faults
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -17,6 +17,15 @@ class Flaw(FieldError):
     """Something bad of an arena that can be played nevertheless. `kind`: of the sentence about it on the screen."""
 
     kind = "gap"
+
+
+def layout_faults(layout: Layout) -> Iterator[FieldError]:
+    """What makes walls and starts of an arena unplayable, then gaps that are too narrow for a robot, which are flaws.
+
+    Raises FieldError if its things do not fit.
+    """
+    yield from start_faults(layout)
+    yield from narrow_gaps(layout.walls)
 
 
 class NarrowGap(Flaw):

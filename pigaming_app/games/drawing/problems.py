@@ -7,10 +7,10 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from pigaming_app.games.drawing.gaps import Flaw, narrow_gaps
+from pigaming_app.games.drawing.gaps import Flaw, layout_faults
 from pigaming_app.games.drawing.values import Drawing, Part, Value
 from pigaming_app.games.game import Game
-from pigaming_app.sim.arena import read_title, start_faults
+from pigaming_app.sim.arena import read_title
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -58,9 +58,7 @@ def _faults(game: Game, table: TomlTable) -> Iterable[FieldError]:
         yield from game.faults(table)
         return
     try:
-        layout = game.read(table)
-        yield from start_faults(layout)
-        yield from narrow_gaps(layout.walls)
+        yield from layout_faults(game.read(table))
     except FieldError as fault:
         yield fault
 

@@ -7,10 +7,14 @@ A change makes a new drawing, so an editor undoes by keeping the old ones. Table
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import isfinite
 from typing import Any
 
 from pigaming_app.sim.toml_table import FieldError, TomlTable
+from pigaming_app.sim.world import HEIGHT, WIDTH
 
+FAR = 400.0  # px beyond the rim
+Point = tuple[float, float]
 Value = str | bool | int | float | tuple["Value", ...]
 
 
@@ -22,9 +26,23 @@ class Part:
     entries: tuple[tuple[str, Value], ...]
     several: bool = True
 
+    @classmethod
+    def of(cls, kind: str, /, *, several: bool = True, **entries: Value) -> "Part":
+        """A part with these entries; a key that is a word of Python, such as `from`, ends with an underscore."""
+        return cls(kind, tuple((key.rstrip("_"), value) for key, value in entries.items()), several)
+
     def get(self, key: str, default: Value = ()) -> Value:
         """The value of an entry."""
         return next((value for name, value in self.entries if name == key), default)
+
+    def number(self, key: str, default: float, least: float = -1e4, most: float = 1e4) -> float:
+        """A number among its entries, from `least` to `most`."""
+        value = self.get(key, default)
+        return min(max(float(value), least), most) if isinstance(value, int | float) and isfinite(value) else default
+
+    def point(self, key: str) -> Point:
+        """A point among its entries, px, not far from the arena; the middle of the arena if there is none."""
+        return point(self.get(key)) or (WIDTH / 2, HEIGHT / 2)
 
     def changed(self, key: str, value: Value | None) -> "Part":
         """This part with another value; None: without the entry."""
@@ -52,6 +70,10 @@ class Drawing:
         at = [i for i, other in enumerate(self.parts) if other.kind == kind][k]
         return replace(self, parts=(*self.parts[:at], *((part,) if part else ()), *self.parts[at + 1 :]))
 
+    def text(self) -> str:
+        """The text of an arena file."""
+        return "\n".join(_table(part) for part in self.parts)
+
     def document(self) -> dict[str, Any]:
         """Tables and lists as TOML has them, to be read by the game."""
         tables: dict[str, Any] = {}
@@ -62,6 +84,14 @@ class Drawing:
             else:
                 tables[part.kind] = entries
         return tables
+
+
+def point(value: Value) -> Point | None:
+    """A value as a point, px, not far from the arena; None if it is none."""
+    match value:
+        case (int() | float() as x, int() | float() as y) if isfinite(x) and isfinite(y):
+            return min(max(float(x), -FAR), WIDTH + FAR), min(max(float(y), -FAR), HEIGHT + FAR)
+    return None
 
 
 def drawing_of(source: str) -> Drawing:
@@ -75,11 +105,6 @@ def drawing_of(source: str) -> Drawing:
             entries = tuple((key, _frozen(f"{kind}.{key}", value)) for key, value in table.items())
             parts.append(Part(kind, entries, isinstance(found, list)))
     return Drawing(tuple(parts))
-
-
-def text_of(drawing: Drawing) -> str:
-    """The text of an arena file."""
-    return "\n".join(_table(part) for part in drawing.parts)
 
 
 def _table(part: Part) -> str:

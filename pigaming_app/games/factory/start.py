@@ -19,16 +19,15 @@ from pigaming_app.games.factory.state import (
     Factory,
     Rules,
 )
-from pigaming_app.games.game import ALLIES, PAIRS, Setup, Variant, named
+from pigaming_app.games.game import ALLIES, PAIRS, Setup, Variant
 from pigaming_app.games.simple import seat_robots
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 
 PALLETS = Rules().pallets  # per team, the default goal
 GOALS = tuple(range(2, MAX_PALLETS + 1))
 OVERTIME = 30.0  # s
-VARIANTS = named(
+VARIANTS = Variant.by_name(
     Variant("standard", (3, 5, 8), 5, GOALS, PALLETS, PAIRS, teams=(0, 1, 0, 1), feats=("time",)),
     Variant(
         "party",
@@ -49,7 +48,6 @@ def start(match: Factory, arena: Arena, setup: Setup) -> None:
     """Fill a fresh match: walls, machines, people, robots on their team's starts, pallets, rules, random seed."""
     seat_robots(match, arena, setup)
     floor: Floor = arena.plan
-    match.random = seeded(setup.seed)
     set_rules(match.rules, setup)
     if match.rules.allies:
         expected = expected_time(floor, sum(robot.present for robot in match.robots), match.rules.pallets)

@@ -3,7 +3,7 @@
 from math import hypot
 from random import Random
 
-from pigaming_app.games.drawing.values import Drawing, Part, Value, text_of
+from pigaming_app.games.drawing.values import Drawing, Part
 from pigaming_app.games.factory.layout import SHELF, WAYS, faults, read
 from pigaming_app.games.factory.state import SHELVES
 from pigaming_app.sim.arena import Layout
@@ -16,7 +16,7 @@ SHELF_X = 66  # px from the sides of the arena to the slots of a warehouse
 UPPER, LOWER = 96, 540  # px, first slots of the warehouses
 START_X, START_Y = 230, 105  # px from the side, and from the middle of the entry
 MACHINES_X, MACHINES_Y = (400, 600), ((216, 310), (590, 684))  # px, of the left one and of each of its two rows
-AISLE = Part("aisle", (("at", (650, 50)), ("size", (300, 800))), several=False)
+AISLE = Part.of("aisle", several=False, at=(650, 50), size=(300, 800))
 HOMES = 100  # px between the resting places
 SHARED_Y = (110, 270)  # px, from the upper or the lower side
 WALLS, WALL_TRIES = 3, 40  # at most, each with its image, and how often one is tried
@@ -40,7 +40,7 @@ def surprise(seed: int) -> str:
         found = more if more != found and _is_playable(more) else found
         if len(found.of("wall")) == 2 * WALLS:
             break
-    return text_of(found)
+    return found.text()
 
 
 def _is_playable(drawing: Drawing) -> bool:
@@ -49,7 +49,7 @@ def _is_playable(drawing: Drawing) -> bool:
 
 def _floor(seed: int, random: Random, turned: bool) -> Drawing:
     """A floor without walls, which may be unplayable."""
-    parts = [Part("title", (("en", f"Surprise {seed}"), ("pt", f"Surpresa {seed}")), several=False), AISLE]
+    parts = [Part.of("title", several=False, en=f"Surprise {seed}", pt=f"Surpresa {seed}"), AISLE]
     entry = UPPER if random.random() < 0.5 else LOWER
     crossing = random.random() < 0.4  # the exit is on the other side of the hall, beside the entry of the other team
     exit_x, exit_y = int(WIDTH) - SHELF_X if crossing else SHELF_X, UPPER + LOWER - entry
@@ -58,22 +58,22 @@ def _floor(seed: int, random: Random, turned: bool) -> Drawing:
     middle = entry + int((SHELVES - 1) * SHELF) // 2
     for y in (middle - START_Y, middle + START_Y):
         parts += [
-            _part("start", at=(START_X, y), heading=0),
-            _part("start", at=_image(START_X, y, turned), heading=180),
+            Part.of("start", at=(START_X, y), heading=0),
+            Part.of("start", at=_image(START_X, y, turned), heading=180),
         ]
     for kind, x, y in (("entry", SHELF_X, entry), ("exit", exit_x, exit_y)):
         image = int(WIDTH) - x, UPPER + LOWER - y if turned else y
-        parts += [_part("warehouse", team="ice", kind=kind, at=(x, y))]
-        parts += [_part("warehouse", team="fire", kind=kind, at=image)]
+        parts += [Part.of("warehouse", team="ice", kind=kind, at=(x, y))]
+        parts += [Part.of("warehouse", team="fire", kind=kind, at=image)]
     kinds = ("A", "B") if random.random() < 0.5 else ("B", "A")
     for kind, row in zip(kinds, MACHINES_Y, strict=True):
         parts += _machines(random, kind, row, turned)
     across, down = (HOMES, 0) if random.random() < 0.5 else (0, HOMES)
     for k in (-1, 0, 1):
-        parts.append(_part("worker", at=(int(WIDTH) // 2 + k * across, int(HEIGHT) // 2 + k * down)))
+        parts.append(Part.of("worker", at=(int(WIDTH) // 2 + k * across, int(HEIGHT) // 2 + k * down)))
     upper, lower = _between(random, *SHARED_Y), _between(random, *SHARED_Y)
     for y in (upper, int(HEIGHT) - (upper if turned else lower)):
-        parts.append(_part("shared", at=(int(WIDTH) // 2, y)))
+        parts.append(Part.of("shared", at=(int(WIDTH) // 2, y)))
     return Drawing(tuple(parts))
 
 
@@ -84,8 +84,8 @@ def _machines(random: Random, kind: str, row: tuple[int, int], turned: bool) -> 
     worker = "right" if flow in ("up", "down") else "down" if y < HEIGHT / 2 else "up"
     other = _image(x, y, turned)
     return [
-        _part("machine", kind=kind, at=(x, y), flow=flow, worker=worker),
-        _part("machine", kind=kind, at=other, flow=_way(flow, turned), worker=_way(worker, turned)),
+        Part.of("machine", kind=kind, at=(x, y), flow=flow, worker=worker),
+        Part.of("machine", kind=kind, at=other, flow=_way(flow, turned), worker=_way(worker, turned)),
     ]
 
 
@@ -104,7 +104,7 @@ def _with_wall(drawing: Drawing, places: list[tuple[float, float]], random: Rand
             if any(hypot(px - u, py - v) < FREE for u, v in places):
                 return drawing
     for a, b in (ends, images):
-        drawing = drawing.added(Part("wall", (("from", a), ("to", b), ("thick", THICK), ("solid", True))))
+        drawing = drawing.added(Part.of("wall", from_=a, to=b, thick=THICK, solid=True))
     return drawing
 
 
@@ -113,10 +113,6 @@ def _places(layout: Layout) -> list[tuple[float, float]]:
     floor = layout.plan
     people = [*((machine.spot_x, machine.spot_y) for machine in floor.machines), *floor.homes]
     return [*((start.x, start.y) for start in layout.starts), *((slot.x, slot.y) for slot in floor.slots), *people]
-
-
-def _part(kind: str, /, **entries: Value) -> Part:
-    return Part(kind, tuple(entries.items()))
 
 
 def _image(x: int, y: int, turned: bool) -> Point:

@@ -2,17 +2,16 @@
 
 from collections.abc import Mapping
 
-from pigaming_app.games.game import Setup, Variant, named
+from pigaming_app.games.game import Setup, Variant
 from pigaming_app.games.pitanks.state import PiTanks, Rules
 from pigaming_app.games.simple import seat_robots
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.world import HZ
 
 MINUTES, DEFAULT_MINUTES = (1, 2, 3, 5), 2
 KNOCKOUT, PARTY_PROTECTION = round(0.8 * HZ), 2 * HZ
 OVERTIME = 15.0  # s, at most
-VARIANTS = named(
+VARIANTS = Variant.by_name(
     Variant("party", MINUTES, DEFAULT_MINUTES, overtime=OVERTIME),
     Variant("pickups", MINUTES, DEFAULT_MINUTES),
     *(Variant(name, MINUTES, DEFAULT_MINUTES) for name in ("original", "plain", "classic")),
@@ -22,7 +21,6 @@ VARIANTS = named(
 def start(match: PiTanks, arena: Arena, setup: Setup) -> None:
     """Fill a fresh match: walls, robots on their starts, rules, random seed."""
     seat_robots(match, arena, setup)
-    match.random = seeded(setup.seed)
     set_rules(match.rules, setup)
     match.next_pickup = match.rules.pickup_every // 2
 

@@ -17,7 +17,7 @@ nearest of the four lines to it.
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from pigaming_app.games.game import ALONE, Setup, Variant, named
+from pigaming_app.games.game import ALONE, Setup, Variant
 from pigaming_app.games.race.circuit import examined, read_corners, read_course
 from pigaming_app.games.race.course import POINTS, Course, half_width_at, locate, point_at, segment_at
 from pigaming_app.games.race.furniture import (
@@ -48,7 +48,7 @@ LAPS = Rules().laps  # the default goal
 GOALS = tuple(range(1, MAX_LAPS + 1))
 PARTY_LAPS = 5
 PARTY_MUD = 0.5
-VARIANTS = named(
+VARIANTS = Variant.by_name(
     Variant("standard", (10,), 10, GOALS, LAPS, ALONE), Variant("party", (10,), 10, GOALS, PARTY_LAPS, ALONE)
 )
 APART = 300.0  # px, least distance between two lines

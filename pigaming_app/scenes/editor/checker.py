@@ -8,7 +8,7 @@ from typing import Generic, TypeVar
 
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.drawing.problems import Problem, problems
-from pigaming_app.games.drawing.values import Drawing, text_of
+from pigaming_app.games.drawing.values import Drawing
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor.model.shapes import Routes, Tools
 from pigaming_app.sim.arena import Arena, ArenaError
@@ -110,7 +110,7 @@ class Checker:
     def _plan(self, found: Verdict) -> None:
         """Publish the arena, then the plans of AIs, unless there is another drawing by then."""
         try:
-            arena = parse(self.tools.game, text_of(found.drawing), self.name)
+            arena = parse(self.tools.game, found.drawing.text(), self.name)
             self._publish(replace(found, arena=arena))
             self._publish(replace(found, arena=arena, routes=self.tools.routes(arena), done=True))
         except (ArenaError, FieldError) as error:

@@ -10,7 +10,7 @@ import threading
 from pathlib import Path
 
 from pigaming_app.games.arenas import MOST_OWN, NAME, is_own_name, own_folder, read_source
-from pigaming_app.games.drawing.values import Drawing, Part, drawing_of, text_of
+from pigaming_app.games.drawing.values import Drawing, Part, drawing_of
 from pigaming_app.sim.arena import MAX_TITLE
 from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.storage.safe_files import NotSaved, write_atomic
@@ -101,7 +101,7 @@ def is_full(game: str) -> bool:
 
 def save(game: str, name: str, drawing: Drawing, before: str) -> None:
     """Save an arena, in place of the draft `before`. Raises NotSaved."""
-    write_atomic(own_file(game, name), text_of(drawing).encode())
+    write_atomic(own_file(game, name), drawing.text().encode())
     for draft in {name, before}:
         delete_draft(game, draft)
 
@@ -115,7 +115,7 @@ def rename(game: str, before: str, title: str) -> str:
     for path_of in (own_file, draft_file):
         drawing = _read(path_of(game, before))
         if drawing:
-            write_atomic(path_of(game, name), text_of(titled(drawing, title)).encode())
+            write_atomic(path_of(game, name), titled(drawing, title).text().encode())
         elif name != before:
             with contextlib.suppress(OSError):
                 path_of(game, name).unlink(missing_ok=True)
@@ -127,7 +127,7 @@ def rename(game: str, before: str, title: str) -> str:
 def export(game: str, name: str, drawing: Drawing) -> Path:
     """Write an arena as a file to share, and return its path. Raises NotSaved."""
     path = folders().data / "shared" / f"{game}-{name}.toml"
-    write_atomic(path, text_of(drawing).encode())
+    write_atomic(path, drawing.text().encode())
     return path
 
 
@@ -157,7 +157,7 @@ class Autosave:
     def write(self, drawing: Drawing) -> None:
         """Write a draft soon."""
         with self._lock:
-            self._text = text_of(drawing)
+            self._text = drawing.text()
             if self._thread is None:
                 self._thread = threading.Thread(target=self._work, name="draft", daemon=False)
                 self._thread.start()

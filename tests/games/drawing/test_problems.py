@@ -8,7 +8,7 @@ import pytest
 from pigaming_app.games.arenas import load, parse, shipped_arenas
 from pigaming_app.games.drawing.problems import Problem
 from pigaming_app.games.drawing.problems import problems as problems_of
-from pigaming_app.games.drawing.values import Drawing, Part, drawing_of, text_of
+from pigaming_app.games.drawing.values import Drawing, Part, drawing_of
 from pigaming_app.games.race.circuit import examined
 from pigaming_app.games.registry import games
 from pigaming_app.sim.arena import ArenaError
@@ -41,7 +41,7 @@ def wall(a: tuple[int, int], b: tuple[int, int], thick: int = 30) -> Part:
 
 def is_playable(game: str, drawing: Drawing) -> bool:
     try:
-        parse(game, text_of(drawing), "a.toml")
+        parse(game, drawing.text(), "a.toml")
     except ArenaError:
         return False
     return True

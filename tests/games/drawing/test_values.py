@@ -4,7 +4,7 @@ import pytest
 
 from pigaming_app import ASSETS
 from pigaming_app.games.arenas import load, parse, read_source, shipped_arenas
-from pigaming_app.games.drawing.values import Drawing, Part, drawing_of, text_of
+from pigaming_app.games.drawing.values import Drawing, Part, drawing_of
 from pigaming_app.games.registry import games
 from pigaming_app.sim.record import to_bytes
 from pigaming_app.sim.toml_table import FieldError
@@ -21,8 +21,8 @@ def source_of(game: str, name: str) -> str:
 def test_a_drawing_writes_the_same_arena_again(game: str, name: str) -> None:
     before = load(game, name)
     drawing = drawing_of(before.source)
-    after = parse(game, text_of(drawing), f"{before.name}.toml")
-    assert drawing_of(text_of(drawing)) == drawing
+    after = parse(game, drawing.text(), f"{before.name}.toml")
+    assert drawing_of(drawing.text()) == drawing
     assert (after.title, after.walls, after.starts, after.things) == (
         before.title,
         before.walls,
@@ -40,7 +40,7 @@ def test_every_value_of_toml_that_an_arena_has_survives() -> None:
     entries = ("use", 'a "b"\\\n\x7fé'), ("margin", 1e-7), ("n", -3), ("yes", True), ("outline", ((1, 2.5), ()))
     part = Part("thing", entries)
     drawing = Drawing((Part("a key", (("b.c", 1),), several=False), part, part))
-    assert drawing_of(text_of(drawing)) == drawing
+    assert drawing_of(drawing.text()) == drawing
 
 
 def test_changes_make_new_drawings() -> None:

@@ -11,7 +11,7 @@ import pygame
 import pytest
 
 from pigaming_app.games.arenas import load, own_arenas, shipped_arenas
-from pigaming_app.games.drawing.values import Drawing, drawing_of, text_of
+from pigaming_app.games.drawing.values import Drawing, drawing_of
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor import store
 from pigaming_app.scenes.editor.checker import Checker, Verdict
@@ -84,7 +84,7 @@ def test_every_edit_can_be_undone_and_redone_and_written(game: str) -> None:
     for _ in range(120):
         if history.push(random_edit(game, history.now, random)):
             drawings.append(history.now)
-            assert drawing_of(text_of(history.now)) == history.now
+            assert drawing_of(history.now.text()) == history.now
     assert len(drawings) > 60
     for drawing in reversed(drawings[:-1]):
         assert history.undo()

@@ -80,7 +80,7 @@ def test_an_empty_name_proposes_a_free_one(
         assert (page.name, entered, page.unusable) == (proposed, entered[: number - 1], False)
         arcade.press(Button.START)
         assert entered[number - 1] == proposed
-        write_atomic(store.draft_file(game, store.file_name(proposed)), store.text_of(drawing).encode())
+        write_atomic(store.draft_file(game, store.file_name(proposed)), drawing.text().encode())
     assert len({*entered}) == 2
 
 

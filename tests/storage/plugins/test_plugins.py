@@ -115,7 +115,7 @@ def test_one_that_fails_is_left_out_with_file_and_reason(tag: Path, file: str, o
     ],
 )
 def test_brains_that_the_lobby_could_not_offer(tag: Path, brains: str, reason: str) -> None:
-    kinds = 'every_level(BrainKind("collector", Mind, think, reset))'
+    kinds = 'levels(BrainKind("collector", Mind, think))'
     n = changed(tag / "ai.py", f"AI = GameAI({kinds})", f"AI = GameAI({brains.replace('KINDS', kinds)})")
     ended = python("from pigaming_app.ai.registry import AIS; print(*AIS['tag'].kinds)")
     assert ended.stdout.split() == ["level1", "level2", "level3", "level4", "level5"], "random ones"
@@ -125,7 +125,7 @@ def test_brains_that_the_lobby_could_not_offer(tag: Path, brains: str, reason: s
 
 def test_a_brain_that_the_lobby_offers_has_a_name(tag: Path) -> None:
     file = tag / "ai.py"
-    kinds = 'every_level(BrainKind("collector", Mind, think, reset))'
+    kinds = 'levels(BrainKind("collector", Mind, think))'
     file.write_text(
         file.read_text().replace(kinds, f'{kinds} | {{"ace": BrainKind("ace", Mind, think, reset)}}, ("ace",)')
     )

@@ -39,8 +39,6 @@ from pigaming_app.scenes.editor.model.shapes import (
     Tools,
     apart,
     inside,
-    part_of,
-    point_of,
     square,
     whole,
 )
@@ -74,11 +72,11 @@ class Warehouse(Shape):
     """An entry or an exit of a team."""
 
     def outlines(self, part: Part, k: int) -> Sequence[Outline]:
-        x, y = point_of(part, "at")
+        x, y = part.point("at")
         return (cut_box(x - HALF, y - AROUND, 2 * HALF, LONG + 2 * AROUND, 16),)
 
     def draw(self, paper: Paper, part: Part, k: int) -> None:
-        x, y = point_of(part, "at")
+        x, y = part.point("at")
         team, entry = TEAM_NAMES.get(str(part.get("team")), ICE), part.get("kind") == "entry"
         slots = [SlotSpec(ENTRY if entry else EXIT, team, -1, x, y + i * SHELF) for i in range(SHELVES)]
         ink = paper.flat()
@@ -90,16 +88,16 @@ class Warehouse(Shape):
             ink.line([(px - 8 * way, py - 11), (px + 6 * way, py), (px - 8 * way, py + 11)], COLORS[team], LINE)
 
     def reach(self, part: Part) -> Sequence[Point]:
-        x, y = point_of(part, "at")
+        x, y = part.point("at")
         return *square(x, y, EDGE), *square(x, y + LONG, EDGE)
 
     def image(self, part: Part, image: Image) -> Part:
-        x, y = point_of(part, "at")
+        x, y = part.point("at")
         return part.changed("at", whole(*image.point(x, y + LONG if image.down else y)))
 
     def same(self, part: Part, other: Part) -> bool:
         """Teams have the same warehouses."""
-        return apart(point_of(part, "at"), point_of(other, "at")) < 2.0
+        return apart(part.point("at"), other.point("at")) < 2.0
 
     def kept(self, part: Part, other: Part) -> Part:
         return part.changed("team", other.get("team")).changed("kind", other.get("kind"))
@@ -109,7 +107,7 @@ class Machine(Shape):
     """A machine with its slots and the place of its worker."""
 
     def outlines(self, part: Part, k: int) -> Sequence[Outline]:
-        x, y = point_of(part, "at")
+        x, y = part.point("at")
         spec, slots = _spec(part), _slots(part)
         boxes = [cut_box(slot.x - SLOT, slot.y - SLOT, 2 * SLOT, 2 * SLOT, 4) for slot in slots]
         spot = cut_box(spec.spot_x - 16, spec.spot_y - 16, 32, 32, 10)
@@ -142,14 +140,14 @@ class Worker(Shape):
     """The resting place of a worker."""
 
     def reach(self, part: Part) -> Sequence[Point]:
-        return square(*point_of(part, "at"), EDGE)
+        return square(*part.point("at"), EDGE)
 
     def outlines(self, part: Part, k: int) -> Sequence[Outline]:
-        x, y = point_of(part, "at")
+        x, y = part.point("at")
         return (cut_box(x - 30, y - 50, 60, 94, 12),)
 
     def draw(self, paper: Paper, part: Part, k: int) -> None:
-        draw_walker(paper.flat(), *point_of(part, "at"), FOCUS)
+        draw_walker(paper.flat(), *part.point("at"), FOCUS)
 
 
 class Shared(Shape):
@@ -158,14 +156,14 @@ class Shared(Shape):
     fixed = False
 
     def reach(self, part: Part) -> Sequence[Point]:
-        return square(*point_of(part, "at"), EDGE)
+        return square(*part.point("at"), EDGE)
 
     def outlines(self, part: Part, k: int) -> Sequence[Outline]:
-        x, y = point_of(part, "at")
+        x, y = part.point("at")
         return (cut_box(x - SLOT, y - SLOT, 2 * SLOT, 2 * SLOT, 4),)
 
     def draw(self, paper: Paper, part: Part, k: int) -> None:
-        draw_shared_slot(paper.flat(), *point_of(part, "at"))
+        draw_shared_slot(paper.flat(), *part.point("at"))
 
 
 class Aisle(Shape):
@@ -219,7 +217,7 @@ class FactoryTools(Tools):
         "worker": Worker(),
         "start": Start(),
     }
-    palette = (SOLID_WALL, Tool("shared", "shared", lambda a, b: part_of("shared", at=whole(*a)), MAX_SHARED), MUD)
+    palette = (SOLID_WALL, Tool("shared", "shared", lambda a, b: Part.of("shared", at=whole(*a)), MAX_SHARED), MUD)
     template = "hall"
 
     def routes(self, arena: Arena) -> Routes:
@@ -255,7 +253,7 @@ def _word(part: Part, key: str) -> str:
 
 
 def _spec(part: Part) -> MachineSpec:
-    (x, y), flow, side = point_of(part, "at"), WAYS[_word(part, "flow")], WAYS[_word(part, "worker")]
+    (x, y), flow, side = part.point("at"), WAYS[_word(part, "flow")], WAYS[_word(part, "worker")]
     return MachineSpec(A if part.get("kind") == "A" else B, x, y, x + SPOT_AT * side[0], y + SPOT_AT * side[1], flow)
 
 
@@ -280,7 +278,7 @@ def _swapped(part: Part) -> Part:
 
 
 def _box(part: Part) -> tuple[float, float, float, float]:
-    x, y = point_of(part, "at")
+    x, y = part.point("at")
     match part.get("size"):
         case (int() | float() as w, int() | float() as h) if 0 < w <= WIDTH and 0 < h <= HEIGHT:
             return x, y, float(w), float(h)

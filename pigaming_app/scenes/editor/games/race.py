@@ -24,9 +24,6 @@ from pigaming_app.scenes.editor.model.shapes import (
     Tools,
     apart,
     following,
-    number_of,
-    part_of,
-    point_of,
     whole,
 )
 from pigaming_app.scenes.editor.model.symmetry import Image
@@ -52,7 +49,7 @@ CLODS = 420
 
 
 def _corner(at: Point) -> Part:
-    return part_of("corner", at=whole(*at), radius=200, width=WIDE)
+    return Part.of("corner", at=whole(*at), radius=200, width=WIDE)
 
 
 class ControlPoint(Shape):
@@ -62,20 +59,20 @@ class ControlPoint(Shape):
     is_handle = True
 
     def outlines(self, part: Part, k: int) -> Sequence[Outline]:
-        return (regular_polygon(4, KNOB, 0.0, *point_of(part, "at")),)
+        return (regular_polygon(4, KNOB, 0.0, *part.point("at")),)
 
     def draw(self, paper: Paper, part: Part, k: int) -> None:
-        x, y = point_of(part, "at")
+        x, y = part.point("at")
         diamond = regular_polygon(4, KNOB, 0.0, x, y)
         paper.flat().solid(diamond).neon(diamond, ICE, 4, True)  # yellow if it is selected
         if not k:
             paper.flat().disc(x, y, 6, ICE)
 
     def same(self, part: Part, other: Part) -> bool:
-        return apart(point_of(part, "at"), point_of(other, "at")) < 2.0
+        return apart(part.point("at"), other.point("at")) < 2.0
 
     def dials(self, part: Part) -> Sequence[Dial]:
-        return (Dial("thick", _wider, lambda part: str(round(number_of(part, "width", WIDE) - 120))),)
+        return (Dial("thick", _wider, lambda part: str(round(part.number("width", WIDE) - 120))),)
 
 
 class StartLine(Shape):
@@ -91,10 +88,10 @@ class StartLine(Shape):
         draw_line(ink, ink, _frame(part), ICE)
 
     def image(self, part: Part, image: Image) -> Part:
-        return part.changed("at", whole(*image.point(*point_of(part, "at"))))
+        return part.changed("at", whole(*image.point(*part.point("at"))))
 
     def same(self, part: Part, other: Part) -> bool:
-        return apart(point_of(part, "at"), point_of(other, "at")) < 25.0
+        return apart(part.point("at"), other.point("at")) < 25.0
 
 
 class RaceTools(Tools):
@@ -124,13 +121,13 @@ class RaceTools(Tools):
             return super().part(drawing, item)
         share = _shares(drawing)[item.k]
         line = frame(course, share * course.length)
-        return part_of("line", at=(line.x, line.y), way=(line.c, line.s), half=line.half, share=share)
+        return Part.of("line", at=(line.x, line.y), way=(line.c, line.s), half=line.half, share=share)
 
     def with_part(self, drawing: Drawing, item: Item, part: Part) -> Drawing:
         course = course_in(drawing.of("corner"))
         if item.kind != "line" or course is None:
             return super().with_part(drawing, item, part)
-        x, y = point_of(part, "at")
+        x, y = part.point("at")
         k = min(range(POINTS), key=lambda i: hypot(course.xs[i] - x, course.ys[i] - y))
         shares = [*_shares(drawing)]
         shares[item.k] = round(k / POINTS, 4)
@@ -140,12 +137,12 @@ class RaceTools(Tools):
         """A control point is added between the two next to it."""
         if part.kind != "corner":
             return super().added(drawing, part)
-        corners, at = [*drawing.of("corner")], point_of(part, "at")
-        points = [point_of(corner, "at") for corner in corners]
+        corners, at = [*drawing.of("corner")], part.point("at")
+        points = [corner.point("at") for corner in corners]
         if not points:
             return super().added(drawing, part)
         k = min(range(len(points)), key=lambda i: _detour(points[i], at, points[(i + 1) % len(points)])) + 1
-        width = number_of(corners[k - 1], "width", WIDE)
+        width = corners[k - 1].number("width", WIDE)
         corners.insert(k, part.changed("width", round(width)))
         return _with_corners(drawing, corners), Item("corner", k)
 
@@ -171,7 +168,7 @@ class RaceTools(Tools):
         for _ in range(CLODS):
             ink.disc(random.uniform(20, WIDTH - 20), random.uniform(20, HEIGHT - 20), random.choice((2, 3, 4)), EARTH)
         if course is None:
-            if corners := [point_of(corner, "at") for corner in drawing.of("corner")]:
+            if corners := [corner.point("at") for corner in drawing.of("corner")]:
                 ink.line(corners, ALARM, 5, True)
             return
         yield
@@ -198,7 +195,7 @@ class RaceTools(Tools):
 
         course = course_in(drawing.of("corner"))
         if course is None:
-            corners = [point_of(corner, "at") for corner in drawing.of("corner")]
+            corners = [corner.point("at") for corner in drawing.of("corner")]
             if len(corners) > 1:
                 pygame.draw.lines(screen, ALARM, True, placed(corners), 4)
             return
@@ -225,9 +222,9 @@ def course_in(corners: tuple[Part, ...]) -> Course | None:
 
 
 def _spec(part: Part) -> Corner:
-    x, y = point_of(part, "at")
-    width = number_of(part, "width", WIDE, NARROWEST, WIDEST)
-    return Corner(x, y, number_of(part, "radius", TIGHTEST, TIGHTEST, 2000), width)
+    x, y = part.point("at")
+    width = part.number("width", WIDE, NARROWEST, WIDEST)
+    return Corner(x, y, part.number("radius", TIGHTEST, TIGHTEST, 2000), width)
 
 
 def _with_corners(drawing: Drawing, corners: Sequence[Part]) -> Drawing:
@@ -236,7 +233,7 @@ def _with_corners(drawing: Drawing, corners: Sequence[Part]) -> Drawing:
 
 
 def _wider(part: Part) -> Part:
-    return part.changed("width", round(following(WIDTHS, number_of(part, "width", WIDE))))
+    return part.changed("width", round(following(WIDTHS, part.number("width", WIDE))))
 
 
 def _shares(drawing: Drawing) -> tuple[float, ...]:
@@ -250,8 +247,8 @@ def _shares(drawing: Drawing) -> tuple[float, ...]:
 
 
 def _frame(part: Part) -> LineFrame:
-    (x, y), (c, s) = point_of(part, "at"), point_of(part, "way")
-    return LineFrame(x, y, c, s, number_of(part, "half", WIDE / 2))
+    (x, y), (c, s) = part.point("at"), part.point("way")
+    return LineFrame(x, y, c, s, part.number("half", WIDE / 2))
 
 
 def _detour(a: Point, at: Point, b: Point) -> float:
@@ -267,21 +264,21 @@ def _around(corners: Sequence[Part], i: int) -> tuple[object, ...]:
 
 def _half_angle(corners: Sequence[Part], i: int) -> float:
     """Half the angle between the two straights at a corner, rad."""
-    x, y = point_of(corners[i], "at")
-    (ax, ay), (bx, by) = (point_of(corners[k % len(corners)], "at") for k in (i - 1, i + 1))
+    x, y = corners[i].point("at")
+    (ax, ay), (bx, by) = (corners[k % len(corners)].point("at") for k in (i - 1, i + 1))
     turn = abs((atan2(by - y, bx - x) - atan2(ay - y, ax - x) + pi) % (2 * pi) - pi)
     return min(max(turn / 2, 0.11), 1.5)
 
 
 def _cut(corners: Sequence[Part], i: int) -> float:
     """Px from a corner to the start of its arc."""
-    return number_of(corners[i], "radius", TIGHTEST) / tan(_half_angle(corners, i))
+    return corners[i].number("radius", TIGHTEST) / tan(_half_angle(corners, i))
 
 
 def _radius(corners: Sequence[Part], i: int, cuts: Mapping[int, float]) -> float:
     """The widest arc at a corner; `cuts`: of the corners whose arcs stay as they are."""
-    at, rooms = point_of(corners[i], "at"), list[float]()
+    at, rooms = corners[i].point("at"), list[float]()
     for k in ((i - 1) % len(corners), (i + 1) % len(corners)):
-        way = apart(at, point_of(corners[k], "at"))
+        way = apart(at, corners[k].point("at"))
         rooms.append(way - cuts[k] - 1.0 if k in cuts else way / 2 - SPARE / 2)
     return min(max(min(rooms) * tan(_half_angle(corners, i)), TIGHTEST), WIDEST_ARC)

@@ -6,21 +6,20 @@ such as the lines of a track.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from math import hypot, isfinite
+from math import hypot
 from typing import ClassVar, NamedTuple
 
 import pygame
 
-from pigaming_app.games.drawing.values import Drawing, Part, Value
+from pigaming_app.games.drawing.values import Drawing, Part
 from pigaming_app.scenes.editor.model.symmetry import Image
-from pigaming_app.sim.arena import Arena
+from pigaming_app.sim.arena import BUILT, Arena
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import GlowCanvas, Point
 from pigaming_app.ui.draw.frame_budget import Steps
 from pigaming_app.ui.draw.icons import Pen
 
 MOST = 60  # parts of a kind that are shown; no arena that can be played has more
-FAR = 400.0  # px
 Outline = Sequence[Point]
 Routes = Sequence[Sequence[Point]]
 
@@ -73,7 +72,7 @@ class Shape:
 
     def grips(self, part: Part) -> tuple[Point, ...]:
         """Points that can be dragged; the first is that by which the part is moved."""
-        return (point_of(part, "at"),)
+        return (part.point("at"),)
 
     def outlines(self, part: Part, k: int) -> Sequence[Outline]:
         """Closed outlines, for pointing at it and while it is dragged."""
@@ -85,11 +84,11 @@ class Shape:
 
     def reach(self, part: Part) -> Sequence[Point]:
         """Points that stay within the arena wherever the part is moved."""
-        return (point_of(part, "at"),)
+        return (part.point("at"),)
 
     def moved(self, part: Part, dx: float, dy: float) -> Part:
         """The part elsewhere, but within the arena."""
-        x, y = point_of(part, "at")
+        x, y = part.point("at")
         dx, dy = inside(self.reach(part), dx, dy)
         return part.changed("at", whole(x + dx, y + dy))
 
@@ -100,7 +99,7 @@ class Shape:
 
     def image(self, part: Part, image: Image) -> Part:
         """The reflected part."""
-        return part.changed("at", whole(*image.point(*point_of(part, "at"))))
+        return part.changed("at", whole(*image.point(*part.point("at"))))
 
     def same(self, part: Part, other: Part) -> bool:
         """True if both are the same to look at, so that one can be the image of the other."""
@@ -122,7 +121,7 @@ class Tool:
     name: str
     kind: str
     part: Callable[[Point, Point], Part]
-    most: int
+    most: int = BUILT
     tap: bool = True
 
 
@@ -177,30 +176,6 @@ class Tools:
     def routes(self, arena: Arena) -> Routes:
         """How AIs will drive, as lines. It may take a second and runs in a thread. Raises FieldError."""
         return ()
-
-
-def part_of(kind: str, /, **entries: Value) -> Part:
-    """A part of several of its kind."""
-    return Part(kind, tuple((key.rstrip("_"), value) for key, value in entries.items()))
-
-
-def point_of(part: Part, key: str) -> Point:
-    """A point of a part, px, not far from the arena; its middle if the part has none."""
-    return point(part.get(key)) or (WIDTH / 2, HEIGHT / 2)
-
-
-def point(value: Value) -> Point | None:
-    """A value as a point, px, not far from the arena; None if it is none."""
-    match value:
-        case (int() | float() as x, int() | float() as y) if isfinite(x) and isfinite(y):
-            return min(max(float(x), -FAR), WIDTH + FAR), min(max(float(y), -FAR), HEIGHT + FAR)
-    return None
-
-
-def number_of(part: Part, key: str, default: float, least: float = -1e4, most: float = 1e4) -> float:
-    """A number of a part, from `least` to `most`."""
-    value = part.get(key, default)
-    return min(max(float(value), least), most) if isinstance(value, int | float) and isfinite(value) else default
 
 
 def whole(x: float, y: float) -> tuple[int, int]:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from math import cos, hypot, sin, tau
 
-from pigaming_app.games.drawing.values import Part
+from pigaming_app.games.drawing.values import Part, point
 from pigaming_app.scenes.editor.model.shapes import (
     Dial,
     Outline,
@@ -13,9 +13,6 @@ from pigaming_app.scenes.editor.model.shapes import (
     apart,
     following,
     inside,
-    number_of,
-    part_of,
-    point,
 )
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.scenes.views.things.on_mat import draw
@@ -46,7 +43,7 @@ class Thing(Shape):
 
     def draw(self, paper: Paper, part: Part, k: int) -> None:
         use = next((use for use in Use if use == part.get("use")), Use.MUD)
-        draw(paper.flat(), self.style, use, _corners(part), number_of(part, "margin", 0.0, 0.0, MAX_MARGIN))
+        draw(paper.flat(), self.style, use, _corners(part), part.number("margin", 0.0, 0.0, MAX_MARGIN))
 
     def reach(self, part: Part) -> Sequence[Point]:
         return self.grips(part)[:1]
@@ -77,7 +74,7 @@ class Thing(Shape):
 def patch(a: Point, b: Point) -> Part:
     """A patch round a, up to b."""
     far = apart(a, b)
-    return part_of("thing", use="mud", outline=_outline(*a, min(far, RADII[-1]) if far > RADII[0] else RADIUS))
+    return Part.of("thing", use="mud", outline=_outline(*a, min(far, RADII[-1]) if far > RADII[0] else RADIUS))
 
 
 MUD = Tool("mud", "thing", patch, MOST)

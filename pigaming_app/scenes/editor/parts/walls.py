@@ -13,9 +13,6 @@ from pigaming_app.scenes.editor.model.shapes import (
     apart,
     following,
     inside,
-    number_of,
-    part_of,
-    point_of,
     whole,
 )
 from pigaming_app.scenes.editor.model.symmetry import Image
@@ -40,7 +37,7 @@ class Wall(Shape):
         self.healthy = healthy
 
     def grips(self, part: Part) -> tuple[Point, ...]:
-        return point_of(part, "from"), point_of(part, "to")
+        return part.point("from"), part.point("to")
 
     def outlines(self, part: Part, k: int) -> Sequence[Outline]:
         (ax, ay), (bx, by) = self.grips(part)
@@ -87,7 +84,7 @@ class Wall(Shape):
         """Bullets it takes; SOLID: any number."""
         if not self.healthy or part.get("solid", False) is True:
             return SOLID
-        return int(number_of(part, "health", HEALTH, 1, HEALTH))
+        return int(part.number("health", HEALTH, 1, HEALTH))
 
     def turned(self, part: Part) -> Part:
         """Turned clockwise about its middle, as far as the arena allows."""
@@ -102,7 +99,7 @@ def wall(a: Point, b: Point) -> Part:
     """A wall from a to b; across, if that is a tap."""
     if apart(a, b) < SHORT:
         a, b = (a[0] - LENGTH / 2, a[1]), (a[0] + LENGTH / 2, a[1])
-    return part_of("wall", from_=whole(*a), to=whole(*b), thick=THICK)
+    return Part.of("wall", from_=whole(*a), to=whole(*b), thick=THICK)
 
 
 def solid_wall(a: Point, b: Point) -> Part:
@@ -113,7 +110,7 @@ def solid_wall(a: Point, b: Point) -> Part:
 def rock(a: Point, b: Point) -> Part:
     """A solid block, as long as it is drawn."""
     end = b if apart(a, b) >= SHORT else (a[0] + 10.0 if a[0] < 1500.0 else a[0] - 10.0, a[1])
-    return part_of("wall", from_=whole(*a), to=whole(*end), thick=ROCK, solid=True)
+    return Part.of("wall", from_=whole(*a), to=whole(*end), thick=ROCK, solid=True)
 
 
 WALL = Tool("wall", "wall", wall, BUILT, tap=False)
@@ -126,12 +123,12 @@ def _thicker(part: Part) -> Part:
 
 
 def _thick(part: Part) -> float:
-    return number_of(part, "thick", THICK, 10, 200)
+    return part.number("thick", THICK, 10, 200)
 
 
 def _weaker(part: Part) -> Part:
     """One bullet less; after one, solid; after that, whole again."""
     if part.get("solid", False) is True:
         return part.changed("solid", None).changed("health", HEALTH)
-    health = int(number_of(part, "health", HEALTH, 1, HEALTH))
+    health = int(part.number("health", HEALTH, 1, HEALTH))
     return part.changed("health", health - 1) if health > 1 else part.changed("health", None).changed("solid", True)
