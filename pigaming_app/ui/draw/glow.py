@@ -1,12 +1,12 @@
 """Glow rendering: draw large on black, downscale (antialiasing), blur and add the blurs back.
 
 Nothing here runs in a steady frame: the resulting surfaces are cached and blitted. Only tiles that were drawn on are
-downscaled, and wide blurs run on small copies; a whole page renders in 50 ms.
+painted and downscaled, and wide blurs run on small copies; a whole page renders in 50 ms.
 """
 
 import math
-from functools import cached_property
-from itertools import pairwise
+from collections.abc import Callable
+from itertools import groupby, pairwise
 from typing import Self
 
 import pygame
@@ -36,21 +36,82 @@ WIDE: Halos = ((4, 1, 0.55), (8, 2, 0.60), (16, 3, 0.55))
 SOFT: Halos = ((4, 1, 0.60), (8, 2, 0.70))  # like NEAR, for pages
 TILE_W, TILE_H = 160, 120  # px
 
+Shape = Callable[[pygame.Surface, int], object]  # paints on a band whose upper edge is at this y of its sheet, px
+
+
+class Sheet:
+    """A surface `ss` times as large as a canvas of w x h px. It keeps the shapes and is painted when it is scaled down,
+    in bands of TILE_H canvas px, as a whole one of a page would take 33 MB and 50 ms to allocate.
+    """
+
+    def __init__(self, w: int, h: int, ss: int, paper: tuple[int, ...] = BLACK) -> None:
+        self.w, self.h, self.ss, self.paper = w, h, ss, paper
+        self.tiles: set[tuple[int, int]] = set()
+        self._bands: dict[int, list[Shape]] = {}
+
+    def polygon(self, points: Points, color: tuple[int, ...], mark: bool = True) -> None:
+        """Fill a polygon. Points are in supersampled px; `mark`: its tiles are drawn on."""
+        corners = [(int(x), int(y)) for x, y in points]
+        xs, ys = [x for x, _ in corners], [y for _, y in corners]
+
+        def paint(band: pygame.Surface, top: int) -> None:
+            pygame.draw.polygon(band, color, [(x, y - top) for x, y in corners])
+
+        self._add(paint, (min(xs), min(ys), max(xs), max(ys)), mark)
+
+    def circle(self, center: tuple[float, float], r: float, color: Color, mark: bool = True) -> None:
+        """Fill a circle."""
+        x, y = int(center[0]), int(center[1])
+
+        def paint(band: pygame.Surface, top: int) -> None:
+            pygame.draw.circle(band, color, (x, y - top), r)
+
+        self._add(paint, (x - r, y - r, x + r, y + r), mark)
+
+    def blit(self, image: pygame.Surface, at: tuple[int, int]) -> None:
+        """Blit an image."""
+        (x, y), (w, h) = at, image.get_size()
+        self._add(lambda band, top: band.blit(image, (x, y - top)), (x, y, x + w, y + h), True)
+
+    def _add(self, paint: Shape, box: tuple[float, float, float, float], mark: bool) -> None:
+        w, h = TILE_W * self.ss, TILE_H * self.ss
+        left, top, right, bottom = box
+        for row in range(max(0, int(top // h)), min((self.h - 1) // TILE_H, int(bottom // h)) + 1):
+            self._bands.setdefault(row, []).append(paint)
+            if mark:
+                columns = range(max(0, int(left // w)), min((self.w - 1) // TILE_W, int(right // w)) + 1)
+                self.tiles.update((column, row) for column in columns)
+
+    def downscale(self, out: pygame.Surface, flags: int = 0) -> Steps[None]:
+        """Blit the tiles that were drawn on, scaled down, onto a surface of w x h px."""
+        band = pygame.Surface((self.w * self.ss, min(TILE_H, self.h) * self.ss), out.get_flags() & pygame.SRCALPHA)
+        for row, in_row in groupby(runs(self.tiles), key=lambda run: run[0]):
+            self._paint(band, row)
+            for _, first, count in in_row:
+                box = pygame.Rect(first * TILE_W, row * TILE_H, count * TILE_W, TILE_H).clip((0, 0, self.w, self.h))
+                large = band.subsurface(box.x * self.ss, 0, box.w * self.ss, box.h * self.ss)
+                out.blit(pygame.transform.smoothscale(large, box.size), box, special_flags=flags)
+            yield
+
+    def _paint(self, band: pygame.Surface, row: int) -> None:
+        band.fill(self.paper)
+        for paint in self._bands.get(row, ()):
+            paint(band, row * TILE_H * self.ss)
+
 
 class GlowCanvas:
     """A black canvas of w x h px, supersampled by `ss`. `to` sets the transform of later drawing calls."""
 
     def __init__(self, w: int, h: int, ss: int = 2) -> None:
         self.w, self.h, self.ss = w, h, ss
-        self.covers: list[list[tuple[float, float]]] = []
-        self.knockout: pygame.Surface | None = None
-        self.tiles: set[tuple[int, int]] = set()
+        self.sheet, self.knockout = Sheet(w, h, ss), Sheet(w, h, ss, WHITE)
+        self.mask = Sheet(w, h, ss, (0, 0, 0, 0))  # what `solid` blacks out
         self.set_transform(0, 0)
 
-    @cached_property
-    def sheet(self) -> pygame.Surface:
-        """The supersampled surface, allocated on the first drawing call."""
-        return pygame.Surface((self.w * self.ss, self.h * self.ss))
+    @property
+    def is_empty(self) -> bool:
+        """True if nothing was drawn."""
+        return not self.sheet.tiles
 
     def set_transform(self, x: float, y: float, angle: float = 0.0, scale: float = 1.0) -> Self:
         """Set the origin to (x, y), the rotation to `angle` rad and the scale to `scale`."""
@@ -62,28 +123,22 @@ class GlowCanvas:
         x, y = p
         return self.x * self.ss + self.c * x - self.s * y, self.y * self.ss + self.s * x + self.c * y
 
-    def _mark(self, left: float, top: float, right: float, bottom: float) -> None:
-        """Mark the tiles of a box, in supersampled px, as drawn on."""
-        w, h = TILE_W * self.ss, TILE_H * self.ss
-        columns = range(max(0, int(left // w)), min((self.w - 1) // TILE_W, int(right // w)) + 1)
-        for row in range(max(0, int(top // h)), min((self.h - 1) // TILE_H, int(bottom // h)) + 1):
-            for column in columns:
-                self.tiles.add((column, row))
-
     def fill(self, points: Points, color: Color) -> Self:
-        box = pygame.draw.polygon(self.sheet, color, [self._at(p) for p in points])
-        self._mark(box.left, box.top, box.right, box.bottom)
+        self.sheet.polygon([self._at(p) for p in points], color)
         return self
 
     def solid(self, points: Points) -> Self:
         """Black out a polygon: on the canvas and, in a sprite, on the background it is blitted over."""
         at = [self._at(p) for p in points]
-        pygame.draw.polygon(self.sheet, BLACK, at)
-        self.covers.append(at)
+        self.sheet.polygon(at, BLACK, mark=False)
+        self.mask.polygon(at, (*BLACK, 255))
         return self
 
     def line(self, points: Points, color: Color, width: float = LINE, closed: bool = False) -> Self:
         """A line with round joints and caps."""
+        return self._line(self.sheet, points, color, width, closed)
+
+    def _line(self, sheet: Sheet, points: Points, color: Color, width: float, closed: bool = False) -> Self:
         at = [self._at(p) for p in points]
         w = max(1, round(width * self.k))
         for a, b in zip(at, at[1:] + at[:1] if closed else at[1:], strict=False):
@@ -91,27 +146,16 @@ class GlowCanvas:
             d = math.hypot(dx, dy) or 1
             nx, ny = -dy / d * w / 2, dx / d * w / 2
             corners = [(a[0] + nx, a[1] + ny), (b[0] + nx, b[1] + ny), (b[0] - nx, b[1] - ny), (a[0] - nx, a[1] - ny)]
-            pygame.draw.polygon(self.sheet, color, corners)
+            sheet.polygon(corners, color)
         for p in at:
-            pygame.draw.circle(self.sheet, color, p, w / 2)
-        xs, ys, r = [p[0] for p in at], [p[1] for p in at], w / 2 + 1
-        self._mark(min(xs) - r, min(ys) - r, max(xs) + r, max(ys) + r)
+            sheet.circle(p, w / 2, color)
         return self
 
     def void(self, points: Points, width: float, keep: float = 0.0) -> Self:
         """A black line that neighbouring glow does not fill, except for the share `keep`."""
-        self.line(points, BLACK, width)
-        canvas, self.sheet = self.sheet, self._knockout()
         shade = round(255 * keep)
-        self.line(points, (shade, shade, shade), width)
-        self.sheet = canvas
-        return self
-
-    def _knockout(self) -> pygame.Surface:
-        if self.knockout is None:
-            self.knockout = pygame.Surface(self.sheet.get_size())
-            self.knockout.fill(WHITE)
-        return self.knockout
+        self._line(self.knockout, points, (shade, shade, shade), width)
+        return self.line(points, BLACK, width)
 
     def neon(self, points: Points, color: Color, width: float = LINE, closed: bool = False) -> Self:
         """A line with a brighter core."""
@@ -119,8 +163,7 @@ class GlowCanvas:
         return self.line(points, mix(color, WHITE, 0.4), width * 0.35, closed)
 
     def disc(self, x: float, y: float, r: float, color: Color) -> Self:
-        box = pygame.draw.circle(self.sheet, color, self._at((x, y)), r * self.k)
-        self._mark(box.left, box.top, box.right, box.bottom)
+        self.sheet.circle(self._at((x, y)), r * self.k, color)
         return self
 
     def arc(self, x: float, y: float, r: float, start: float, end: float, color: Color, width: float = LINE) -> Self:
@@ -160,46 +203,30 @@ class GlowCanvas:
         px, py = self._at((x, y))
         px -= {"l": 0.0, "c": 0.5, "r": 1.0}[align] * image.get_width()
         at = round(px), round(py + CAPITALS * size * self.k / 2 - baseline(text, face, round(size * self.k)))
-        box = self.sheet.blit(image, at)
-        self._mark(box.left, box.top, box.right, box.bottom)
+        self.sheet.blit(image, at)
         if color == BLACK:  # keep black lettering black under neighbouring glow
-            self._knockout().blit(image, at)
+            self.knockout.blit(image, at)
         return self
-
-    def _downscale(self, sheet: pygame.Surface, out: pygame.Surface, flags: int) -> Steps[None]:
-        """Blit the drawn tiles of a supersampled surface, downscaled, onto a surface of w x h px."""
-        for row, first, count in runs(self.tiles):
-            box = pygame.Rect(first * TILE_W, row * TILE_H, count * TILE_W, TILE_H).clip((0, 0, self.w, self.h))
-            large = sheet.subsurface(box.x * self.ss, box.y * self.ss, box.w * self.ss, box.h * self.ss)
-            out.blit(pygame.transform.smoothscale(large, box.size), box, special_flags=flags)
-            yield
-
-    def downscale_onto(self, out: pygame.Surface) -> Steps[None]:
-        """Add the drawing, without glow, to a surface of w x h px."""
-        if self.tiles:
-            yield from self._downscale(self.sheet, out, ADD)
 
     def downscale_steps(self) -> Steps[pygame.Surface]:
         """The drawing at w x h px, without glow."""
         out = pygame.Surface((self.w, self.h))
-        if self.tiles:
-            yield from self._downscale(self.sheet, out, 0)
+        yield from self.sheet.downscale(out)
         return out
 
-    def plain(self) -> pygame.Surface:
-        """Like `shrinking`, uninterrupted."""
-        return run_to_end(self.downscale_steps())
+    def downscale_onto(self, out: pygame.Surface) -> Steps[None]:
+        """Add the drawing, without glow, to a surface of w x h px."""
+        return self.sheet.downscale(out, ADD)
 
-    def apply_knockout(self, out: pygame.Surface) -> Steps[None]:
-        """Darken voids and black lettering."""
-        if self.knockout:
-            yield from self._downscale(self.knockout, out, MULT)
+    def plain(self) -> pygame.Surface:
+        """Like `downscale_steps`, uninterrupted."""
+        return run_to_end(self.downscale_steps())
 
     def lit_steps(self, glow: float = 1.0, halos: Halos = NEAR) -> Steps[pygame.Surface]:
         """The drawing with its glow. Blurs are added only where the drawing is dark, so that no hue clips."""
         out = yield from self.downscale_steps()
         yield from add_glow(out, [(out, halos, glow)])
-        yield from self.apply_knockout(out)
+        yield from self.knockout.downscale(out, MULT)
         return out
 
     def lit(self, glow: float = 1.0, halos: Halos = NEAR) -> pygame.Surface:
@@ -210,16 +237,12 @@ class GlowCanvas:
         """A premultiplied sprite: black where `solid` was drawn, light elsewhere. One blit occludes and glows."""
         light = yield from self.lit_steps(glow)
         out = pygame.Surface((self.w, self.h), pygame.SRCALPHA)
-        if self.covers:
-            mask = pygame.Surface(self.sheet.get_size(), pygame.SRCALPHA)
-            for points in self.covers:
-                pygame.draw.polygon(mask, (0, 0, 0, 255), points)
-            out.blit(pygame.transform.smoothscale(mask, (self.w, self.h)), (0, 0))
+        yield from self.mask.downscale(out)
         out.blit(light, (0, 0), special_flags=ADD)
         return out
 
     def sprite(self, glow: float = 1.0) -> pygame.Surface:
-        """Like `spriting`, uninterrupted."""
+        """Like `sprite_steps`, uninterrupted."""
         return run_to_end(self.sprite_steps(glow))
 
 
@@ -280,14 +303,14 @@ class LayeredCanvas:
         lines = yield from self.glow.downscale_steps()
         out = lines.copy()
         sources = [(lines, WIDE, 1.0)]
-        if self.soft.tiles:
+        if not self.soft.is_empty:
             titles = yield from self.soft.downscale_steps()
             out.blit(titles, (0, 0), special_flags=ADD)
             sources.append((titles, SOFT, 0.45))
         yield
         yield from add_glow(out, sources)
-        yield from self.glow.apply_knockout(out)
-        yield from self.soft.apply_knockout(out)
+        yield from self.glow.knockout.downscale(out, MULT)
+        yield from self.soft.knockout.downscale(out, MULT)
         yield from self.crisp.downscale_onto(out)
         return out
 

@@ -55,10 +55,29 @@ def test_a_page_lights_only_what_was_drawn_and_shows_every_sheet():
     assert image.get_at((400, 390))[:3] == (0, 0, 0)
 
 
-def test_ink_that_crosses_tiles_has_no_seams():
-    image = GlowCanvas(700, 300).line([(20, 150), (680, 150)], WHITE, 8).plain()
+@pytest.mark.parametrize("ss", [1, 2, 3])
+def test_ink_that_crosses_tiles_and_bands_has_no_seams(ss: int):
+    """A canvas in bands has the pixels of pygame's own surface, drawn whole and scaled down."""
+    points = [(-30.5, -40.2), (690.4, 150.9), (80.6, 350.3)]
+    image = GlowCanvas(700, 300, ss).fill(points, BLUE).disc(300.7, 118.3, 60.5, WHITE).plain()
 
-    assert {image.get_at((x, 150))[:3] for x in range(20, 680)} == {(255, 255, 255)}
+    whole = pygame.Surface((700 * ss, 300 * ss))
+    pygame.draw.polygon(whole, BLUE, [(x * ss, y * ss) for x, y in points])
+    pygame.draw.circle(whole, WHITE, (300.7 * ss, 118.3 * ss), 60.5 * ss)
+    assert (
+        pygame.surfarray.array3d(image) == pygame.surfarray.array3d(pygame.transform.smoothscale(whole, (700, 300)))
+    ).all()
+
+
+def test_no_surface_of_a_page_is_as_large_as_its_sheet(monkeypatch):
+    sizes = []
+    surface = pygame.Surface
+    monkeypatch.setattr(pygame, "Surface", lambda size, *flags: sizes.append(size) or surface(size, *flags))
+    page = LayeredCanvas()
+    page.glow.void([(100, 100), (1800, 1000)], 8)
+    page.text("M", LABEL, 400, 1000)
+    page.render()
+    assert max(w * h for w, h in sizes) == 1920 * 1080
 
 
 def test_solid_hides_the_ground_in_a_sprite_only_where_it_lies():
@@ -104,7 +123,7 @@ def test_accents_do_not_move_a_line(face: str, word: str) -> None:
     """Capitals stand on the same line with and without accents."""
     feet = []
     for text in ("E", word):
-        canvas = GlowCanvas(300, 200).text(text, 80, 280, 100, WHITE, face, "r")
-        rows = pygame.surfarray.array3d(canvas.sheet)[520:560].max(axis=(0, 2))  # of the E at the end
+        image = GlowCanvas(600, 400, 1).text(text, 160, 560, 200, WHITE, face, "r").plain()
+        rows = pygame.surfarray.array3d(image)[520:560].max(axis=(0, 2))  # of the E at the end
         feet.append(int(rows.nonzero()[0][-1]))
     assert feet[0] == pytest.approx(feet[1], abs=2)

@@ -29,13 +29,12 @@ def beam(player: int, turn: int) -> Sprite:
 
 
 def _beam(player: int) -> pygame.Surface:
-    ink = GlowCanvas(248, 248).set_transform(124 - BEAM_ARM, 124)
+    ink = GlowCanvas(124, 124, 4).set_transform(62 - BEAM_ARM / 2, 62, 0.0, 0.5)
     for i in range(14, 0, -1):
         half, reach = 0.30 * (0.5 + i / 28), 40 + 10 * i
         shape = [(30, -6), (reach, -reach * half), (reach + 10, 0), (reach, reach * half), (30, 6)]
         ink.fill(shape, dim(PLAYERS[player], 0.40 * (1 - i / 14)))
-    small = pygame.transform.smoothscale(ink.sheet, (124, 124))
-    return pygame.transform.gaussian_blur(small, 5)
+    return pygame.transform.gaussian_blur(ink.plain(), 5)
 
 
 @cached

@@ -14,7 +14,7 @@ def edged(text: str, size: int, color: Color) -> Sprite:
     edge = face.render(text, True, BLACK)
     w, h = edge.get_width() // 2 + 64, size + 64
     ink = GlowCanvas(w, h).text(text, size, w / 2, h / 2, color, "hero", "c")
-    dark = pygame.Surface(ink.sheet.get_size(), pygame.SRCALPHA)
+    dark = pygame.Surface((2 * w, 2 * h), pygame.SRCALPHA)
     x, y = w - edge.get_width() / 2, h - baseline(text, "hero", 2 * size) + 0.7 * size
     for i in range(12):
         dark.blit(edge, (x + 10 * math.cos(i * math.tau / 12), y + 10 * math.sin(i * math.tau / 12)))
