@@ -133,7 +133,6 @@ def test_the_doctor_speaks_json(capsys):
         ["play", "--seats", "fsm,fsm,fsm,fsm,fsm"],
         ["play", "chess"],
         ["play", "--game", "chess"],
-        ["play", "race", "--game", "pitanks"],
         ["play", "pitanks", "race"],
         ["train", "qlearning", "race", "--out", "a.npz"],
         ["train", "qlearning", "chess", "--out", "a.npz"],
@@ -164,10 +163,9 @@ def test_what_is_wrong_is_one_line_and_exit_code_2(arguments, capsys):
     assert len(captured.err.strip().splitlines()) == 1
 
 
-@pytest.mark.parametrize("words", [["factory"], ["--game", "factory"], ["factory", "--game", "factory"]], ids=" ".join)
-def test_the_game_stands_after_the_job_or_after_its_old_option(words, capsys):
+def test_the_game_stands_after_the_job(capsys):
     seats = ["--seats", "easy,easy,off,off", "--headless", "--speed", "max", "--minutes", "0.05", "--json"]
-    assert main(["play", *words, *seats]) == 0
+    assert main(["play", "factory", *seats]) == 0
     assert json.loads(capsys.readouterr().out)["game"] == "factory"
 
 
@@ -179,9 +177,8 @@ def test_every_job_describes_its_options_without_numpy():
     )
     told = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     assert told.count("usage: ") == len(jobs())
-    assert "--game" not in told
     modules = ROOT.glob("pigaming_app/jobs/*.py")
-    declaring = {path.stem for path in modules if "\ndef options(" in path.read_text(encoding="utf-8")}
+    declaring = {path.stem for path in modules if "\ndef run(options:" in path.read_text(encoding="utf-8")}
     assert declaring == {job.module for job in jobs().values() if not job.package}
 
 

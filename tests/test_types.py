@@ -1,11 +1,17 @@
 """Types and names of the whole package, read from its sources."""
 
 import ast
+import re
+from importlib import import_module
 from pathlib import Path
+from typing import get_type_hints
 
 import pytest
 
+from pigaming_app.jobs.registry import jobs
+
 PACKAGE = Path(__file__).resolve().parents[1] / "pigaming_app"
+PLAIN = [job for job in jobs().values() if job.name not in ("event", "train")]  # without sub-commands
 
 
 @pytest.mark.parametrize("room", ["sim", "games", "ai"])
@@ -24,3 +30,12 @@ def test_hardly_a_parameter_of_the_engine_is_untyped(room: str) -> None:
         loose = sum("Any" in hint.split(" | ") for hint in hints)
         assert len(hints) > 90
         assert loose <= share * len(hints)
+
+
+def test_options_leave_the_command_line_as_dataclasses() -> None:
+    """Only what declares and reads options sees a Namespace of argparse."""
+    seen = {path.name for path in PACKAGE.rglob("*.py") if re.search(r"\bNamespace\b", path.read_text("utf-8"))}
+    assert seen == {"options.py"}
+    kinds = [get_type_hints(import_module(f"pigaming_app.jobs.{job.module}").run)["options"] for job in PLAIN]
+    assert len(kinds) > 15
+    assert all(kind.__dataclass_params__.frozen for kind in kinds)

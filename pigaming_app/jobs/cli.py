@@ -12,6 +12,7 @@ from pigaming_app.boot.version import is_asked, print_version
 from pigaming_app.jobs import files
 from pigaming_app.jobs.registry import jobs
 from pigaming_app.jobs.terminal import console, interrupt
+from pigaming_app.jobs.terminal.options import declare_job
 from pigaming_app.jobs.terminal.refusal import Refusal, is_of_plugin, module_of, names_failed_plugin
 from pigaming_app.storage.background import BLAS
 
@@ -97,7 +98,7 @@ def _run(name: str, words: list[str]) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,  # boot matches whole words, and `test` passes unknown options to pytest
     )
-    job.options(parser)
+    declare_job(parser, job)
     arguments, unknown = parser.parse_known_args(words)
     if "for_pytest" in arguments:
         arguments.for_pytest = unknown
@@ -110,7 +111,7 @@ def _run(name: str, words: list[str]) -> int:
     if names_failed_plugin(wanted):
         return 1
     try:
-        return int(job.run(arguments))
+        return int(arguments.start(arguments))
     except BaseException as error:
         if isinstance(error, Refusal) and names_failed_plugin(wanted):
             return 1

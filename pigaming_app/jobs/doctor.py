@@ -9,7 +9,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from importlib import metadata
@@ -19,7 +18,7 @@ from pigaming_app import ASSETS, FROZEN, INSTALLED, ROOT, __version__
 from pigaming_app.boot.interpreter import ARCADE, StartError, has_both_pygames, is_missing, packages
 from pigaming_app.boot.interpreter import requirements as listed
 from pigaming_app.boot.version import commit
-from pigaming_app.jobs.terminal.options import shared
+from pigaming_app.jobs.terminal.options import JsonOption
 from pigaming_app.jobs.terminal.refusal import remedy
 from pigaming_app.links import DOWNLOAD
 from pigaming_app.storage.parsing import one_line, parse_json
@@ -57,15 +56,11 @@ class Line:
     advice: str = ""
 
 
-def options(parser: ArgumentParser) -> None:
-    shared(parser, "--json")
-
-
-def run(arguments: Namespace) -> int:
+def run(options: JsonOption) -> int:
     """Print the report; 1 if something prevents playing."""
     lines = report()
     ok = all(line.state != "problem" for line in lines)
-    if arguments.json:
+    if options.json:
         print(json.dumps({"ok": ok, "lines": [asdict(line) for line in lines]}))
         return int(not ok)
     for line in lines:

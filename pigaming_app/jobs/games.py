@@ -5,11 +5,11 @@ plays only once it was switched on.
 """
 
 import json
-from argparse import ArgumentParser, Namespace
+from dataclasses import dataclass
 
 from pigaming_app.games.registry import OURS, games
 from pigaming_app.games.setup import require_one_of
-from pigaming_app.jobs.terminal.options import shared
+from pigaming_app.jobs.terminal.options import JsonOption, argument
 from pigaming_app.jobs.terminal.refusal import refused
 from pigaming_app.storage.plugins.consent import is_on, switch
 from pigaming_app.storage.plugins.found import found, user_folder
@@ -18,24 +18,27 @@ from pigaming_app.storage.plugins.parts import failures
 STATES = {None: "new", True: "on", False: "off"}
 
 
-def options(parser: ArgumentParser) -> None:
-    parser.add_argument("word", choices=("list", "on", "off"), nargs="?", default="list", metavar="list | on | off")
-    parser.add_argument("game", nargs="?", metavar="GAME", help="name of the game to switch")
-    shared(parser, "--json")
+@dataclass(frozen=True, kw_only=True)
+class GamesOptions(JsonOption):
+    """A game to switch, or none to list them."""
+
+    word: str = argument("", default="list", choices=("list", "on", "off"), nargs="?", metavar="list | on | off")
+    game: str | None = argument("name of the game to switch", default=None, nargs="?", metavar="GAME")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: GamesOptions) -> int:
     """List the games, or switch one from the next start on. Raises Refusal, NotSaved."""
     plugins = found()
-    if arguments.word != "list":
+    if options.word != "list":
         named = {plugin.name: plugin for plugin in reversed(plugins)}
+        game = options.game or ""
         with refused(ValueError):
-            require_one_of("game to switch", arguments.game or "", list(named))
-        switch(named[arguments.game].key, arguments.word == "on")
-        print(f"{arguments.game} is {arguments.word}, from the next start on")
+            require_one_of("game to switch", game, list(named))
+        switch(named[game].key, options.word == "on")
+        print(f"{game} is {options.word}, from the next start on")
         return 0
     playing = games()
-    if arguments.json:
+    if options.json:
         listed = [
             {"game": plugin.name, "state": STATES[is_on(plugin)], "folder": str(plugin.folder), "origin": plugin.origin}
             for plugin in plugins

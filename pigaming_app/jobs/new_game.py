@@ -2,12 +2,13 @@
 
 import re
 import shutil
-from argparse import ArgumentParser, Namespace
+from dataclasses import dataclass
 from keyword import iskeyword
 from pathlib import Path
 
 from pigaming_app import ASSETS
 from pigaming_app.games.registry import OURS
+from pigaming_app.jobs.terminal.options import argument
 from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.storage.parsing import describe_error, quote
 from pigaming_app.storage.plugins.consent import switch
@@ -17,13 +18,16 @@ from pigaming_app.storage.safe_files import NotSaved
 TEMPLATE = ASSETS / "new_game"
 
 
-def options(parser: ArgumentParser) -> None:
-    parser.add_argument("name", metavar="NAME", help="lower-case letters, digits and _, at most 24, such as tag")
+@dataclass(frozen=True, kw_only=True)
+class NewGameOptions:
+    """The game's name."""
+
+    name: str = argument("lower-case letters, digits and _, at most 24, such as tag", metavar="NAME")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: NewGameOptions) -> int:
     """Write the package and switch it on. Raises Refusal, NotSaved."""
-    name = arguments.name
+    name = options.name
     if not NAME.fullmatch(name):
         raise Refusal(f"{quote(name)} is no name: lower-case letters, digits and _, at most 24, a letter first")
     if name in (*OURS, *(plugin.name for plugin in found())):

@@ -1,12 +1,10 @@
 """One match, with or without a window, at any speed; on request recorded."""
 
-import argparse
 import json
 import os
 import sys
-from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
 from time import perf_counter, sleep
@@ -20,20 +18,16 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.games.rounds import BEST_OF, Rounds
 from pigaming_app.games.setup import ChoiceError, longest, make_setup
-from pigaming_app.jobs.arcade import needs_supervisor, ros_options, ros_width, show, supervised
+from pigaming_app.jobs.arcade import RobotOptions, needs_supervisor, show, supervised
 from pigaming_app.jobs.terminal.options import (
-    DEFAULT_GAME,
-    MATCH,
-    SHARED,
+    GameOption,
+    JsonOption,
+    MatchOptions,
     decimal,
-    display,
-    game_option,
-    goal,
+    flag,
     integer,
-    mat_options,
-    mat_settings,
+    option,
     path,
-    shared,
 )
 from pigaming_app.jobs.terminal.refusal import Refusal, module_of, refused, require, require_for_brains
 from pigaming_app.scenes.files import save_replay
@@ -54,89 +48,72 @@ SLOWEST_RATE, FASTEST_RATE = 0.01, 10_000.0  # times real time, limits of --spee
 WATCHED = 150  # ticks before a picture, for its shots, sparks and tread marks
 
 
-def options(parser: ArgumentParser) -> None:
-    game_option(parser)
-    parser.add_argument("--game", dest="named_game", help=argparse.SUPPRESS)  # the only syntax up to 1.4.0
-    parser.set_defaults(game=None)  # to notice a contradiction
-    parser.add_argument("--seats", help="human, off, an AI or a trained one's file for each seat; default human,normal")
-    parser.add_argument("--teams", help="a number for each seat, such as 0,0,1,1; default: the game's own")
-    shared(parser, *MATCH)
-    of_any_match = integer(-SEEDS, SEEDS - 1)
-    parser.add_argument(
-        "--seed", **SHARED["--seed"] | {"type": of_any_match, "help": "default 1; below 0: of a training"}
+@dataclass(frozen=True, kw_only=True)
+class PlayOptions(RobotOptions, MatchOptions, JsonOption, GameOption):
+    """The match, and what to keep of it."""
+
+    seats: str = option(
+        "human, off, an AI or a trained one's file for each seat; default human,normal", default="human,normal"
     )
-    parser.add_argument(
-        "--rounds", type=integer(), metavar="NUMBER", help="1, or 3: best of three rounds of one minute, in PiTanks"
-    )
-    parser.add_argument("--headless", action="store_true", help="no window, no sound")
-    parser.add_argument("--speed", default="1", help="times real time, or max; default 1")
-    parser.add_argument("--record", type=path, metavar="FILE", help="write a replay")
-    parser.add_argument("--screenshot", type=path, metavar="FILE", help="save a picture (PNG)")
-    parser.add_argument(
-        "--at", type=decimal(0.0, 3600.0), metavar="SECONDS", default=5.0, help="time of the picture; default 5"
-    )
-    parser.add_argument("--robots", type=path, metavar="FILE", help="simulate these measured robots (see fidelity)")
-    parser.add_argument("--real", metavar="SEATS", help="seats with real robots, such as 1,3, or all")
-    mat_options(parser)
-    ros_options(parser)
-    shared(parser, "--kiosk", "--display", "--scoreboard", "--json")
+    teams: str | None = option("a number for each seat, such as 0,0,1,1; default: the game's own")
+    seed: int = option("default 1; below 0: of a training", integer(-SEEDS, SEEDS - 1), 1, metavar="NUMBER")
+    rounds: int | None = option("1, or 3: best of three rounds of one minute, in PiTanks", integer(), metavar="NUMBER")
+    headless: bool = flag("no window, no sound")
+    speed: str = option("times real time, or max; default 1", default="1")
+    record: Path | None = option("write a replay", path, metavar="FILE")
+    screenshot: Path | None = option("save a picture (PNG)", path, metavar="FILE")
+    at: float = option("time of the picture; default 5", decimal(0.0, 3600.0), 5.0, metavar="SECONDS")
+    robots: Path | None = option("simulate these measured robots (see fidelity)", path, metavar="FILE")
+    real: str | None = option("seats with real robots, such as 1,3, or all", metavar="SEATS")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: PlayOptions) -> int:
     """Play the match; the exit code. Raises Refusal or NotSaved."""
-    if needs_supervisor(arguments) and not arguments.headless and not arguments.screenshot:
-        return supervised(arguments)
-    if arguments.kiosk and is_safe():  # the match may be what fails
+    if needs_supervisor(options) and not options.headless and not options.screenshot:
+        return supervised(options)
+    if options.kiosk and is_safe():  # the match may be what fails
         from pigaming_app.scenes.launch import Options
 
         return show(Options(kiosk=True))
     with refused(ChoiceError, ArenaError):
-        return _play(arguments)
+        return _play(options)
 
 
-def _play(arguments: Namespace) -> int:
-    arguments.game = _game(arguments.game, arguments.named_game)
-    wanted = goal(arguments)
-    chosen = mat_settings(arguments)
-    seats = [seat.strip() for seat in (arguments.seats or "human,normal").split(",")]
+def _play(options: PlayOptions) -> int:
+    wanted = options.goal(options.game)
+    chosen = options.mat_settings()
+    seats = [seat.strip() for seat in options.seats.split(",")]
     require_for_brains(seats)
-    names = known_brains(arguments.game, seats)
-    rounds = _rounds(arguments)
-    arena, seed, variant = arguments.arena, arguments.seed, arguments.variant
-    minutes = arguments.minutes
+    names = known_brains(options.game, seats)
+    rounds = _rounds(options)
+    arena, seed, variant = options.arena, options.seed, options.variant
+    minutes = options.minutes
     if rounds and minutes is None:
-        minutes = games()[arguments.game].round_minutes
-    setup = make_setup(arguments.game, seats, arena, minutes, seed, variant, _teams(arguments.teams), names, wanted)
-    speed = _speed(arguments.speed)
-    real_seats = _real_seats(arguments, setup, speed)
-    width = ros_width(arguments)
+        minutes = games()[options.game].round_minutes
+    setup = make_setup(options.game, seats, arena, minutes, seed, variant, _teams(options.teams), names, wanted)
+    speed = _speed(options.speed)
+    real_seats = _real_seats(options, setup, speed)
+    width = options.ros_width()
     if real_seats and width is None:
         _check_radio(chosen)
-    plant = _plant(arguments, real_seats)
-    _check_targets(arguments.record, arguments.screenshot)
-    if real_seats or arguments.emulate is not None:
+    plant = _plant(options, real_seats)
+    _check_targets(options.record, options.screenshot)
+    if real_seats or options.emulate is not None:
         require("hardware")
-    if arguments.headless and not real_seats:
-        return _headless(arguments, setup, speed, plant, rounds)
-    return _on_screen(arguments, setup, min(speed, FASTEST), real_seats, plant, chosen, rounds, width)
+    if options.headless and not real_seats:
+        return _headless(options, setup, speed, plant, rounds)
+    return _on_screen(options, setup, min(speed, FASTEST), real_seats, plant, chosen, rounds, width)
 
 
-def _game(game: str | None, named: str | None) -> str:
-    """The game, by its position or by --game."""
-    if game is not None and named is not None and game != named:
-        raise Refusal(f"--game: {quote(named)} contradicts {quote(game)}")
-    return next((name for name in (game, named) if name is not None), DEFAULT_GAME)
-
-
-def _rounds(arguments: Namespace) -> Rounds | None:
+def _rounds(options: PlayOptions) -> Rounds | None:
     """The rounds, none of them played; None: the match has only one. Raises Refusal."""
-    count = arguments.rounds
-    offered = games()[arguments.game].rounds if arguments.game in games() else BEST_OF
+    count = options.rounds
+    offered = games()[options.game].rounds if options.game in games() else BEST_OF
     if count is None or (count == 1 and count in offered):
         return None
     if count not in offered:
-        raise Refusal(f"--rounds: {count}; {arguments.game} has {' or '.join(map(str, offered))}")
-    if arguments.record is not None:
+        raise Refusal(f"--rounds: {count}; {options.game} has {' or '.join(map(str, offered))}")
+    if options.record is not None:
         raise Refusal("--record: a replay is one round; leave out --rounds")
     return Rounds(count)
 
@@ -159,25 +136,25 @@ def _check_targets(record: Path | None, screenshot: Path | None) -> None:
             require_writable(target)
 
 
-def _plant(arguments: Namespace, real: list[int]) -> Callable[[Any], Plant]:
+def _plant(options: PlayOptions, real: list[int]) -> Callable[[Any], Plant]:
     """The factory of the simulated plant: ideal robots, or with --robots the drivetrains measured by `fidelity`."""
-    if arguments.robots is None:
+    if options.robots is None:
         return SimPlant
-    if real or arguments.record is not None:
+    if real or options.record is not None:
         raise Refusal("--robots: goes without --real and --record")
     try:
-        drivetrains = parse(read_text(arguments.robots), arguments.robots.name)
+        drivetrains = parse(read_text(options.robots), options.robots.name)
     except DrivetrainError as error:
         raise Refusal(str(error)) from None
     except (OSError, ParseError) as error:
-        raise Refusal(f"{arguments.robots}: cannot be read ({describe_error(error)})") from None
+        raise Refusal(f"{options.robots}: cannot be read ({describe_error(error)})") from None
     return lambda world: SimPlant(world, drivetrains)
 
 
-def _real_seats(arguments: Namespace, setup: Setup, speed: float) -> list[int]:
+def _real_seats(options: PlayOptions, setup: Setup, speed: float) -> list[int]:
     """The seats with real robots, from 0; by default all in an emulated arena and with ROS."""
-    usual = "all" if arguments.emulate is not None or arguments.plant == "ros" else ""
-    text = usual if arguments.real is None else arguments.real
+    usual = "all" if options.emulate is not None or options.plant == "ros" else ""
+    text = usual if options.real is None else options.real
     taken = [i for i, seat in enumerate(setup.seats) if seat.brain != "off"]
     try:
         seats = taken if text == "all" else sorted({int(number) - 1 for number in text.split(",") if number})
@@ -185,11 +162,11 @@ def _real_seats(arguments: Namespace, setup: Setup, speed: float) -> list[int]:
         raise Refusal(f"--real: {quote(text)}; numbers such as 1,3, or all, are needed") from None
     if stray := [seat + 1 for seat in seats if seat not in taken]:
         raise Refusal(f"--real: nobody sits on seat {quote(stray[0])}")
-    if arguments.plant == "ros" and (arguments.headless or arguments.robots):
+    if options.plant == "ros" and (options.headless or options.robots):
         raise Refusal("--plant ros: goes without --headless and --robots")
-    if seats and speed != 1.0 and not arguments.headless:
+    if seats and speed != 1.0 and not options.headless:
         raise Refusal("--speed: real robots drive in real time")
-    if seats and arguments.headless and arguments.emulate is None:
+    if seats and options.headless and options.emulate is None:
         raise Refusal("--headless: real robots need the picture on their mat; add --emulate for emulated ones")
     return seats
 
@@ -219,7 +196,7 @@ def _speed(text: str) -> float:
 
 
 def _headless(
-    arguments: Namespace,
+    options: PlayOptions,
     setup: Setup,
     speed: float,
     plant: Callable[[Any], Plant],
@@ -229,7 +206,7 @@ def _headless(
     if any(seat.brain == "human" for seat in setup.seats):
         print("PiGaming: human seats need a window; without one their robots stand still", file=sys.stderr)
     began = perf_counter()
-    photographer = Photographer(match, arguments.screenshot, arguments.at) if arguments.screenshot else None
+    photographer = Photographer(match, options.screenshot, options.at) if options.screenshot else None
     played = 0.0  # s of the rounds before this one
     most = bound(setup.game, longest(setup)) if overseer.is_overseen(setup.game) else inf
     while True:
@@ -251,10 +228,10 @@ def _headless(
         played += match.seconds
         match = new_match(replace(setup, seed=setup.seed + rounds.number - 1), plant)
     try:
-        if arguments.record:
-            save_replay(match, arguments.record)
+        if options.record:
+            save_replay(match, options.record)
     finally:
-        _print(match, arguments.json, perf_counter() - began, rounds)
+        _print(match, options.json, perf_counter() - began, rounds)
     if photographer and photographer.trouble:
         raise photographer.trouble
     return 0
@@ -291,7 +268,7 @@ class Photographer:
 
 
 def _on_screen(
-    arguments: Namespace,
+    options: PlayOptions,
     setup: Setup,
     speed: float,
     real: list[int],
@@ -332,45 +309,45 @@ def _on_screen(
         """True when the picture is due, or when missing real robots have delayed it too long."""
         nonlocal shot
         if scenes and not scenes[0].blocked:
-            shot = bool(scenes[0].match.over or scenes[0].match.seconds >= arguments.at)
+            shot = bool(scenes[0].match.over or scenes[0].match.seconds >= options.at)
         else:
-            shot = perf_counter() - began > arguments.at + PICTURE_TIMEOUT
+            shot = perf_counter() - began > options.at + PICTURE_TIMEOUT
         return shot
 
     def over() -> bool:
-        if not arguments.headless:
+        if not options.headless:
             return False
         return not scenes or bool(_latched(scenes[0].match)) or (rounds.done if rounds else scenes[0].match.over)
 
     code = show(
         Options(
             first_scene=scene,
-            kiosk=arguments.kiosk,
-            display=display(arguments),
-            scoreboard=arguments.scoreboard,
-            screenshot=arguments.screenshot,
+            kiosk=options.kiosk,
+            display=options.display,
+            scoreboard=options.scoreboard,
+            screenshot=options.screenshot,
             screenshot_due=due,
-            headless=arguments.headless,
-            without_title=arguments.headless,  # nobody is there to go on after a failure
-            step=DT if arguments.headless else None,
+            headless=options.headless,
+            without_title=options.headless,  # nobody is there to go on after a failure
+            step=DT if options.headless else None,
             should_close=over,
-            emulator_seed=arguments.emulate,
-            emulated_things=arguments.things,
+            emulator_seed=options.emulate,
+            emulated_things=options.things,
             ros_width=width,
             changed_settings=chosen,
         )
     )
-    if scenes and arguments.headless and not arguments.screenshot:
+    if scenes and options.headless and not options.screenshot:
         played = rounds if rounds and rounds.outcomes else None
         match = scenes[0].match
-        _print(match, arguments.json, played.outcome().seconds if played else match.seconds, played)
-    if scenes and arguments.record:
-        save_replay(scenes[0].match, arguments.record)
-    if scenes and arguments.headless and (fault := _latched(scenes[0].match)):
+        _print(match, options.json, played.outcome().seconds if played else match.seconds, played)
+    if scenes and options.record:
+        save_replay(scenes[0].match, options.record)
+    if scenes and options.headless and (fault := _latched(scenes[0].match)):
         raise Refusal(f"The match did not end: nobody is there to help. {fault}")
-    if code == 0 and arguments.screenshot and not shot:
+    if code == 0 and options.screenshot and not shot:
         raise Refusal("--screenshot: the match was left before its time, so there is no picture")
-    return code if scenes or not arguments.headless else 2  # no match: the reason has been printed
+    return code if scenes or not options.headless else 2  # no match: the reason has been printed
 
 
 def _latched(match: Match) -> str:

@@ -11,6 +11,7 @@ import pytest
 from pigaming_app.hardware.emulator.faults import FAULTS
 from pigaming_app.jobs.cli import Parser
 from pigaming_app.jobs.registry import jobs
+from pigaming_app.jobs.terminal.options import declare_job
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs/hardware.md").read_text(encoding="utf-8")
@@ -38,7 +39,7 @@ def test_a_command_is_understood(command: str) -> None:
     name, rest = ("arcade", words) if not words or words[0].startswith("-") else (words[0], words[1:])
     assert name in jobs()
     parser = Parser(allow_abbrev=False)
-    import_module(f"pigaming_app.jobs.{jobs()[name].module}").options(parser)
+    declare_job(parser, import_module(f"pigaming_app.jobs.{jobs()[name].module}"))
     parser.parse_args(rest)
 
 

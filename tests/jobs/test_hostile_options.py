@@ -46,7 +46,7 @@ PPO = ["train", "ppo", *SET, "--out", "foreign.npz", "--resume"]  # refused at t
 OPTIONS = {
     (): ("--display", "--frames", "--camera", "--port", "--baud", "--radio", "--emulate", ""),
     tuple(PLAY): (
-        "--game", "--seats", "--teams", "--arena", "--minutes", "--variant", "--laps", "--pallets", "--seed", "--speed",
+        "--seats", "--teams", "--arena", "--minutes", "--variant", "--laps", "--pallets", "--seed", "--speed",
         "--rounds", "--record", "--screenshot", "--at", "--robots", "--real", "--camera", "--port", "--baud", "--radio",
         "--display", "",
     ),

@@ -4,32 +4,37 @@ the robot loop.
 
 import json
 import sys
-from argparse import ArgumentParser, Namespace
+from dataclasses import dataclass
 from typing import Any
 
-from pigaming_app.jobs.terminal.options import game_option, shared
+from pigaming_app.jobs.terminal.options import DEFAULT_GAME, JsonOption, argument, flag, games_and, option
 from pigaming_app.jobs.terminal.refusal import Refusal, missing, refused, require
 
 ROBOTS, PHONES = "robots", "phones"
 
 
-def options(parser: ArgumentParser) -> None:
-    game_option(parser, more=(ROBOTS, PHONES))
-    parser.add_argument("--arcade", action="store_true", help="robots: only the failures of a whole arcade")
-    shared(parser, "--variant", "--json")
+@dataclass(frozen=True, kw_only=True)
+class BenchOptions(JsonOption):
+    """What to measure."""
+
+    game: str = argument(
+        games_and(ROBOTS, PHONES, default=DEFAULT_GAME), default=DEFAULT_GAME, nargs="?", metavar="GAME"
+    )
+    arcade: bool = flag("robots: only the failures of a whole arcade")
+    variant: str | None = option("set of rules; default: the game's first")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: BenchOptions) -> int:
     """Measure and print the figures. Raises Refusal."""
-    if arguments.arcade and arguments.game != ROBOTS:
+    if options.arcade and options.game != ROBOTS:
         raise Refusal("--arcade: only for robots")
-    special = {ROBOTS: lambda: _robots(arguments.arcade), PHONES: _phones}
-    figures = special.get(arguments.game, lambda: _game(arguments.game, arguments.variant))()
-    if arguments.json:
+    special = {ROBOTS: lambda: _robots(options.arcade), PHONES: _phones}
+    figures = special.get(options.game, lambda: _game(options.game, options.variant))()
+    if options.json:
         print(json.dumps(figures))
     else:
         _print(figures)
-        if arguments.game != PHONES and (lacks := missing("bench")):
+        if options.game != PHONES and (lacks := missing("bench")):
             print(lacks)
     return 0
 

@@ -4,13 +4,14 @@ import os
 import subprocess
 import sys
 import time
-from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from pigaming_app import FROZEN, INSTALLED, ROOT
+from pigaming_app.jobs.terminal.options import ONE_OF, Groups, flag, option
 from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.storage.parsing import quote
 
@@ -43,28 +44,31 @@ class ToolResult(NamedTuple):
     output: str
 
 
-def options(parser: ArgumentParser) -> None:
-    """Declare the options; `for_pytest` collects the unknown ones."""
-    parser.set_defaults(for_pytest=[])
-    selection = parser.add_mutually_exclusive_group()
-    selection.add_argument("--quick", action="store_true", help=f"ruff and the unit tests: {', '.join(UNITS)}")
-    selection.add_argument("--long", action="store_true", help="the long proofs: only the tests marked `long`")
-    selection.add_argument("--feature", metavar="NAME", help="all tests of one feature, such as events")
+@dataclass(frozen=True, kw_only=True)
+class TestOptions:
+    """Which tests; `for_pytest`: all unknown options."""
+
+    GROUPS: ClassVar[Groups] = {ONE_OF: ("quick", "long", "feature")}
+
+    quick: bool = flag(f"ruff and the unit tests: {', '.join(UNITS)}")
+    long: bool = flag("the long proofs: only the tests marked `long`")
+    feature: str | None = option("all tests of one feature, such as events", metavar="NAME")
+    for_pytest: tuple[str, ...] = ()
 
 
-def run(arguments: Namespace) -> int:
+def run(options: TestOptions) -> int:
     """Run pytest and the other tools in parallel; 0 if all pass. Raises Refusal.
 
     The summary of pytest comes last on standard output; the other tools report after it on standard error.
     """
     if INSTALLED or FROZEN:
         raise Refusal("an installed program has no tests: run main.py test in a clone")
-    for_pytest = arguments.for_pytest
-    tools = {} if arguments.long or arguments.feature else RUFF if arguments.quick else RUFF | MYPY
-    marked: tuple[str, ...] = ("-m", "long" if arguments.long else "not long")
-    units = UNITS if arguments.quick and not any(map(_is_path, for_pytest)) else ()
-    if arguments.feature:
-        marked, units = (), paths_of(arguments.feature)
+    for_pytest = options.for_pytest
+    tools = {} if options.long or options.feature else RUFF if options.quick else RUFF | MYPY
+    marked: tuple[str, ...] = ("-m", "long" if options.long else "not long")
+    units = UNITS if options.quick and not any(map(_is_path, for_pytest)) else ()
+    if options.feature:
+        marked, units = (), paths_of(options.feature)
     with ThreadPoolExecutor(1) as executor:
         results = executor.map(_run, tools.items())
         with _python(("pytest", *WORKERS, *marked, *for_pytest, *units)) as pytest:

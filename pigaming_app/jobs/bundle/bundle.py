@@ -2,21 +2,23 @@
 
 import json
 import sys
-from argparse import ArgumentParser, Namespace
+from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
 from pigaming_app import FROZEN, INSTALLED
-from pigaming_app.jobs.terminal.options import path, shared
+from pigaming_app.jobs.terminal.options import JsonOption, option, path
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 
 
-def options(parser: ArgumentParser) -> None:
-    parser.add_argument("--out", type=path, metavar="DIR", default=Path("dist"), help="default dist: dist/pigaming")
-    shared(parser, "--json")
+@dataclass(frozen=True, kw_only=True)
+class BundleOptions(JsonOption):
+    """Where to build it."""
+
+    out: Path = option("default dist: dist/pigaming", path, Path("dist"), metavar="DIR")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: BundleOptions) -> int:
     """Build the bundle and print where it is. Raises Refusal."""
     from pigaming_app.jobs.bundle.build import BuildFailed, build
 
@@ -27,8 +29,8 @@ def run(arguments: Namespace) -> int:
         print("PiGaming: numba is not installed; learning will be slow in this bundle.", file=sys.stderr)
     print("PiGaming: building takes a minute or two.", file=sys.stderr)
     with refused(BuildFailed):
-        built = build(arguments.out.absolute())
-    if arguments.json:
+        built = build(options.out.absolute())
+    if options.json:
         print(json.dumps({"program": str(built.program), "bytes": built.size}))
     else:
         print(f"{built.program}: {built.size / 1e6:.0f} MB")

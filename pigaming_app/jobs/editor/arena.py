@@ -4,7 +4,7 @@ They are TOML files in the folder `arenas` of the data folder, see docs/arenas.m
 """
 
 import json
-from argparse import ArgumentParser, Namespace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -23,7 +23,7 @@ from pigaming_app.games.drawing.problems import problems
 from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game
-from pigaming_app.jobs.terminal.options import shared
+from pigaming_app.jobs.terminal.options import JsonOption, argument, flag, option
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.scenes.editor.store import is_full
 from pigaming_app.sim.arena import Arena, ArenaError
@@ -31,37 +31,41 @@ from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.storage.parsing import quote
 from pigaming_app.storage.safe_files import write_atomic
 
-WORDS = {"list": 0, "export": 3, "import": 1, "check": 1}  # the number of words that follow
+COUNTS = {"list": 0, "export": 3, "import": 1, "check": 1}  # the number of words that follow
 USAGE = "arena needs list, export GAME NAME FILE, import FILE, or check FILE"
 
 
-def options(parser: ArgumentParser) -> None:
-    parser.add_argument("word", choices=WORDS, nargs="?", default="list", metavar="list | export | import | check")
-    parser.add_argument("names", nargs="*", metavar="GAME NAME FILE", help="export: all three, import and check: FILE")
-    parser.add_argument("--as", dest="name", metavar="NAME", help="import: name of the arena, else that of the file")
-    parser.add_argument("--of", dest="game", metavar="GAME", help="game of the file, else the one that can read it")
-    parser.add_argument("--replace", action="store_true", help="import: in place of an arena of the same name")
-    shared(parser, "--json")
+@dataclass(frozen=True, kw_only=True)
+class ArenaOptions(JsonOption):
+    """An arena, and what to do with it."""
+
+    word: str = argument("", default="list", choices=COUNTS, nargs="?", metavar="list | export | import | check")
+    names: tuple[str, ...] = argument(
+        "export: all three, import and check: FILE", default=(), nargs="*", metavar="GAME NAME FILE"
+    )
+    name: str | None = option("import: name of the arena, else that of the file", name=("--as",), metavar="NAME")
+    game: str | None = option("game of the file, else the one that can read it", name=("--of",), metavar="GAME")
+    replace: bool = flag("import: in place of an arena of the same name")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: ArenaOptions) -> int:
     """List, export, import or check. Raises Refusal, NotSaved."""
-    if len(arguments.names) != WORDS[arguments.word]:
+    if len(options.names) != COUNTS[options.word]:
         raise Refusal(USAGE)
     with refused(ArenaError, ChoiceError):
-        match arguments.word:
+        match options.word:
             case "list":
-                _list(arguments.json)
+                _list(options.json)
             case "export":
-                game, name, file = arguments.names
+                game, name, target = options.names
                 require_game(game)
-                write_atomic(Path(file), load(game, name).source.encode())
-                print(f"{name} of {game} is in {file}")
+                write_atomic(Path(target), load(game, name).source.encode())
+                print(f"{name} of {game} is in {target}")
             case "import":
-                print(_import_file(Path(arguments.names[0]), arguments.game, arguments.name, arguments.replace))
+                print(_import_file(Path(options.names[0]), options.game, options.name, options.replace))
             case _:
-                file = Path(arguments.names[0])
-                game, arena = _read_file(file, arguments.game)
+                file = Path(options.names[0])
+                game, arena = _read_file(file, options.game)
                 marks = problems(games()[game], drawing_of(arena.source))
                 print(
                     f"{file.name}: an arena of {game}, " + ("; ".join(f"{p.key}: {p.reason}" for p in marks) or "good")

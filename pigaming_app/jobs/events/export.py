@@ -2,45 +2,42 @@
 
 import json
 import os
-from argparse import ArgumentParser, Namespace
+from dataclasses import dataclass
 from pathlib import Path
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.exports import matches_csv, plain, standings_csv
-from pigaming_app.jobs.events.files import file_option, loaded
-from pigaming_app.jobs.terminal.options import path
+from pigaming_app.jobs.events.files import FileOption, loaded
+from pigaming_app.jobs.terminal.options import option, path
 from pigaming_app.jobs.terminal.refusal import Refusal, require
 from pigaming_app.storage.parsing import quote
 from pigaming_app.storage.safe_files import write_all_atomic
 
 
-def options(parser: ArgumentParser) -> None:
-    file_option(parser)
-    parser.add_argument("--csv", type=path, metavar="OUT", help="the table")
-    parser.add_argument("--matches", type=path, metavar="OUT", help="all matches as CSV")
-    parser.add_argument("--json", type=path, metavar="OUT", help="everything as JSON")
-    parser.add_argument(
-        "--poster",
-        type=path,
-        metavar="OUT",
-        help="A4: NAME.png, a file a page, or NAME.pdf (extra `events`)",
-    )
+@dataclass(frozen=True, kw_only=True)
+class ExportOptions(FileOption):
+    """The files to write."""
+
+    csv: Path | None = option("the table", path, metavar="OUT")
+    matches: Path | None = option("all matches as CSV", path, metavar="OUT")
+    json: Path | None = option("everything as JSON", path, metavar="OUT")
+    poster: Path | None = option("A4: NAME.png, a file a page, or NAME.pdf (extra `events`)", path, metavar="OUT")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: ExportOptions) -> int:
     """Write the files. Raises Refusal or NotSaved."""
-    event = loaded(arguments.file)
+    event = loaded(options.file)
     writers = (
-        (arguments.csv, standings_csv),
-        (arguments.matches, matches_csv),
-        (arguments.json, lambda event: json.dumps(plain(event), indent=1, ensure_ascii=False) + "\n"),
+        (options.csv, standings_csv),
+        (options.matches, matches_csv),
+        (options.json, lambda event: json.dumps(plain(event), indent=1, ensure_ascii=False) + "\n"),
     )
     wanted = [(target, writer) for target, writer in writers if target is not None]
-    if not wanted and arguments.poster is None:
+    if not wanted and options.poster is None:
         raise Refusal("--csv, --matches, --json or --poster with the name of a file is needed")
     texts = [(target, writer(event).encode("utf-8")) for target, writer in wanted]
-    files = [*texts, *(_poster(event, arguments.poster).items() if arguments.poster else ())]
-    names = [os.path.realpath(name) for name in (arguments.file, *(target for target, _ in files))]
+    files = [*texts, *(_poster(event, options.poster).items() if options.poster else ())]
+    names = [os.path.realpath(name) for name in (options.file, *(target for target, _ in files))]
     if len({*names}) < len(names):
         raise Refusal("every file needs a name of its own")
     write_all_atomic(dict(files))

@@ -1,18 +1,20 @@
 """The file of an event, on the command line."""
 
 import sys
-from argparse import ArgumentParser
+from dataclasses import dataclass
 from pathlib import Path
 
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
-from pigaming_app.jobs.terminal.options import path
+from pigaming_app.jobs.terminal.options import argument, path
 from pigaming_app.jobs.terminal.refusal import Refusal
 
 
-def file_option(parser: ArgumentParser) -> None:
-    """Declare the file as a positional argument."""
-    parser.add_argument("file", type=path, metavar="FILE", help="the event")
+@dataclass(frozen=True, kw_only=True)
+class FileOption:
+    """The file of the event."""
+
+    file: Path = argument("the event", path, metavar="FILE")
 
 
 def loaded(file: Path) -> Event:

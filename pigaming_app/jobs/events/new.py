@@ -2,9 +2,9 @@
 
 import os
 import sys
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentTypeError
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -26,11 +26,10 @@ from pigaming_app.events.spec import (
     EventSpec,
     Format,
 )
-from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
-from pigaming_app.jobs.events.files import file_option
+from pigaming_app.jobs.events.files import FileOption
 from pigaming_app.jobs.events.show import print_event
-from pigaming_app.jobs.terminal.options import DEFAULT_GAME, decimal, integer, word
+from pigaming_app.jobs.terminal.options import DEFAULT_GAME, JsonOption, decimal, games_and, integer, option, word
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage.parsing import describe_error, quote
@@ -41,72 +40,68 @@ BY_GAME = "for one game, or GAME=VALUE,GAME=VALUE"
 DEFAULT_SEATS = {Format.GRAND_PRIX: 4}  # else 2
 
 
-def options(parser: ArgumentParser) -> None:
-    file_option(parser)
-    names = ", ".join(games())
-    parser.add_argument(
-        "--game", default=DEFAULT_GAME, help=f"{names}, or several with commas: by turns; default {DEFAULT_GAME}"
-    )
-    parser.add_argument("--format", required=True, help=", ".join(Format))
-    parser.add_argument(
-        "--entrants",
+@dataclass(frozen=True, kw_only=True)
+class NewEventOptions(FileOption, JsonOption):
+    """Entrants, format and games."""
+
+    game: str = option(games_and("or several with commas: by turns", default=DEFAULT_GAME), default=DEFAULT_GAME)
+    format: str = option(", ".join(Format), required=True)
+    entrants: str = option(
+        f"{FEWEST} to {MOST}: NAME, NAME=AI or NAME/TEAM=AI with commas, or @FILE with one in a line, or CSV",
         required=True,
-        help=f"{FEWEST} to {MOST}: NAME, NAME=AI or NAME/TEAM=AI with commas, or @FILE with one in a line, or CSV",
     )
-    parser.add_argument(
-        "--rounds",
-        type=integer(high=MAX_ROUNDS),
+    rounds: int = option(
+        "of a Swiss or a Grand Prix; of a round robin: times that everybody meets everybody",
+        integer(high=MAX_ROUNDS),
+        0,
         metavar="NUMBER",
-        default=0,
-        help="of a Swiss or a Grand Prix; of a round robin: times that everybody meets everybody",
     )
-    parser.add_argument("--seats", type=integer(SEATS[0], SEATS[-1]), metavar="NUMBER", help="entrants of a match")
-    parser.add_argument("--minutes", help=f"length of a match; {BY_GAME}")
-    parser.add_argument("--arena", help=f"arena, or several with + by turns; {BY_GAME}")
-    parser.add_argument("--rules", "--variant", help=f"set of rules; {BY_GAME}")
-    parser.add_argument("--advance", default=Advance.HALF.value, help="in a knock-out: the better half, or quarter")
-    parser.add_argument("--fill", default="", metavar="AI", help="AI on empty seats of a Grand Prix")
-    parser.add_argument("--title", type=word, help="default: the name of the file")
-    parser.add_argument("--seed", type=integer(0, MAX_SEED), metavar="NUMBER", default=1, help="random seed; default 1")
-    parser.add_argument("--json", action="store_true", help="print the event as one JSON object")
+    seats: int | None = option("entrants of a match", integer(SEATS[0], SEATS[-1]), metavar="NUMBER")
+    minutes: str | None = option(f"length of a match; {BY_GAME}")
+    arena: str | None = option(f"arena, or several with + by turns; {BY_GAME}")
+    rules: str | None = option(f"set of rules; {BY_GAME}", name=("--rules", "--variant"))
+    advance: str = option("in a knock-out: the better half, or quarter", default=Advance.HALF.value)
+    fill: str = option("AI on empty seats of a Grand Prix", default="", metavar="AI")
+    title: str | None = option("default: the name of the file", word)
+    seed: int = option("random seed; default 1", integer(0, MAX_SEED), 1, metavar="NUMBER")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: NewEventOptions) -> int:
     """Write the file. Raises Refusal or NotSaved."""
-    if arguments.file.exists():
-        raise Refusal(f"{arguments.file}: exists already; event run continues it")
+    if options.file.exists():
+        raise Refusal(f"{options.file}: exists already; event run continues it")
     with refused(ChoiceError, ArenaError, ValueError):
-        spec = _spec(arguments)
+        spec = _spec(options)
         require_for_brains(entrant.brain for entrant in spec.entrants)
         event = Event(spec)
         _ = event.progress  # checks the spec
         check_playable(spec, find_brain)
-    require_writable(arguments.file)  # its folder has to exist
-    event_files.save(arguments.file, event)
-    print_event(event, arguments.json)
+    require_writable(options.file)  # its folder has to exist
+    event_files.save(options.file, event)
+    print_event(event, options.json)
     return 0
 
 
-def _spec(arguments: Namespace) -> EventSpec:
-    played = tuple(name.strip() for name in arguments.game.split(","))
+def _spec(options: NewEventOptions) -> EventSpec:
+    played = tuple(name.strip() for name in options.game.split(","))
     for name in played:
         require_game(name)
-    require_one_of("format", arguments.format, list(Format))
-    require_one_of("choice for --advance:", arguments.advance, list(Advance))
-    form = Format(arguments.format)
+    require_one_of("format", options.format, list(Format))
+    require_one_of("choice for --advance:", options.advance, list(Advance))
+    form = Format(options.format)
     return EventSpec(
-        title=arguments.title or arguments.file.stem[:MAX_TITLE],
+        title=options.title or options.file.stem[:MAX_TITLE],
         format=form,
         games=played,
-        entrants=tuple(_with_whole_path(entrant) for entrant in _entrants(arguments.entrants, played)),
-        rounds=arguments.rounds,
-        seats=arguments.seats or DEFAULT_SEATS.get(form, SEATS[0]),
-        arenas=_by_game("--arena", arguments.arena, played, _arenas),
-        minutes=_by_game("--minutes", arguments.minutes, played, decimal(0.0, 3600.0)),
-        variants=_by_game("--rules", arguments.rules, played, str),
-        seed=arguments.seed,
-        advance=Advance(arguments.advance),
-        fill=arguments.fill,
+        entrants=tuple(_with_whole_path(entrant) for entrant in _entrants(options.entrants, played)),
+        rounds=options.rounds,
+        seats=options.seats or DEFAULT_SEATS.get(form, SEATS[0]),
+        arenas=_by_game("--arena", options.arena, played, _arenas),
+        minutes=_by_game("--minutes", options.minutes, played, decimal(0.0, 3600.0)),
+        variants=_by_game("--rules", options.rules, played, str),
+        seed=options.seed,
+        advance=Advance(options.advance),
+        fill=options.fill,
     )
 
 

@@ -6,8 +6,7 @@ kill or a power cut.
 """
 
 import sys
-from argparse import ArgumentParser, Namespace
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from math import inf
 from time import perf_counter, sleep
@@ -19,10 +18,10 @@ from pigaming_app.events.match_setup import check_playable
 from pigaming_app.events.spec import Outcome
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.jobs import arcade
-from pigaming_app.jobs.events.files import file_option, loaded
+from pigaming_app.jobs.events.files import FileOption, loaded
 from pigaming_app.jobs.events.headless import HeadlessRun, seconds_of
 from pigaming_app.jobs.events.show import print_event
-from pigaming_app.jobs.terminal.options import decimal, display, shared
+from pigaming_app.jobs.terminal.options import JsonOption, KioskOptions, decimal, flag, option
 from pigaming_app.jobs.terminal.refusal import Refusal, module_of, refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage import resume
@@ -30,25 +29,28 @@ from pigaming_app.storage.safe_files import require_writable
 from pigaming_app.storage.settings import folders
 
 
-def options(parser: ArgumentParser) -> None:
-    file_option(parser)
-    shared(parser, "--kiosk", "--display", "--scoreboard")
-    parser.add_argument("--headless", action="store_true", help="no window, no sound")
-    parser.add_argument(
-        "--speed", type=_speed, default=inf, help="with --headless: times real time, or max; default max"
-    )
-    parser.add_argument("--json", action="store_true", help="print the result as one JSON object")
+def _speed(text: str) -> float:
+    """Times real time; infinity for "max"."""
+    return inf if text == "max" else decimal(0.01, 10_000.0)(text)
 
 
-def run(arguments: Namespace) -> int:
+@dataclass(frozen=True, kw_only=True)
+class PlayEventOptions(FileOption, KioskOptions, JsonOption):
+    """The event, and how to play it."""
+
+    headless: bool = flag("no window, no sound")
+    speed: float = option("with --headless: times real time, or max; default max", _speed, inf)
+
+
+def run(options: PlayEventOptions) -> int:
     """Play all matches that are left and print the table, or open the event in the arcade. Raises Refusal, NotSaved."""
-    event = loaded(arguments.file)
-    if not arguments.headless:
-        return _in_window(arguments, event)
-    if arguments.kiosk or arguments.display or arguments.scoreboard:
+    event = loaded(options.file)
+    if not options.headless:
+        return _in_window(options, event)
+    if options.kiosk or options.display is not None or options.scoreboard:
         raise Refusal("event run: --kiosk, --display and --scoreboard open a window; they go without --headless")
     module_of("learning", "learning")  # whose compiled loops play the matches
-    require_writable(arguments.file)
+    require_writable(options.file)
     require_for_brains(entrant.brain for entrant in event.entrants)
     began, before = perf_counter(), len(event.outcomes)
     with refused(ChoiceError, ArenaError, ValueError):
@@ -57,39 +59,35 @@ def run(arguments: Namespace) -> int:
         while event.open:
             started = perf_counter()
             outcomes, entrants = headless.play(event), event.entrants
-            event = event_files.update(arguments.file, partial(_recorded, outcomes), event)
+            event = event_files.update(options.file, partial(_recorded, outcomes), event)
             if event.entrants != entrants:  # changed by another process
                 headless = HeadlessRun(event)
             _progress(event)
-            if arguments.speed < inf:
-                sleep(max(0.0, _longest(event, outcomes) / arguments.speed - (perf_counter() - started)))
+            if options.speed < inf:
+                sleep(max(0.0, _longest(event, outcomes) / options.speed - (perf_counter() - started)))
     seconds, played = perf_counter() - began, len(event.outcomes) - before
     if sys.stderr.isatty():
         print(end="\r\x1b[K", file=sys.stderr)
-    print_event(event, arguments.json, seconds=seconds, matches_per_second=played / seconds)
+    print_event(event, options.json, seconds=seconds, matches_per_second=played / seconds)
     return 0
 
 
-def _in_window(arguments: Namespace, event: Event) -> int:
+def _in_window(options: PlayEventOptions, event: Event) -> int:
     """The arcade on the page of the next match; in a kiosk under a supervisor. Raises Refusal or NotSaved."""
-    if arguments.json or arguments.speed < inf:
+    if options.json or options.speed < inf:
         raise Refusal("event run: --json and --speed need --headless")
-    if arcade.needs_supervisor(arguments):
-        resume.mark(folders().data, arguments.file)
-        return arcade.supervised(arguments)
+    if arcade.needs_supervisor(options):
+        resume.mark(folders().data, options.file)
+        return arcade.supervised(options)
     from pigaming_app.boot.fetch import COMMAND
     from pigaming_app.scenes.events.choice import page_of
     from pigaming_app.scenes.events.running import RunningEvent
     from pigaming_app.scenes.launch import Options
 
-    options = Options(
-        display=display(arguments), scoreboard=arguments.scoreboard, kiosk=arguments.kiosk, fetch_networks=COMMAND
-    )
-    if arguments.kiosk:  # which opens the event that is marked, until somebody leaves it
-        return arcade.show(options)
-    return arcade.show(
-        replace(options, first_scene=lambda context: page_of(context, RunningEvent(arguments.file, event)))
-    )
+    plain = Options(display=options.display, scoreboard=options.scoreboard, kiosk=options.kiosk, fetch_networks=COMMAND)
+    if options.kiosk:  # which opens the event that is marked, until somebody leaves it
+        return arcade.show(plain)
+    return arcade.show(replace(plain, first_scene=lambda context: page_of(context, RunningEvent(options.file, event))))
 
 
 def _recorded(outcomes: list[Outcome], event: Event) -> Event:
@@ -99,11 +97,6 @@ def _recorded(outcomes: list[Outcome], event: Event) -> Event:
         if outcome.fixture not in event.outcomes and outcome.extra == before:
             event = event.record(outcome)
     return event
-
-
-def _speed(text: str) -> float:
-    """Times real time; infinity for "max"."""
-    return inf if text == "max" else decimal(0.01, 10_000.0)(text)
 
 
 def _longest(event: Event, outcomes: list[Outcome]) -> float:

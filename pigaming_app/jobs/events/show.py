@@ -1,25 +1,26 @@
 """Table and next matches of an event."""
 
 import json
-from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.exports import columns, plain
 from pigaming_app.events.spec import Standing
-from pigaming_app.jobs.events.files import file_option, loaded
+from pigaming_app.jobs.events.files import FileOption, loaded
+from pigaming_app.jobs.terminal.options import JsonOption
 
 NEXT = 8  # matches shown
 
 
-def options(parser: ArgumentParser) -> None:
-    file_option(parser)
-    parser.add_argument("--json", action="store_true", help="print the event as one JSON object")
+@dataclass(frozen=True, kw_only=True)
+class ShowOptions(FileOption, JsonOption):
+    """The event to show."""
 
 
-def run(arguments: Namespace) -> int:
+def run(options: ShowOptions) -> int:
     """Print the event. Raises Refusal."""
-    print_event(loaded(arguments.file), arguments.json)
+    print_event(loaded(options.file), options.json)
     return 0
 
 

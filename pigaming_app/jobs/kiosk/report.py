@@ -2,10 +2,11 @@
 
 import argparse
 import json
-from argparse import ArgumentParser, Namespace
+from dataclasses import dataclass
 from datetime import date
+from pathlib import Path
 
-from pigaming_app.jobs.terminal.options import path, shared
+from pigaming_app.jobs.terminal.options import JsonOption, option, path
 from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.storage.day_report import DayReport, report_of, to_csv
 from pigaming_app.storage.parsing import describe_error, quote
@@ -13,13 +14,7 @@ from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.settings import folders
 
 
-def options(parser: ArgumentParser) -> None:
-    parser.add_argument("--day", type=day, metavar="YYYY-MM-DD", help="default: today")
-    parser.add_argument("--csv", type=path, metavar="FILE", help="write the matches of the day, a line each")
-    shared(parser, "--json")
-
-
-def day(text: str) -> date:
+def _day(text: str) -> date:
     """A date such as 2026-11-23."""
     try:
         return date.fromisoformat(text)
@@ -27,16 +22,24 @@ def day(text: str) -> date:
         raise argparse.ArgumentTypeError(f"{quote(text)} is not a date such as 2026-11-23") from None
 
 
-def run(arguments: Namespace) -> int:
+@dataclass(frozen=True, kw_only=True)
+class ReportOptions(JsonOption):
+    """The day, and a file for its matches."""
+
+    day: date | None = option("default: today", _day, metavar="YYYY-MM-DD")
+    csv: Path | None = option("write the matches of the day, a line each", path, metavar="FILE")
+
+
+def run(options: ReportOptions) -> int:
     """Print the figures. Raises Refusal or NotSaved."""
-    wanted = arguments.day or date.today()
+    wanted = options.day or date.today()
     try:
         report = report_of(folders().data, wanted)
     except OSError as error:
         raise Refusal(f"the log of {wanted}: cannot be read ({describe_error(error)})") from None
-    if arguments.csv:
-        write_atomic(arguments.csv, to_csv(report).encode())
-    print(json.dumps(report.as_json()) if arguments.json else "\n".join(lines(report)))
+    if options.csv:
+        write_atomic(options.csv, to_csv(report).encode())
+    print(json.dumps(report.as_json()) if options.json else "\n".join(lines(report)))
     return 0
 
 

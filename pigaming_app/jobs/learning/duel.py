@@ -1,50 +1,50 @@
 """Many matches between two AIs; each seed is played from both sides."""
 
 import json
-from argparse import ArgumentParser, Namespace
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 
 from pigaming_app.ai.learning import league
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.setup import ChoiceError, require_game
-from pigaming_app.jobs.terminal.options import AIS, duel_options, game_option, goal
+from pigaming_app.jobs.terminal.options import AIS, PairOptions, argument
 from pigaming_app.jobs.terminal.refusal import refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
 
 
-def options(parser: ArgumentParser) -> None:
-    game_option(parser, required=True)
-    parser.add_argument("left", metavar="AI", help=AIS)
-    parser.add_argument("right", metavar="AI", help="its opponent")
-    duel_options(parser)
+@dataclass(frozen=True, kw_only=True)
+class DuelOptions(PairOptions):
+    """The pair."""
+
+    left: str = argument(AIS, metavar="AI")
+    right: str = argument("its opponent", metavar="AI")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: DuelOptions) -> int:
     """Play the duel and print its result. Raises Refusal."""
-    require_for_brains((arguments.left, arguments.right))
+    require_for_brains((options.left, options.right))
     with refused(ChoiceError, ArenaError):
-        result = _play(arguments)
-    if arguments.json:
+        result = _play(options)
+    if options.json:
         print(json.dumps(asdict(result)))
     else:
         _print(result)
     return 0
 
 
-def _play(arguments: Namespace) -> league.Duel:
-    require_game(arguments.game)
-    for brain in (arguments.left, arguments.right):
-        find_brain(arguments.game, brain)
+def _play(options: DuelOptions) -> league.Duel:
+    require_game(options.game)
+    for brain in (options.left, options.right):
+        find_brain(options.game, brain)
     return league.duel(
-        arguments.game,
-        arguments.left,
-        arguments.right,
-        arguments.matches,
-        arguments.seed,
-        arguments.minutes,
-        arguments.arena,
-        arguments.variant,
-        goal=goal(arguments),
+        options.game,
+        options.left,
+        options.right,
+        options.matches,
+        options.seed,
+        options.minutes,
+        options.arena,
+        options.variant,
+        goal=options.goal(options.game),
     )
 
 

@@ -2,14 +2,14 @@
 
 import json
 import sys
-from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
+from pathlib import Path
 
 from pigaming_app.ai.learning import league as leagues
 from pigaming_app.ai.learning.league import Duel, League, LeagueRow
 from pigaming_app.games.setup import ChoiceError
-from pigaming_app.jobs.terminal.options import AIS, duel_options, game_option, goal, path
+from pigaming_app.jobs.terminal.options import AIS, PairOptions, argument, option, path
 from pigaming_app.jobs.terminal.refusal import refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage.safe_files import NotSaved, require_writable, write_atomic
@@ -22,37 +22,38 @@ NOTES = (
 )
 
 
-def options(parser: ArgumentParser) -> None:
-    game_option(parser, required=True)
-    parser.add_argument("brains", nargs="*", metavar="AI", help=AIS)
-    duel_options(parser)
-    parser.add_argument("--out", type=path, metavar="FILE", help="write the league as JSON, for the page of strengths")
+@dataclass(frozen=True, kw_only=True)
+class LeagueOptions(PairOptions):
+    """The brains, and a file for their league."""
+
+    brains: tuple[str, ...] = argument(AIS, default=(), nargs="*", metavar="AI")
+    out: Path | None = option("write the league as JSON, for the page of strengths", path, metavar="FILE")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: LeagueOptions) -> int:
     """Play the league, print its tables and write it to a file if wanted. Raises Refusal."""
-    require_for_brains(arguments.brains)
+    require_for_brains(options.brains)
     with refused(ChoiceError, ArenaError, NotSaved):
-        if arguments.out:
-            require_writable(arguments.out)
+        if options.out:
+            require_writable(options.out)
         result = leagues.league(
-            arguments.game,
-            arguments.brains,
-            arguments.matches,
-            arguments.seed,
-            arguments.minutes,
-            arguments.arena,
-            arguments.variant,
-            goal=goal(arguments),
+            options.game,
+            options.brains,
+            options.matches,
+            options.seed,
+            options.minutes,
+            options.arena,
+            options.variant,
+            goal=options.goal(options.game),
             progress=_progress if sys.stderr.isatty() else None,
         )
     if sys.stderr.isatty():
         print(end="\r\x1b[K", file=sys.stderr)
     text = json.dumps(plain(result))
-    if arguments.out:
+    if options.out:
         with refused(NotSaved):
-            write_atomic(arguments.out, text.encode())
-    if arguments.json:
+            write_atomic(options.out, text.encode())
+    if options.json:
         print(text)
     else:
         print("\n".join(line.rstrip() for line in table(result)))

@@ -2,15 +2,14 @@
 
 import json
 import os
-from argparse import ArgumentParser, Namespace
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, settings_problem
 from pigaming_app.jobs.mat.sessions import new_session
-from pigaming_app.jobs.terminal.options import integer, mat_settings, path, shared
+from pigaming_app.jobs.terminal.options import JsonOption, RigOptions, argument, integer, option, path
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.settings import Settings, folders
@@ -21,25 +20,25 @@ HZ = 50
 LOST = 5.0  # s, timeout of a recording while the robots cannot drive
 
 
-def options(parser: ArgumentParser) -> None:
-    parser.add_argument("step", choices=list(STEPS), help="in this order, on the same run")
-    parser.add_argument("file", type=path, metavar="FILE", help="run (JSONL), or a recorded match of real robots")
-    parser.add_argument(
-        "--seconds", type=integer(high=LONGEST), metavar="NUMBER", default=60, help="record: length; default 60"
-    )
-    parser.add_argument("--out", type=path, metavar="FILE", help="identify: drivetrains (TOML); default: the arcade's")
-    parser.add_argument("--plots", type=path, metavar="FOLDER", help="identify: draw the errors (extra `plots`)")
-    parser.add_argument("--robots", type=path, metavar="FILE", help="replay: drivetrains; default: the arcade's")
-    shared(parser, "--emulate", "--camera", "--port", "--json")
+@dataclass(frozen=True, kw_only=True)
+class FidelityOptions(RigOptions, JsonOption):
+    """A step on a run."""
+
+    step: str = argument("in this order, on the same run", choices=("record", "identify", "replay"))
+    file: Path = argument("run (JSONL), or a recorded match of real robots", path, metavar="FILE")
+    seconds: int = option("record: length; default 60", integer(high=LONGEST), 60, metavar="NUMBER")
+    out: Path | None = option("identify: drivetrains (TOML); default: the arcade's", path, metavar="FILE")
+    plots: Path | None = option("identify: draw the errors (extra `plots`)", path, metavar="FOLDER")
+    robots: Path | None = option("replay: drivetrains; default: the arcade's", path, metavar="FILE")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: FidelityOptions) -> int:
     """Carry out one step and print its result. Raises Refusal or NotSaved."""
-    mat_settings(arguments)
-    if arguments.plots is not None:
+    options.mat_settings()
+    if options.plots is not None:
         require("plots")
-    result = STEPS[arguments.step](arguments)
-    if arguments.json:
+    result = STEPS[options.step](options)
+    if options.json:
         print(json.dumps(result))
     else:
         for line in result["said"]:
@@ -47,35 +46,35 @@ def run(arguments: Namespace) -> int:
     return 0
 
 
-def record(arguments: Namespace) -> dict[str, Any]:
+def record(options: FidelityOptions) -> dict[str, Any]:
     """Drive the robots for a while on an empty mat, and write their commands and poses. Raises Refusal or NotSaved."""
     from pigaming_app.hardware.run_writer import RecordingWriter
     from pigaming_app.storage.safe_files import require_writable
 
-    if arguments.emulate is None and (problem := settings_problem(Settings.load(folders().config)[0])):
+    if options.emulate is None and (problem := settings_problem(Settings.load(folders().config)[0])):
         raise Refusal(english().long_sentence(problem))
     require("hardware")
-    require_writable(arguments.file)
+    require_writable(options.file)
     with refused(RobotsUnavailable):
-        session = new_session(arguments.emulate, arguments.camera, arguments.port)
+        session = new_session(options.emulate, options.camera, options.port)
         rig = session.open()
     try:
         present = _present(session, rig)
-        recorder = RecordingWriter(arguments.file, session.mm, arguments.emulate is not None)
+        recorder = RecordingWriter(options.file, session.mm, options.emulate is not None)
         try:
             rig.recorder = recorder
-            _excite(session, rig, present, arguments.seconds)
+            _excite(session, rig, present, options.seconds)
             rig.recorder = None
             recorder.close()
         finally:
             recorder.discard()
     except OSError as trouble:
-        raise Refusal(f"{arguments.file}: cannot be written ({describe_error(trouble)})") from None
+        raise Refusal(f"{options.file}: cannot be written ({describe_error(trouble)})") from None
     finally:
         session.end()
     robots = ", ".join(str(robot + 1) for robot in present)
-    lines = [f"{arguments.file}: {arguments.seconds:g} s of robots {robots}. Now: fidelity identify {arguments.file}"]
-    return {"file": str(arguments.file), "robots": [robot + 1 for robot in present], "said": lines}
+    lines = [f"{options.file}: {options.seconds:g} s of robots {robots}. Now: fidelity identify {options.file}"]
+    return {"file": str(options.file), "robots": [robot + 1 for robot in present], "said": lines}
 
 
 def _present(session: RobotSession, rig: Any) -> list[int]:
@@ -109,15 +108,15 @@ def _excite(session: RobotSession, rig: Any, present: list[int], seconds: float)
             raise Refusal(f"The robots cannot drive. {cause}")
 
 
-def identify(arguments: Namespace) -> dict[str, Any]:
+def identify(options: FidelityOptions) -> dict[str, Any]:
     """Identify and save the drivetrains; compare the simulator with and without them. Raises Refusal or NotSaved."""
     from pigaming_app.hardware.session.store import load_robots, robots_file
     from pigaming_app.hardware.sysid.evaluate import HORIZONS, RecordingTooShort, measure
     from pigaming_app.sim.drivetrain import DrivetrainError, to_toml
     from pigaming_app.storage.safe_files import write_with_backup
 
-    run = _load(arguments.file)
-    out = arguments.out or robots_file(run.emulated)
+    run = _load(options.file)
+    out = options.out or robots_file(run.emulated)
     with refused(RecordingTooShort, DrivetrainError):
         verdicts = measure(run)
         drivetrains = list(load_robots(out))
@@ -132,8 +131,8 @@ def identify(arguments: Namespace) -> dict[str, Any]:
     left_out = sorted(run.courses.keys() - {verdict.robot for verdict in verdicts})
     lines += [f"robot {robot + 1}  left out: it hardly moved, or its result is implausible" for robot in left_out]
     lines.append(f"kept in {out}")
-    if arguments.plots:
-        lines += _draw(run, verdicts, arguments.plots)
+    if options.plots:
+        lines += _draw(run, verdicts, options.plots)
     robots = {
         str(verdict.robot + 1): {
             "before_mm": _finite(verdict.before.mm),
@@ -152,17 +151,17 @@ def _finite(figures: tuple[float, ...]) -> list[float | None]:
     return [figure if isfinite(figure) else None for figure in figures]
 
 
-def replay(arguments: Namespace) -> dict[str, Any]:
+def replay(options: FidelityOptions) -> dict[str, Any]:
     """Replay a run in the simulator with the drivetrains of a file, by default the saved ones. Raises Refusal."""
     from pigaming_app.hardware.session.store import load_robots, robots_file
     from pigaming_app.hardware.sysid.evaluate import replay as simulate
     from pigaming_app.sim.drivetrain import DrivetrainError
 
-    run = _load(arguments.file)
-    if arguments.robots and not os.path.exists(arguments.robots):
-        raise Refusal(f"{arguments.robots}: there is no such file")
+    run = _load(options.file)
+    if options.robots and not os.path.exists(options.robots):
+        raise Refusal(f"{options.robots}: there is no such file")
     with refused(DrivetrainError):
-        drivetrains = load_robots(arguments.robots or robots_file(run.emulated))
+        drivetrains = load_robots(options.robots or robots_file(run.emulated))
     lines, robots = [], {}
     for robot, result in simulate(run, drivetrains).items():
         errors = ((result.seen - result.predicted)[:, :2] ** 2).sum(axis=1) ** 0.5 * run.mm

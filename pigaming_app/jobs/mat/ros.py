@@ -1,26 +1,28 @@
 """Robots on the mat in a ROS network: their poses as topics, their speeds by topics, within the safety of a match."""
 
 import time
-from argparse import ArgumentParser, Namespace
+from dataclasses import dataclass
 
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable, settings_problem
 from pigaming_app.jobs.mat.sessions import new_session
-from pigaming_app.jobs.terminal.options import decimal, mat_settings, shared
+from pigaming_app.jobs.terminal.options import RigOptions, decimal, option
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.sim.world import DT, ROBOTS, WIDTH
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import english
 
 
-def options(parser: ArgumentParser) -> None:
-    parser.add_argument("--seconds", type=decimal(0.1, 1e6), metavar="NUMBER", help="length; default: until Ctrl+C")
-    shared(parser, "--emulate", "--camera", "--port")
+@dataclass(frozen=True, kw_only=True)
+class RosOptions(RigOptions):
+    """The robots, and for how long."""
+
+    seconds: float | None = option("length; default: until Ctrl+C", decimal(0.1, 1e6), metavar="NUMBER")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: RosOptions) -> int:
     """Publish poses and obey speeds until the time is over. Raises Refusal."""
-    mat_settings(arguments)
-    if arguments.emulate is None and (problem := settings_problem(Settings.load(folders().config)[0])):
+    options.mat_settings()
+    if options.emulate is None and (problem := settings_problem(Settings.load(folders().config)[0])):
         raise Refusal(english().long_sentence(problem))
     require("hardware")
     from pigaming_app.hardware.ros.bridge import Bridge
@@ -29,7 +31,7 @@ def run(arguments: Namespace) -> int:
     with refused(RosUnavailable):
         require_roscore()
     with refused(RobotsUnavailable):
-        session = new_session(arguments.emulate, arguments.camera, arguments.port)
+        session = new_session(options.emulate, options.camera, options.port)
     node: RosNode | None = None
     try:
         with refused(RobotsUnavailable, RosUnavailable):
@@ -37,7 +39,7 @@ def run(arguments: Namespace) -> int:
             node = RosNode("pigaming_mat", [topic_of(robot, "pose") for robot in range(ROBOTS)])
         bridge, faults = Bridge(rig, node, session.mm, time.monotonic), set[tuple[str, int | None]]()
         print(f"/robot_1 to /robot_4; the arena is {1e-3 * session.mm * WIDTH:.3f} m wide", flush=True)
-        end = time.monotonic() + (arguments.seconds or float("inf"))
+        end = time.monotonic() + (options.seconds or float("inf"))
         due = time.monotonic()
         while time.monotonic() < end and node.fault is None:
             bridge.tick()
@@ -56,13 +58,13 @@ def run(arguments: Namespace) -> int:
     return 0
 
 
-def arena_width(arguments: Namespace) -> float:
-    """Width of the arena of `--plant ros`, mm. Raises Refusal without ROS."""
+def arena_width(wanted: float | None, emulate: int | None) -> float:
+    """Width of the arena of `--plant ros`, mm; `wanted`: by its option. Raises Refusal without ROS."""
     from pigaming_app.hardware.ros.node import RosUnavailable, require_roscore
     from pigaming_app.hardware.session.ros import WIDTH_MM
 
-    if arguments.emulate is not None:
+    if emulate is not None:
         raise Refusal("--plant ros: goes without --emulate")
     with refused(RosUnavailable):
         require_roscore()
-    return float(arguments.width or WIDTH_MM)
+    return float(wanted or WIDTH_MM)

@@ -1,22 +1,30 @@
-"""Options that several jobs share, and the types of their values.
+"""Options of jobs as frozen dataclasses, those that several jobs share, and the types of their values.
 
-Each type accepts every sensible value and refuses the others in one line (argparse.ArgumentTypeError).
+A job's `run(options: PlayOptions)` names its dataclass. Each field is an option, as
+`option` (--name VALUE) or `flag` (--name) declares it, or an `argument` by its position. Each type accepts every
+sensible value and refuses the others in one line (argparse.ArgumentTypeError).
 """
 
 import argparse
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Mapping
+from dataclasses import MISSING, dataclass, field, fields
 from math import isfinite
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, ClassVar, TypeVar, get_type_hints
 
 from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.sim.rng import SEEDS
 from pigaming_app.storage.parsing import quote
 
+T = TypeVar("T")
+Groups = Mapping[tuple[str, str], tuple[str, ...]]
+"""Fields by the title and text of their group in the help."""
+
 MAX_INTEGER = 2**63 - 1
 DEFAULT_GAME = "pitanks"
+ONE_OF = ("", "")  # a group without a title: at most one of its options may be given
 AIS = "idle, random, level1 to level5, another of the game, or a trained one's file"
 
 
@@ -81,116 +89,212 @@ def word(text: str) -> str:
     return text
 
 
-SHARED: dict[str, dict[str, Any]] = {
-    "--arena": {"help": "name, or path of a .toml file; default: the game's first"},
-    "--minutes": {"type": decimal(0.0, 3600.0), "help": "length of a match; default: the game's own"},
-    "--variant": {"help": "set of rules; default: the game's first"},
-    "--laps": {"type": integer(), "metavar": "NUMBER", "help": "length of a race"},
-    "--pallets": {"type": integer(), "metavar": "NUMBER", "help": "pallets that win the factory"},
-    "--seed": {"type": integer(0, SEEDS - 1), "metavar": "NUMBER", "default": 1, "help": "random seed; default 1"},
-    "--json": {"action": "store_true", "help": "print the result as one JSON object"},
-    "--kiosk": {"action": "store_true", "help": "only the operator can leave"},
-    "--display": {
-        "type": integer(high=64),
-        "metavar": "NUMBER",
-        "help": "display, from 1; default: that of the settings",
-    },
-    "--scoreboard": {
-        "type": integer(high=16),
-        "metavar": "NUMBER",
-        "help": "display of a second screen with scores, from 1; F2 changes its page",
-    },
-    "--emulate": {
-        "type": integer(0),
-        "nargs": "?",
-        "const": 1,
-        "metavar": "SEED",
-        "help": "emulated robots, camera and projector, no hardware; default seed 1",
-    },
-    "--things": {
-        "type": integer(0, 8),
-        "metavar": "NUMBER",
-        "default": 0,
-        "help": "with --emulate: boxes, cups, books and tape on the mat, at most 8; placed by its seed",
-    },
-    "--camera": {"type": integer(0), "metavar": "NUMBER", "help": "camera above the mat, from 0"},
-    "--port": {"type": word, "help": "serial port of the radio; empty: the first one"},
-    "--baud": {"type": integer(), "metavar": "NUMBER", "help": "baud rate of the radio"},
-    "--radio": {"metavar": "MODE", "help": "api2, api1, transparent, udp (Wi-Fi), or stock (a robot on a cable)"},
-}
-MATCH = ("--arena", "--minutes", "--variant", "--laps", "--pallets")
+Help = str | Callable[[], str]
 
 
-def shared(parser: argparse._ActionsContainer, *names: str) -> None:
-    """Declare some of SHARED."""
-    for name in names:
-        parser.add_argument(name, **SHARED[name])
+def option(help: Help, type: Callable[[str], Any] | None = None, default: Any = None, **more: Any) -> Any:
+    """A field with an option of its name. `more`: as of `add_argument`; `name`: of the option, if it is another."""
+    details = {"help": help, "type": type or str, "names": more.pop("name", None), **more}
+    if "action" in more and more["action"] != "append":
+        del details["type"]
+    return field(default=MISSING if more.get("required") else default, metadata=details)
 
 
-def subcommands(parser: ArgumentParser, name: str, modules: Mapping[str, ModuleType]) -> None:
-    """Declare a sub-command for each module, described by its docstring. The chosen one is the value `name`."""
-    parsers = parser.add_subparsers(dest=name, metavar=name.upper(), required=True)
-    for word, module in modules.items():
+def flag(help: Help) -> Any:
+    """A field with an option that is there or not."""
+    return option(help, default=False, action="store_true")
+
+
+def argument(help: Help, type: Callable[[str], Any] | None = None, default: Any = MISSING, **more: Any) -> Any:
+    """A field with a value by its position; with `nargs` it may be missing."""
+    return option(help, type, default, **{"name": (), **more})
+
+
+def declare(parser: ArgumentParser, kind: type) -> None:
+    """Declare the fields of a job's options; others, which the command line fills in, have their defaults."""
+    places: dict[str, argparse._ActionsContainer] = {}
+    for (title, text), names in getattr(kind, "GROUPS", {}).items():
+        group = parser.add_argument_group(title, text) if title else parser.add_mutually_exclusive_group()
+        places |= dict.fromkeys(names, group)
+    for one in fields(kind):
+        details = dict(one.metadata)
+        if not details:
+            parser.set_defaults(**{one.name: one.default})
+            continue
+        names = details.pop("names")
+        if names is None or names:
+            names, details["dest"] = names or (f"--{one.name.replace('_', '-')}",), one.name
+        if callable(details["help"]):
+            details["help"] = details["help"]()
+        if one.default is not MISSING and one.default != ():
+            details["default"] = one.default
+        places.get(one.name, parser).add_argument(*(names or (one.name,)), **details)
+
+
+def options_of(kind: type[T], found: Namespace) -> T:
+    """The options as they were given; lists become tuples."""
+    values = {one.name: getattr(found, one.name) for one in fields(kind)}  # type: ignore[arg-type]
+    return kind(**{name: tuple(v) if isinstance(v, list) else v for name, v in values.items() if v is not None})
+
+
+def declare_job(parser: ArgumentParser, job: ModuleType) -> None:
+    """Declare a job: its options, or a sub-command for each module in its `WORDS`, described by its docstring.
+
+    `start(found)` of the parsed arguments runs the chosen one.
+    """
+    if not hasattr(job, "WORDS"):
+        kind = get_type_hints(job.run)["options"]
+        declare(parser, kind)
+        parser.set_defaults(start=lambda found: job.run(options_of(kind, found)))
+        return
+    parsers = parser.add_subparsers(metavar="WORD", required=True)
+    for word, module in job.WORDS.items():
         about = (module.__doc__ or "").partition("\n\n")[0].replace("\n", " ")
         short = about[0].lower() + about[1:].rstrip(".")
-        module.options(parsers.add_parser(word, help=short, description=about, allow_abbrev=False))
+        declare_job(parsers.add_parser(word, help=short, description=about, allow_abbrev=False), module)
 
 
-def game_option(parser: ArgumentParser, required: bool = False, more: tuple[str, ...] = ()) -> None:
-    """Declare the game as a positional argument. `more`: further accepted words."""
-    from pigaming_app.games.registry import games
+def games_and(*more: str, default: str = "") -> Callable[[], str]:
+    """The help of a game: the names of all, and further accepted words."""
 
-    names = ", ".join([*games(), *more])
-    if required:
-        parser.add_argument("game", metavar="GAME", help=names)
-    else:
-        text = f"{names}; default {DEFAULT_GAME}"
-        parser.add_argument("game", metavar="GAME", nargs="?", default=DEFAULT_GAME, help=text)
+    def text() -> str:
+        from pigaming_app.games.registry import games
+
+        return ", ".join([*games(), *more]) + (f"; default {default}" if default else "")
+
+    return text
 
 
-def duel_options(parser: ArgumentParser) -> None:
-    """Declare the matches of a pair of AIs."""
-    parser.add_argument(
-        "--matches", type=integer(), metavar="NUMBER", default=100, help="matches of each pair; default 100"
+def _display(text: str) -> int:
+    return integer(high=64)(text) - 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class JsonOption:
+    """Whether the result is for programs."""
+
+    json: bool = flag("print the result as one JSON object")
+
+
+@dataclass(frozen=True, kw_only=True)
+class GameOption:
+    """The game, the usual one by default."""
+
+    game: str = argument(games_and(default=DEFAULT_GAME), default=DEFAULT_GAME, nargs="?", metavar="GAME")
+
+
+@dataclass(frozen=True, kw_only=True)
+class MatchOptions:
+    """Place, length and rules of a match."""
+
+    arena: str | None = option("name, or path of a .toml file; default: the game's first")
+    minutes: float | None = option("length of a match; default: the game's own", decimal(0.0, 3600.0))
+    variant: str | None = option("set of rules; default: the game's first")
+    laps: int | None = option("length of a race", integer(), metavar="NUMBER")
+    pallets: int | None = option("pallets that win the factory", integer(), metavar="NUMBER")
+
+    def goal(self, game: str) -> int | None:
+        """The requested goal; None: the game's default. Raises Refusal for the goal of another game."""
+        from pigaming_app.games.registry import games
+
+        for name, wanted in (("laps", self.laps), ("pallets", self.pallets)):
+            if wanted is not None:
+                if game in games() and games()[game].goal != name:
+                    raise Refusal(f"--{name}: {game} is not played for {name}")
+                return wanted
+        return None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeedOption:
+    """The random seed."""
+
+    seed: int = option("random seed; default 1", integer(0, SEEDS - 1), 1, metavar="NUMBER")
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairOptions(JsonOption, SeedOption, MatchOptions):
+    """Matches of pairs of AIs."""
+
+    game: str = argument(games_and(), metavar="GAME")
+    matches: int = option("matches of each pair; default 100", integer(), 100, metavar="NUMBER")
+
+
+@dataclass(frozen=True, kw_only=True)
+class DisplayOption:
+    """The display, from 0; None: that of the settings."""
+
+    display: int | None = option("display, from 1; default: that of the settings", _display, metavar="NUMBER")
+
+
+@dataclass(frozen=True, kw_only=True)
+class KioskOptions(DisplayOption):
+    """An arcade on one or two screens, perhaps under a supervisor."""
+
+    kiosk: bool = flag("only the operator can leave")
+    scoreboard: int | None = option(
+        "display of a second screen with scores, from 1; F2 changes its page", integer(high=16), metavar="NUMBER"
     )
-    shared(parser, *MATCH, "--seed", "--json")
+    words: tuple[str, ...] = ()  # of the command line, to start the same again
 
 
-def mat_options(parser: ArgumentParser) -> None:
-    """Declare camera and radio of the real robots, for jobs that save them."""
-    group = parser.add_argument_group("real robots", "Camera and radio are saved in the settings.")
-    shared(group, "--emulate", "--things", "--camera", "--port", "--baud", "--radio")
+@dataclass(frozen=True, kw_only=True)
+class EmulateOption:
+    """The seed of the emulated robots; None: real ones."""
+
+    emulate: int | None = option(
+        "emulated robots, camera and projector, no hardware; default seed 1",
+        integer(0),
+        nargs="?",
+        const=1,
+        metavar="SEED",
+    )
 
 
-def goal(arguments: Namespace) -> int | None:
-    """The requested goal; None: the game's default. Raises Refusal for the goal of another game."""
-    from pigaming_app.games.registry import games
+@dataclass(frozen=True, kw_only=True)
+class RigOptions(EmulateOption):
+    """Camera and port of the robots."""
 
-    for name in ("laps", "pallets"):
-        wanted: int | None = getattr(arguments, name)
-        if wanted is not None:
-            if arguments.game in games() and games()[arguments.game].goal != name:
-                raise Refusal(f"--{name}: {arguments.game} is not played for {name}")
-            return wanted
-    return None
+    camera: int | None = option("camera above the mat, from 0", integer(0), metavar="NUMBER")
+    port: str | None = option("serial port of the radio; empty: the first one", word)
+
+    def mat_settings(self) -> dict[str, Any]:
+        """The requested settings of camera and radio. Raises Refusal for an invalid value."""
+        from pigaming_app.storage.settings import Settings
+
+        if getattr(self, "things", 0) and self.emulate is None:
+            raise Refusal("--things: real things are yours to put down; for emulated ones add --emulate")
+        given = {name: getattr(self, name, None) for name in ("camera", "port", "baud", "radio")}
+        given = {name: value for name, value in given.items() if value is not None}
+        for name, value in given.items():
+            try:
+                Settings().choose(name, value)
+            except ValueError as error:
+                raise Refusal(f"--{error}") from None
+        return given
 
 
-def display(arguments: Namespace) -> int | None:
-    """The requested display, from 0; None: that of the settings."""
-    return None if arguments.display is None else arguments.display - 1
+@dataclass(frozen=True, kw_only=True)
+class RadioOptions(RigOptions):
+    """Camera, port and radio of the robots."""
+
+    radio: str | None = option("api2, api1, transparent, udp (Wi-Fi), or stock (a robot on a cable)", metavar="MODE")
 
 
-def mat_settings(arguments: Namespace) -> dict[str, Any]:
-    """The requested settings of camera and radio. Raises Refusal for an invalid value."""
-    from pigaming_app.storage.settings import Settings
+@dataclass(frozen=True, kw_only=True)
+class MatOptions(RadioOptions):
+    """All about the robots, for jobs that save it."""
 
-    if getattr(arguments, "things", 0) and arguments.emulate is None:
-        raise Refusal("--things: real things are yours to put down; for emulated ones add --emulate")
-    given = {name: getattr(arguments, name, None) for name in ("camera", "port", "baud", "radio")}
-    given = {name: value for name, value in given.items() if value is not None}
-    for name, value in given.items():
-        try:
-            Settings().choose(name, value)
-        except ValueError as error:
-            raise Refusal(f"--{error}") from None
-    return given
+    GROUPS: ClassVar[Groups] = {
+        ("real robots", "Camera and radio are saved in the settings."): (
+            "emulate", "things", "camera", "port", "baud", "radio",
+        ),
+    }  # fmt: skip
+
+    things: int = option(
+        "with --emulate: boxes, cups, books and tape on the mat, at most 8; placed by its seed",
+        integer(0, 8),
+        0,
+        metavar="NUMBER",
+    )
+    baud: int | None = option("baud rate of the radio", integer(), metavar="NUMBER")

@@ -195,7 +195,7 @@ def test_in_a_kiosk_the_supervisor_marks_the_event_and_the_arcade_opens_what_is_
     assert new() == 0
     words = ["event", "run", "cup.json", "--kiosk", "--display", "2"]
     assert main(words) == 0
-    assert commands == [words]
+    assert commands == [tuple(words)]
     assert resume.marked(folders().data) == Path("cup.json").absolute()
     monkeypatch.setenv(child.VARIABLE, "a file")
     assert main(words) == 0

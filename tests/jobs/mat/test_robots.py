@@ -2,7 +2,6 @@
 
 import json
 import sys
-from argparse import Namespace
 from math import cos, sin
 
 import pytest
@@ -140,7 +139,7 @@ class Session:
     [(1 / 60, "Calibrated anyway: about 60 % of the markers are found."), (1 / 30, "smear at 1/30\u00a0s")],
 )
 def test_flags_of_reports_and_a_warning_about_the_picture_are_printed(monkeypatch, capsys, exposure, warning):
-    session, wished = Session(), Namespace(pair=False, latency=False, emulate=None)
+    session, wished = Session(), robots.RobotsOptions()
     session.quality, session.network = CameraQuality(detection=0.6, anyway=True), None
     mat = session.mat
     mat.exposure = ExposureState(exposure)

@@ -4,7 +4,9 @@ import argparse
 import json
 import os
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import ArgumentParser
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
 
@@ -12,7 +14,7 @@ from pigaming_app import INSTALLED
 from pigaming_app.jobs import arcade
 from pigaming_app.jobs.kiosk.autostart.entries import start_entry
 from pigaming_app.jobs.terminal.command import own_command
-from pigaming_app.jobs.terminal.options import shared
+from pigaming_app.jobs.terminal.options import JsonOption, argument, declare
 from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.storage.safe_files import write_atomic
 
@@ -22,17 +24,21 @@ class _ArcadeOptions(ArgumentParser):
         raise Refusal(f"autostart: {message}")
 
 
-def options(parser: ArgumentParser) -> None:
-    parser.add_argument("what", choices=["on", "off", "show"], nargs="?", default="show", help="default show")
-    parser.add_argument("kiosk_options", nargs="*", metavar="OPTION", help="of the arcade, after --: -- --display 2")
-    shared(parser, "--json")
+@dataclass(frozen=True, kw_only=True)
+class AutostartOptions(JsonOption):
+    """Whether to start with the session, and how."""
+
+    what: str = argument("default show", default="show", choices=["on", "off", "show"], nargs="?")
+    kiosk_options: tuple[str, ...] = argument(
+        "of the arcade, after --: -- --display 2", default=(), nargs="*", metavar="OPTION"
+    )
 
 
-def run(arguments: Namespace) -> int:
+def run(options: AutostartOptions) -> int:
     """Switch the start with the session on or off, and print the state. Raises Refusal, NotSaved or OSError."""
-    words = arguments.kiosk_options
-    if words and arguments.what != "on":
-        raise Refusal(f"autostart {arguments.what}: options of the arcade go with `on`")
+    words = options.kiosk_options
+    if words and options.what != "on":
+        raise Refusal(f"autostart {options.what}: options of the arcade go with `on`")
     _check(words)
     python = sys.executable if INSTALLED else getattr(sys, "_base_executable", sys.executable)  # not .venv's
     try:
@@ -41,20 +47,20 @@ def run(arguments: Namespace) -> int:
         )
     except (ValueError, RuntimeError) as error:  # RuntimeError: no home
         raise Refusal(f"autostart: {error}") from None
-    if arguments.what == "on":
+    if options.what == "on":
         write_atomic(entry.path, entry.content)
-    elif arguments.what == "off":
+    elif options.what == "off":
         entry.path.unlink(missing_ok=True)
     on = entry.path.is_file()
-    if arguments.json:
+    if options.json:
         print(json.dumps({"on": on, "file": str(entry.path)}))
     else:
         print(f"on, by {entry.path}" if on else "off")
     return 0
 
 
-def _check(words: list[str]) -> None:
+def _check(words: Sequence[str]) -> None:
     """Raises Refusal for options that the arcade does not have."""
     parser = _ArcadeOptions(add_help=False, allow_abbrev=False, usage=argparse.SUPPRESS)
-    arcade.options(parser)
+    declare(parser, arcade.ArcadeOptions)
     parser.parse_args(words)

@@ -2,7 +2,6 @@
 
 import json
 import os
-from argparse import Namespace
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
@@ -27,6 +26,7 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game
+from pigaming_app.jobs.learning.train.options import DEFAULT_WORKERS, PpoOptions
 from pigaming_app.jobs.learning.train.outputs import csv_of, png_of, two_plots
 from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
@@ -38,47 +38,47 @@ MEASURED, MEASURED_AT_END = 10, 40  # matches against each rival
 SAVED_EVERY = 60.0  # s
 
 
-def train_and_save(arguments: Namespace, beside: Path) -> int:
+def train_and_save(options: PpoOptions, beside: Path) -> int:
     """Train, save and print the result; 130 after Ctrl-C. `beside`: the checkpoint. Raises Refusal or NotSaved."""
     with refused(ChoiceError, BrainFileError):
-        training = _begin(arguments, beside)
+        training = _begin(options, beside)
     if not is_compiled(training.task):
         note("compiling the training, once; it takes a minute")
     with (
         refused(Diverged, NoCluster),
         ThreadPoolExecutor(min(SHARDS, os.cpu_count() or 1)) as threads,
-        _players(training, threads, arguments) as (gather, sync),
+        _players(training, threads, options) as (gather, sync),
     ):
         scores = training.measure(MEASURED, threads)  # also compiles
         with interrupts() as stopped:
             note("Ctrl-C ends the training after the current update and saves the result")
-            save = partial(_save, training, sync, arguments.out, beside)
+            save = partial(_save, training, sync, options.out, beside)
             _train(training, scores, gather, threads, save, stopped)
             scores = training.measure(MEASURED_AT_END, threads)
             save()
-            if arguments.csv:
-                write_atomic(arguments.csv, csv_of(columns(training.task), training.points))
-            if arguments.curve:
-                write_atomic(arguments.curve, _curve_of(training))
-    _print(training, scores, arguments, bool(stopped))
+            if options.csv:
+                write_atomic(options.csv, csv_of(columns(training.task), training.points))
+            if options.curve:
+                write_atomic(options.curve, _curve_of(training))
+    _print(training, scores, options, bool(stopped))
     return end_of(stopped)
 
 
-def _begin(arguments: Namespace, beside: Path) -> Training:
+def _begin(options: PpoOptions, beside: Path) -> Training:
     """A fresh training, or the saved one. Raises Refusal, ChoiceError or BrainFileError."""
-    require_game(arguments.game)
-    if arguments.game not in TASKS:
-        raise Refusal(f"train ppo: learns {', '.join(TASKS)} only, not {arguments.game}")
-    if arguments.workers > SHARDS:
-        raise Refusal(f"--workers: {arguments.workers}; the matches are divided among {SHARDS} at most")
-    task = _task(arguments)
+    require_game(options.game)
+    if options.game not in TASKS:
+        raise Refusal(f"train ppo: learns {', '.join(TASKS)} only, not {options.game}")
+    if (options.workers or 0) > SHARDS:
+        raise Refusal(f"--workers: {options.workers}; the matches are divided among {SHARDS} at most")
+    task = _task(options)
     _rehearse(task)
     try:
-        hyper = changed(task.hyper, arguments.set)
-        training = Training(task, arguments.seed, arguments.updates or 0, hyper, arguments.minutes)
+        hyper = changed(task.hyper, options.set)
+        training = Training(task, options.seed, options.updates or 0, hyper, options.minutes)
     except ValueError as wrong:
-        raise Refusal(f"--set: {wrong}" if arguments.set else str(wrong)) from None
-    if arguments.resume:
+        raise Refusal(f"--set: {wrong}" if options.set else str(wrong)) from None
+    if options.resume:
         restore(training, beside)
     return training
 
@@ -92,24 +92,22 @@ def _rehearse(task: Task) -> None:
     rehearse(setup, [find_brain(task.game, "random")] * ROBOTS)
 
 
-def _task(arguments: Namespace) -> Task:
+def _task(options: PpoOptions) -> Task:
     """The game as it is to be learned. Raises ChoiceError."""
-    task = TASKS[arguments.game]
-    if arguments.against is None:
+    task = TASKS[options.game]
+    if options.against is None:
         return task
-    find_brain(arguments.game, arguments.against)
-    return task.against(arguments.against)
+    find_brain(options.game, options.against)
+    return task.against(options.against)
 
 
 @contextmanager
-def _players(
-    training: Training, threads: Executor, arguments: Namespace
-) -> Iterator[tuple[Gather, Callable[[], None]]]:
+def _players(training: Training, threads: Executor, options: PpoOptions) -> Iterator[tuple[Gather, Callable[[], None]]]:
     """Those who play the shards, and a function that brings the training's own shards up to date."""
-    if arguments.ray is None:
+    if options.ray is None:
         yield in_threads(training, threads), lambda: None
         return
-    with RayShards(training, arguments.ray, arguments.workers) as shards:
+    with RayShards(training, options.ray, options.workers or DEFAULT_WORKERS) as shards:
         yield shards.gather, shards.sync
 
 
@@ -169,10 +167,10 @@ def _curve_of(training: Training) -> bytes:
     return png_of(figure)
 
 
-def _print(training: Training, scores: Mapping[str, Score], arguments: Namespace, stopped: bool) -> None:
+def _print(training: Training, scores: Mapping[str, Score], options: PpoOptions, stopped: bool) -> None:
     """Print the result."""
     speed = training.decisions / training.seconds if training.seconds else 0.0
-    if arguments.json:
+    if options.json:
         result = {
             "game": training.task.game,
             "seed": training.seed,
@@ -183,11 +181,11 @@ def _print(training: Training, scores: Mapping[str, Score], arguments: Namespace
             "entropy": training.entropy,
             "rivals": {rival: score._asdict() for rival, score in scores.items()},
             "finished": not stopped,
-            "out": str(arguments.out),
+            "out": str(options.out),
         }
         print(json.dumps(result))
         return
-    print(f"{training.updates} updates, {training.decisions:,} decisions: {arguments.out}")
+    print(f"{training.updates} updates, {training.decisions:,} decisions: {options.out}")
     print(f"trained in {training.seconds:.1f} s, {speed:,.0f} decisions/s")
     for rival, score in scores.items():
         low, high = wilson(score.wins, sum(score))

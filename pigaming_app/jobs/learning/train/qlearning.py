@@ -4,7 +4,7 @@
 """
 
 import json
-from argparse import ArgumentParser, Namespace
+from dataclasses import dataclass
 from time import perf_counter
 from typing import NamedTuple
 
@@ -14,9 +14,10 @@ from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES, ChoiceError, require_game
-from pigaming_app.jobs.learning.train.outputs import check_outputs, csv_of, output_options, png_of, two_plots
+from pigaming_app.jobs.learning.train.options import OutputOptions, check_outputs
+from pigaming_app.jobs.learning.train.outputs import csv_of, png_of, two_plots
 from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
-from pigaming_app.jobs.terminal.options import decimal, game_option, integer, shared
+from pigaming_app.jobs.terminal.options import GameOption, JsonOption, SeedOption, decimal, flag, integer, option
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.scenes.files import load_table, save_table
 from pigaming_app.sim.arena import ArenaError
@@ -43,97 +44,95 @@ class Point(NamedTuple):
     losses: int
 
 
-def options(parser: ArgumentParser) -> None:
-    game_option(parser)
-    parser.add_argument("--reward", type=integer(), default=1, choices=[1, 2], help="published reward; default 1")
-    parser.add_argument(
-        "--matches", type=integer(), metavar="NUMBER", default=200, help="matches of self-play; default 200"
-    )
-    parser.add_argument("--minutes", type=decimal(0.0, 3600.0), default=2.0, help="length of a match; default 2")
-    shared(parser, "--seed", "--json")
-    parser.add_argument("--arena", default="classic", help="name, or path of a .toml file; default classic")
-    output_options(parser, "table")
-    parser.add_argument("--plain", action="store_true", help="without numba: the same table, slower")
+@dataclass(frozen=True, kw_only=True)
+class QlearningOptions(OutputOptions, JsonOption, SeedOption, GameOption):
+    """What is learned, in how many matches."""
+
+    reward: int = option("published reward; default 1", integer(), 1, choices=[1, 2])
+    matches: int = option("matches of self-play; default 200", integer(), 200, metavar="NUMBER")
+    minutes: float = option("length of a match; default 2", decimal(0.0, 3600.0), 2.0)
+    arena: str = option("name, or path of a .toml file; default classic", default="classic")
+    plain: bool = flag("without numba: the same table, slower")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: QlearningOptions) -> int:
     """Train, save and print the result; 130 after Ctrl-C. Raises Refusal or NotSaved."""
     with refused(ChoiceError, ArenaError, TableError):
-        return _train_and_save(arguments)
+        return _train_and_save(options)
 
 
-def _train_and_save(arguments: Namespace) -> int:
-    _check(arguments)
-    learner = _begin(arguments)
+def _train_and_save(options: QlearningOptions) -> int:
+    _check(options)
+    learner = _begin(options)
     points: list[Point] = []
     if learner.fast and not training.is_compiled():
         note("compiling the training, once")
     learner.warm()
     with interrupts() as stopped:
         note("Ctrl-C ends the training after the current match and saves the result")
-        seconds = _train(learner, arguments, points, stopped)
-        save_table(learner.trained(arguments.out.stem), arguments.out)
-        if arguments.csv:
-            write_atomic(arguments.csv, csv_of(Point._fields, points))
-        if arguments.curve:
-            write_atomic(arguments.curve, _curve_of(points, arguments))
-    _print(learner, arguments, points, seconds, bool(stopped))
+        seconds = _train(learner, options, points, stopped)
+        save_table(learner.trained(options.out.stem), options.out)
+        if options.csv:
+            write_atomic(options.csv, csv_of(Point._fields, points))
+        if options.curve:
+            write_atomic(options.curve, _curve_of(points, options))
+    _print(learner, options, points, seconds, bool(stopped))
     return end_of(stopped)
 
 
-def _check(arguments: Namespace) -> None:
+def _check(options: QlearningOptions) -> None:
     """Check before the training whatever would fail after it. Raises Refusal, ChoiceError, ArenaError or NotSaved."""
-    require_game(arguments.game)
-    if arguments.game != training.GAME:
-        raise Refusal(f"train {arguments.learner}: learns {training.GAME} only, not {arguments.game}")
-    if not 1 <= arguments.matches <= 1_000_000:
-        raise Refusal(f"--matches: {arguments.matches}; possible are 1 to 1000000")
-    if not MIN_MINUTES <= arguments.minutes <= MAX_MINUTES:
-        raise Refusal(f"--minutes: {arguments.minutes:g}; possible are {MIN_MINUTES:g} to {MAX_MINUTES:g}")
-    load_arena(training.GAME, arguments.arena)
-    check_outputs(arguments, "table")
+    require_game(options.game)
+    if options.game != training.GAME:
+        raise Refusal(f"train qlearning: learns {training.GAME} only, not {options.game}")
+    if not 1 <= options.matches <= 1_000_000:
+        raise Refusal(f"--matches: {options.matches}; possible are 1 to 1000000")
+    if not MIN_MINUTES <= options.minutes <= MAX_MINUTES:
+        raise Refusal(f"--minutes: {options.minutes:g}; possible are {MIN_MINUTES:g} to {MAX_MINUTES:g}")
+    load_arena(training.GAME, options.arena)
+    check_outputs(options, "table")
 
 
-def _recipe(arguments: Namespace) -> Recipe:
+def _recipe(options: QlearningOptions) -> Recipe:
     """The recipe with the changes of --set. Raises Refusal."""
     try:
-        return changed(RECIPES[arguments.reward], arguments.set)
+        return changed(RECIPES[options.reward], options.set)
     except ValueError as wrong:
         raise Refusal(f"--set: {wrong}") from None
 
 
-def _begin(arguments: Namespace) -> training.Training:
+def _begin(options: QlearningOptions) -> training.Training:
     """A fresh training, or the saved one. Raises Refusal or TableError."""
-    recipe, fast = _recipe(arguments), False if arguments.plain else can_compile()
-    if not arguments.resume:
-        return training.Training(recipe, arguments.seed, arguments.arena, fast, minutes=arguments.minutes)
-    saved = load_table(arguments.out)
-    requested = (recipe, arguments.seed, arguments.arena, arguments.minutes)
+    recipe, fast = _recipe(options), False if options.plain else can_compile()
+    if not options.resume:
+        return training.Training(recipe, options.seed, options.arena, fast, minutes=options.minutes)
+    saved = load_table(options.out)
+    requested = (recipe, options.seed, options.arena, options.minutes)
     names = ("reward (or --set)", "seed", "arena", "minutes")
     present = (saved.recipe, saved.seed, saved.arena, saved.minutes)
     for name, new, old in zip(names, requested, present, strict=True):
         if new != old:
-            raise Refusal(f"--resume: {arguments.out.name} was trained with another {name}")
+            raise Refusal(f"--resume: {options.out.name} was trained with another {name}")
     if saved.other_engine:
-        note(f"{arguments.out.name}: trained with another version of the engine; what it learned may fit less")
+        note(f"{options.out.name}: trained with another version of the engine; what it learned may fit less")
     return training.resumed(saved, fast)
 
 
-def _train(learner: training.Training, arguments: Namespace, points: list[Point], stopped: list[int]) -> float:
+def _train(learner: training.Training, options: QlearningOptions, points: list[Point], stopped: list[int]) -> float:
     """Train for the requested matches or until stopped; returns the training time without measurements, s."""
-    match_ticks = round(arguments.minutes * 60 * HZ)
-    every = max(1, -(-arguments.matches // MEASURES))
+    match_ticks = round(options.minutes * 60 * HZ)
+    every = max(1, -(-options.matches // MEASURES))
     seconds, shown = 0.0, 0.0
     _note(learner, points)
-    while learner.matches < arguments.matches and not stopped:
+    while learner.matches < options.matches and not stopped:
         began = perf_counter()
         learner.run(match_ticks)
         seconds += perf_counter() - began
-        if learner.matches % every == 0 or learner.matches == arguments.matches:
+        if learner.matches % every == 0 or learner.matches == options.matches:
             _note(learner, points)
-        if perf_counter() - shown > SHOWN_EVERY or learner.matches >= arguments.matches:
+        if perf_counter() - shown > SHOWN_EVERY or learner.matches >= options.matches:
             shown = perf_counter()
-            _show(learner, arguments.matches, points[-1])
+            _show(learner, options.matches, points[-1])
     end_line()
     return seconds
 
@@ -155,14 +154,14 @@ def _show(learner: training.Training, matches: int, last: Point) -> None:
     show(line, milestone=last.matches == learner.matches)
 
 
-def _curve_of(points: list[Point], arguments: Namespace) -> bytes:
+def _curve_of(points: list[Point], options: QlearningOptions) -> bytes:
     """The learning curve as a PNG file: results against the thesis robot, states visited, temperature."""
     figure, score, seen = two_plots()
     matches = [point.matches for point in points]
     for word, colour in (("wins", "tab:green"), ("ties", "tab:gray"), ("losses", "tab:red")):
         shares = [getattr(point, word) / MEASURED if point.matches else float("nan") for point in points]
         score.plot(matches, shares, color=colour, marker="o", label=f"{word} against {RIVAL}")
-    score.set(title=f"Reward {arguments.reward}, seed {arguments.seed}", ylabel="share", ylim=(-0.03, 1.03))
+    score.set(title=f"Reward {options.reward}, seed {options.seed}", ylabel="share", ylim=(-0.03, 1.03))
     score.legend()
     seen.plot(matches, [point.states for point in points], color="tab:blue", marker="o", label="states visited")
     seen.set(xlabel="matches of self-play", ylabel="states visited")
@@ -174,14 +173,14 @@ def _curve_of(points: list[Point], arguments: Namespace) -> bytes:
 
 
 def _print(
-    learner: training.Training, arguments: Namespace, points: list[Point], seconds: float, stopped: bool
+    learner: training.Training, options: QlearningOptions, points: list[Point], seconds: float, stopped: bool
 ) -> None:
     """Print the result."""
     last = points[-1]
-    if arguments.json:
+    if options.json:
         result = {
-            "reward": arguments.reward,
-            "seed": arguments.seed,
+            "reward": options.reward,
+            "seed": options.seed,
             **last._asdict(),
             "matches": learner.matches,
             "experiences": learner.experiences,
@@ -189,13 +188,11 @@ def _print(
             "seconds": seconds,
             "compiled": learner.fast,
             "finished": not stopped,
-            "out": str(arguments.out),
+            "out": str(options.out),
         }
         print(json.dumps(result))
         return
     how = "compiled" if learner.fast else "plain"
     score = f"; {last.wins}-{last.ties}-{last.losses} of {MEASURED} against {RIVAL}" if last.matches else ""
-    print(
-        f"{learner.matches} matches, {learner.experiences:,} experiences, {learner.visited:,} states: {arguments.out}"
-    )
+    print(f"{learner.matches} matches, {learner.experiences:,} experiences, {learner.visited:,} states: {options.out}")
     print(f"trained in {seconds:.1f} s ({how}){score}")

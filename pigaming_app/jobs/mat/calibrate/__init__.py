@@ -2,11 +2,11 @@
 
 import json
 import os
-from argparse import ArgumentParser, Namespace
+from dataclasses import dataclass
 from pathlib import Path
 
 from pigaming_app.jobs.arcade import show
-from pigaming_app.jobs.terminal.options import decimal, display, mat_settings, path, shared
+from pigaming_app.jobs.terminal.options import DisplayOption, JsonOption, RigOptions, decimal, flag, option, path
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.storage.messages import OperatorError
 from pigaming_app.storage.settings import Settings, folders
@@ -15,35 +15,33 @@ from pigaming_app.ui.i18n import with_english
 VIEWS = ("good", "defocused", "long", "stubborn", "silent", "dim", "dark", "tilted")  # of the emulated camera
 
 
-def options(parser: ArgumentParser) -> None:
-    shared(parser, "--camera", "--display", "--emulate", "--json")
-    parser.add_argument("--headless", action="store_true", help="with --emulate: no window, print the errors")
-    parser.add_argument("--robot", action="store_true", help="with --headless: camera height measured by a robot")
-    parser.add_argument("--view", choices=VIEWS, help=f"with --headless: a camera of this quality; default {VIEWS[0]}")
-    parser.add_argument("--anyway", action="store_true", help="with --headless: save it though markers will be missed")
-    parser.add_argument("--sheet", type=path, metavar="FILE", help="write the page of markers to print (PDF), no more")
-    parser.add_argument(
-        "--edge", type=decimal(1.0, 1000.0), metavar="MM", default=50.0, help="edge of its markers; default 50"
-    )
+@dataclass(frozen=True, kw_only=True)
+class CalibrateOptions(RigOptions, DisplayOption, JsonOption):
+    """What to calibrate, and how."""
+
+    headless: bool = flag("with --emulate: no window, print the errors")
+    robot: bool = flag("with --headless: camera height measured by a robot")
+    view: str | None = option(f"with --headless: a camera of this quality; default {VIEWS[0]}", choices=VIEWS)
+    anyway: bool = flag("with --headless: save it though markers will be missed")
+    sheet: Path | None = option("write the page of markers to print (PDF), no more", path, metavar="FILE")
+    edge: float = option("edge of its markers; default 50", decimal(1.0, 1000.0), 50.0, metavar="MM")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: CalibrateOptions) -> int:
     """Calibrate, or write the page of markers; 1: the calibration is not good enough. Raises Refusal or NotSaved."""
-    mat_settings(arguments)
+    options.mat_settings()
     require("hardware")
-    if arguments.sheet is not None:
-        return _write(arguments.sheet, arguments.edge)
-    if arguments.headless or arguments.json or arguments.robot or arguments.anyway or arguments.view:
-        if arguments.emulate is None:
+    if options.sheet is not None:
+        return _write(options.sheet, options.edge)
+    if options.headless or options.json or options.robot or options.anyway or options.view:
+        if options.emulate is None:
             raise Refusal("without a window only the emulated arena can be calibrated: add --emulate")
-        return _prove(arguments)
+        return _prove(options, options.emulate)
     from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
 
-    first = lambda context: CalibrationPage(context, camera=arguments.camera)  # noqa: E731
-    return show(
-        Options(first_scene=first, without_title=True, display=display(arguments), emulator_seed=arguments.emulate)
-    )
+    first = lambda context: CalibrationPage(context, camera=options.camera)  # noqa: E731
+    return show(Options(first_scene=first, without_title=True, display=options.display, emulator_seed=options.emulate))
 
 
 def _write(path: Path, edge: float) -> int:
@@ -61,7 +59,7 @@ def _write(path: Path, edge: float) -> int:
     return 0
 
 
-def _prove(arguments: Namespace) -> int:
+def _prove(options: CalibrateOptions, seed: int) -> int:
     """Calibrate the emulated arena unattended."""
     os.environ["SDL_VIDEODRIVER"] = os.environ["SDL_AUDIODRIVER"] = "dummy"
     from pigaming_app.hardware.vision.markers import opencv
@@ -69,8 +67,8 @@ def _prove(arguments: Namespace) -> int:
 
     with refused(OperatorError):
         opencv()
-    result = calibrate(arguments.emulate, arguments.robot, arguments.view or VIEWS[0], arguments.anyway)
-    if arguments.json:
+    result = calibrate(seed, options.robot, options.view or VIEWS[0], options.anyway)
+    if options.json:
         print(json.dumps(result))
     else:
         for key, value in result.items():

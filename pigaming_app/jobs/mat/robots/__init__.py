@@ -2,7 +2,7 @@
 
 import json
 import time
-from argparse import ArgumentParser, Namespace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
@@ -10,7 +10,7 @@ from pigaming_app.hardware.robot_files import set_up_command
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, camera_warning
 from pigaming_app.jobs.mat.robots import radio_setup, wifi_setup
 from pigaming_app.jobs.mat.sessions import new_session
-from pigaming_app.jobs.terminal.options import mat_settings, shared
+from pigaming_app.jobs.terminal.options import flag
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, sentence
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings, folders
@@ -51,46 +51,46 @@ STATUS = {
 }
 
 
-def options(parser: ArgumentParser) -> None:
-    parser.add_argument("--pair", action="store_true", help="spin each robot in turn to find its marker")
-    parser.add_argument("--latency", action="store_true", help="wiggle each robot to measure the end-to-end latency")
-    wifi_setup.options(parser)
-    shared(parser, "--emulate", "--camera", "--port", "--radio", "--json")
-    radio_setup.options(parser)
+@dataclass(frozen=True, kw_only=True)
+class RobotsOptions(wifi_setup.WifiSetupOptions, radio_setup.RadioSetupOptions):
+    """What to do with the robots."""
+
+    pair: bool = flag("spin each robot in turn to find its marker")
+    latency: bool = flag("wiggle each robot to measure the end-to-end latency")
 
 
-def run(arguments: Namespace) -> int:
+def run(options: RobotsOptions) -> int:
     """Print the status. Raises Refusal."""
-    mat_settings(arguments)
-    settings = radio_setup.save_arena(arguments)
-    if wifi_setup.supply_file(arguments, settings):
+    options.mat_settings()
+    settings = radio_setup.save_arena(options)
+    if wifi_setup.supply_file(options, settings):
         return 0
-    if arguments.wheels is not None:
-        return _turn_wheels(arguments)
-    if arguments.radio_setup is not None:
-        return radio_setup.set_up(arguments, settings)
-    if arguments.emulate is not None or arguments.pair or arguments.latency:
+    if options.wheels is not None:
+        return _turn_wheels(options, options.wheels)
+    if options.radio_setup is not None:
+        return radio_setup.set_up(options, options.radio_setup, settings)
+    if options.emulate is not None or options.pair or options.latency:
         require("hardware")
-    status = look(arguments)
-    if arguments.json:
+    status = look(options)
+    if options.json:
         print(json.dumps(status))
     else:
         _print(status)
     return 0
 
 
-def _turn_wheels(arguments: Namespace) -> int:
+def _turn_wheels(options: RobotsOptions, robot: int) -> int:
     """Turn the wheels of one robot, without a camera. Raises Refusal."""
     with refused(RobotsUnavailable):
-        session = new_session(arguments.emulate, arguments.camera, arguments.port, arguments.radio)
+        session = new_session(options.emulate, options.camera, options.port, options.radio)
     try:
-        wifi_setup.turn_wheels(session, arguments.wheels)
+        wifi_setup.turn_wheels(session, robot)
     finally:
         session.end()
     return 0
 
 
-def look(arguments: Namespace) -> dict[str, Any]:
+def look(options: RobotsOptions) -> dict[str, Any]:
     """The status by name; a fault is a sentence. Raises Refusal."""
     from pigaming_app.hardware.radio.serial_line import ports
     from pigaming_app.hardware.vision.discovery import cameras
@@ -100,12 +100,12 @@ def look(arguments: Namespace) -> dict[str, Any]:
         "cameras": [camera._asdict() for camera in cameras()],
     }
     with refused(RobotsUnavailable):
-        session = new_session(arguments.emulate, arguments.camera, arguments.port, arguments.radio)
+        session = new_session(options.emulate, options.camera, options.port, options.radio)
     try:
         status["arena"] = session.arena_id
-        return {**status, **_full_status(session, arguments)}
+        return {**status, **_full_status(session, options)}
     except RobotsUnavailable as trouble:
-        if arguments.pair or arguments.latency:
+        if options.pair or options.latency:
             raise Refusal(f"Robots move only in view of the camera. {sentence(trouble)}") from None
         return {**status, **_radio_status(session), "eyes": sentence(trouble)}
     finally:
@@ -120,7 +120,7 @@ def _radio_status(session: RobotSession) -> dict[str, Any]:
     return {"radio": _sentence(session.fault), "robots": robots, "network": wifi_setup.network(session)}
 
 
-def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
+def _full_status(session: RobotSession, options: RobotsOptions) -> dict[str, Any]:
     """The status by radio and camera; then pairing and latency on request. Raises RobotsUnavailable or Refusal."""
     rig, status = session.open(), dict[str, Any]()
     for _ in range(round(LISTEN * HZ)):
@@ -132,11 +132,11 @@ def _full_status(session: RobotSession, arguments: Namespace) -> dict[str, Any]:
     status["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
     status["network"] = wifi_setup.network(session)
     movable = [i for i in range(4) if status["robots"][i]["heard"]]
-    if (arguments.pair or arguments.latency) and not movable:
+    if (options.pair or options.latency) and not movable:
         raise Refusal(status["radio"] or "No robot answers: are they switched on?")
-    if arguments.pair:
-        status["pairing"] = _pair(session, rig, save=arguments.emulate is None)
-    if arguments.latency:
+    if options.pair:
+        status["pairing"] = _pair(session, rig, save=options.emulate is None)
+    if options.latency:
         status["latency"] = [_latency(session, rig, i) for i in movable if status["robots"][i]["seen"]]
     return status
 

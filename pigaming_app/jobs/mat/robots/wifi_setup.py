@@ -1,7 +1,7 @@
 """Robots with MicroPython in the job `robots`: their files, the robots on the network, a first turn of the wheels."""
 
 import time
-from argparse import ArgumentParser, Namespace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +9,7 @@ from pigaming_app.hardware.radio.packets import ROBOTS
 from pigaming_app.hardware.robot_files import RELAY, microbit_program, robot_config
 from pigaming_app.hardware.robot_kinds import robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession
-from pigaming_app.jobs.terminal.options import integer, path
+from pigaming_app.jobs.terminal.options import integer, option, path
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.storage.safe_files import NotSaved, write_with_backup
 from pigaming_app.storage.settings import Settings, folders
@@ -24,42 +24,37 @@ WHEELS = {  # commands of left and right wheel
 }
 
 
-def options(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "--wifi-config", type=integer(1, ROBOTS), metavar="ROBOT", help="the config.py of a Wi-Fi robot, 1 to 4"
+@dataclass(frozen=True, kw_only=True)
+class WifiSetupOptions:
+    """Files of robots with MicroPython, and a turn of their wheels."""
+
+    wifi_config: int | None = option("the config.py of a Wi-Fi robot, 1 to 4", integer(1, ROBOTS), metavar="ROBOT")
+    microbit: int | None = option(
+        "the program of a micro:bit: 0 for the relay, 1 to 4 for a robot", integer(RELAY, ROBOTS), metavar="NUMBER"
     )
-    parser.add_argument(
-        "--microbit",
-        type=integer(RELAY, ROBOTS),
-        metavar="NUMBER",
-        help="the program of a micro:bit: 0 for the relay, 1 to 4 for a robot",
-    )
-    parser.add_argument("--out", type=path, metavar="FILE", help="write that file, in UTF-8, instead of printing it")
-    parser.add_argument(
-        "--wheels", type=integer(1, ROBOTS), metavar="ROBOT", help="turn the wheels of a robot that stands on blocks"
-    )
+    out: Path | None = option("write that file, in UTF-8, instead of printing it", path, metavar="FILE")
+    wheels: int | None = option("turn the wheels of a robot that stands on blocks", integer(1, ROBOTS), metavar="ROBOT")
 
 
-def supply_file(arguments: Namespace, settings: Settings) -> bool:
+def supply_file(options: WifiSetupOptions, settings: Settings) -> bool:
     """Write or print the file of a robot; false if none is wanted. Raises Refusal, also if settings are not saved."""
     from pigaming_app.hardware.session.store import arena_id, wifi_key
 
-    out: Path | None = arguments.out
-    if arguments.wifi_config is not None:
-        text = robot_config(arguments.wifi_config, arena_id(settings), wifi_key(settings))
-    elif arguments.microbit is not None:
-        text = microbit_program(arguments.microbit, arena_id(settings))
-    elif out is not None:
+    if options.wifi_config is not None:
+        text = robot_config(options.wifi_config, arena_id(settings), wifi_key(settings))
+    elif options.microbit is not None:
+        text = microbit_program(options.microbit, arena_id(settings))
+    elif options.out is not None:
         raise Refusal("--out is the file of --wifi-config or --microbit")
     else:
         return False
     _require_saved(settings, "arena_id", "wifi_key")
-    if out is None:
+    if options.out is None:
         print(text, end="")
         return True
     with refused(NotSaved):
-        write_with_backup(out, text)
-    print(out)
+        write_with_backup(options.out, text)
+    print(options.out)
     return True
 
 

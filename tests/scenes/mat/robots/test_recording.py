@@ -11,6 +11,7 @@ from pigaming_app.hardware.control import match_recording
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.jobs import play as play_job
 from pigaming_app.jobs.cli import Parser
+from pigaming_app.jobs.terminal.options import declare_job
 from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.scenes.features.replays import timeline_of, verify
 from pigaming_app.scenes.files import load_replay, save_replay
@@ -162,8 +163,9 @@ def test_a_match_without_people_ends_at_a_fault_that_needs_them(
         raise AssertionError("it waits for ever")
 
     monkeypatch.setattr(play_job, "show", show)
-    play_job.options(parser := Parser())
+    declare_job(parser := Parser(), play_job)
     line = f"pitanks --emulate --headless --real 1 --seats normal,easy --minutes 2 --record {tmp_path / 'a.replay'}"
+    found = parser.parse_args(line.split())
     with pytest.raises(Refusal, match="Robot 1 does not follow"):
-        play_job.run(parser.parse_args(line.split()))
+        found.start(found)
     assert load_replay(tmp_path / "a.replay").length > 10

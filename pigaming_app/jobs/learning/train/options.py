@@ -1,0 +1,76 @@
+"""Options of trainings, checked before they begin."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from os.path import realpath
+from pathlib import Path
+from typing import ClassVar
+
+from pigaming_app.jobs.terminal.options import (
+    ONE_OF,
+    GameOption,
+    Groups,
+    JsonOption,
+    SeedOption,
+    decimal,
+    flag,
+    integer,
+    option,
+    path,
+    word,
+)
+from pigaming_app.jobs.terminal.refusal import Refusal, require
+from pigaming_app.storage.safe_files import require_writable
+
+DEFAULT_MINUTES, DEFAULT_WORKERS = 10.0, 2
+
+
+@dataclass(frozen=True, kw_only=True)
+class OutputOptions:
+    """The files of a training."""
+
+    out: Path = option("what is learned (.npz)", path, required=True, metavar="FILE")
+    resume: bool = flag("continue from that file")
+    set: tuple[str, ...] = option("change a hyperparameter", default=(), action="append", metavar="NAME=NUMBER")
+    curve: Path | None = option("learning curve (PNG; extra `plots`)", path, metavar="FILE")
+    csv: Path | None = option("learning curve as numbers", path, metavar="FILE")
+
+
+def check_outputs(options: OutputOptions, noun: str, beside: Sequence[Path] = ()) -> None:
+    """Check before a training whatever would fail after it. `beside`: further files. Raises Refusal or NotSaved."""
+    if options.out.suffix != ".npz":
+        raise Refusal(f"--out: {options.out}: the name of a {noun} ends in .npz")
+    if options.curve and options.curve.suffix.lower() != ".png":
+        raise Refusal(f"--curve: {options.curve}: the name of a picture ends in .png")
+    outputs: list[tuple[str, Path | None]] = [("out", options.out), *(("out", one) for one in beside)]
+    outputs += [("csv", options.csv), ("curve", options.curve)]
+    taken: set[str] = set()
+    for name, file in outputs:
+        if file is None:
+            continue
+        if file.is_dir() or not file.absolute().parent.is_dir():
+            raise Refusal(f"--{name}: {file}: there is no such folder, or it is one itself")
+        if realpath(file) in taken:
+            raise Refusal(f"--{name}: {file}: another file of this training has that name")
+        taken.add(realpath(file))
+        require_writable(file)
+    if options.curve:
+        require("plots")
+
+
+@dataclass(frozen=True, kw_only=True)
+class PpoOptions(OutputOptions, JsonOption, SeedOption, GameOption):
+    """What is learned, for how long, and by which machines."""
+
+    GROUPS: ClassVar[Groups] = {
+        ONE_OF: ("updates", "minutes"),
+        ("several machines", "The same network, bit for bit, as without them."): ("ray", "workers"),
+    }
+
+    updates: int | None = option(
+        "length; the same seed gives the same network", integer(high=1_000_000), metavar="NUMBER"
+    )
+    minutes: float | None = option(f"length; default {DEFAULT_MINUTES:g}", decimal(0.01, 10_000.0), metavar="NUMBER")
+    against: str | None = option("learn duels against this one alone, to exploit it", metavar="AI")
+    ray: str | None = option("Ray cluster, auto, or local (extra `ray`)", word, metavar="ADDRESS")
+    workers: int | None = option(f"processes that play; default {DEFAULT_WORKERS}", integer(), metavar="NUMBER")
