@@ -8,7 +8,7 @@ import secrets
 import tempfile
 import threading
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -46,20 +46,45 @@ def _a_home_of_their_own() -> Iterator[None]:
 
 
 @pytest.fixture(autouse=True, scope="session")
-def _one_process_for_many_arcades() -> Iterator[None]:
-    """Parse each text of an arena once, as arenas never change; keep pictures and freed memory for the next test."""
+def _one_process_for_many_arcades() -> Iterator[Callable[..., Any]]:
+    """Parse each text of an arena once, as arenas never change; keep pictures and freed memory for the next test.
+
+    Pictures have lines, but no glow round them, which takes most of the time: `_glow` is for tests of it. The value
+    is the function that adds it.
+    """
     from pigaming_app.games import arenas
     from pigaming_app.ui import memory
+    from pigaming_app.ui.draw import glow
     from pigaming_app.ui.draw.surface_cache import surfaces
 
     gc.set_threshold(20_000, 20, 50)  # a collection takes 0.1 s among the objects of so many tests
+    add_glow = glow.add_glow
     with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(glow, "add_glow", _no_steps)
         patch.setattr(arenas, "parse_arena", lru_cache(64)(arenas.parse_arena))
         patch.setattr(memory, "return_large_blocks", lambda: None)
         patch.setattr(surfaces, "budget", 512 << 20)
         patch.setattr(surfaces, "release_matches", lambda: None)
         patch.setattr(surfaces, "release_pages", lambda: None)
+        yield add_glow
+
+
+def _no_steps(*_: object) -> Iterator[None]:
+    yield from ()
+
+
+@pytest.fixture
+def _glow(_one_process_for_many_arcades: Callable[..., Any]) -> Iterator[None]:
+    """Pictures as in the arcade, for tests that examine them."""
+    from pigaming_app.ui.draw import glow
+    from tests.scenes.cache import empty_cache
+    from tests.scenes.measuring import forget
+
+    with pytest.MonkeyPatch.context() as patch, empty_cache():
+        patch.setattr(glow, "add_glow", _one_process_for_many_arcades)
+        forget()
         yield
+        forget()
 
 
 @pytest.fixture(autouse=True)

@@ -13,6 +13,7 @@ from tests.pages.pictures import FOLDER, GRID, SCENES, manifest, saved, signatur
 
 MOST = 6  # levels of a cell's mean: fonts and lines differ a little between systems, a changed screen by more
 ENCODED = 12  # levels for an animation, whose encoding loses something
+pytestmark = pytest.mark.usefixtures("_glow")
 RENEW = "the picture is out of date: .venv/bin/python -m tests.pages.pictures"
 
 

@@ -417,6 +417,9 @@ def editor(game: str, problem: str = "", said: str = "") -> Callable[[Arcade], S
         drawing = store.titled(drawing_of(load(game, shipped_arenas(game)[0]).source), WIDEST)
         scene = Editor(arcade.context, game, WIDEST.lower(), drawing)
         scene.bench.close()
+        for task in (scene.bench.checker._finder, scene.bench.checker._planner):
+            if task._thread:
+                task._thread.join()
         scene.bench.selected = scene.tools.items(drawing)[-1]
         found = [Problem(problem, 800.0, 450.0, 60.0, "", problem != "gap", problem)] if problem else []
         scene.bench.checker.verdict = Verdict(drawing, found, done=True)

@@ -25,7 +25,7 @@ from pigaming_app.ui.widgets.button_prompts import type_size
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.cache import empty_cache
-from tests.scenes.measuring import faults, forget, measuring
+from tests.scenes.measuring import faults, forget, leave_black, measuring
 from tests.scenes.screens import SCREENS, seats
 from tests.scenes.test_layout import LISTS, relevant
 
@@ -82,6 +82,7 @@ def sizes(monkeypatch: pytest.MonkeyPatch, draw: Callable[[], object], large: bo
 
     with empty_cache(), monkeypatch.context() as patch:
         forget()
+        leave_black(patch)
         patch.setattr(GlowCanvas, "text", noted)
         read_large(large)
         draw()

@@ -270,6 +270,7 @@ def test_seats_without_an_explaining_brain_are_skipped(arcade: Arcade) -> None:
     assert overlay.seats == [1, 2, 3]
 
 
+@pytest.mark.usefixtures("_glow")
 def test_a_network_shows_what_matters_to_it_and_the_probabilities_of_its_choices(arcade: Arcade) -> None:
     stage = stage_of(arcade, "pitanks")
     stage.match.sit(0, BrainPlayer(brain_of(random_network()), 1))
@@ -301,6 +302,7 @@ def test_every_text_fits_its_box(language: str) -> None:
     assert small == {}
 
 
+@pytest.mark.usefixtures("_glow")
 def test_every_wish_of_every_brain_has_a_sign(arcade: Arcade) -> None:
     for game in SEATS:
         stage = stage_of(arcade, game)

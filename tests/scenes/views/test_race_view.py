@@ -109,6 +109,7 @@ def test_the_road_is_black_and_beside_it_lies_mud(screen):
     assert red > 1.3 * green > 1.3 * blue
 
 
+@pytest.mark.usefixtures("_glow")
 @pytest.mark.parametrize("track", arenas("race"))
 def test_a_preview_shows_the_track_at_any_size(screen, track):
     arena = load("race", track)

@@ -19,6 +19,8 @@ from pigaming_app.ui.draw import (
     shape_points,
 )
 
+pytestmark = pytest.mark.usefixtures("_glow")
+
 
 def test_black_stays_black_away_from_ink():
     image = GlowCanvas(400, 300).neon([(100, 150), (200, 150)], BLUE).lit()

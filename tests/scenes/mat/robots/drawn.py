@@ -55,10 +55,14 @@ def fault_page(arcade: Arcade, rule: SafetyRule) -> FaultPage:
 
 
 def arena_page(arcade: Arcade, things: Sequence[Thing] = (), fault: OperatorMessage | None = None) -> ArenaPage:
-    """Build your arena, with these things on the mat and the first one selected."""
+    """Build your arena, with these things on the mat and the first one selected; walls are in the way in one arena."""
     arcade.context.mat = SessionMat(arcade.context, SimpleNamespace(ground=None))
     page = ArenaPage(arcade.context)
     page._take(Layout(tuple(things)), False)
+    if page.arenas:
+        page.arenas.end()
+        page.arenas._thread.join()
+        page.arenas.blocked = {"pitanks": ["trenches"]} if things[0].kind is ThingKind.TALL else {}
     page.fault = fault
     return page
 
