@@ -18,6 +18,7 @@ from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.options import controls_pictures as gadgets
 from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.page import OptionsPage
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.replays.page import ReplaysPage
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views import game_tile
@@ -164,9 +165,7 @@ def hints(scene: Scene, device: Device) -> Iterator[ButtonPrompts]:
         for _ in range(3):
             scene.handle(InputEvent(Button.Y, device))
         yield scene.page.prompts
-    elif isinstance(scene, ControlsTest):
-        yield scene._prompts()
-    elif isinstance(scene, MatchSetupPage | OptionsPage):
+    elif isinstance(scene, Page):
         yield scene.prompts
 
 

@@ -8,31 +8,31 @@ from pigaming_app.events.ladder import ALL, climbed_games, stars_and_losses, tab
 from pigaming_app.scenes.flow.brain_names import LIT
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.storage.scores import Score, ScoreTable
 from pigaming_app.ui.draw import ICE, LABEL, text_width
-from pigaming_app.ui.draw.layers import backdrop, span
+from pigaming_app.ui.draw.layers import span
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.arrows import Arrows, as_direction, draw_arrows
-from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.score_board import Board, BoardRow
 
 SPANS = {"results.today": 1, "results.ever": None}  # headings and their spans in days
-STAY = 20.0  # s without input
-INPUT_LOCKOUT = 0.4  # s during which input is ignored
 LINE_Y = 234  # px
-CLOSING = Button.FIRE, Button.START, Button.BACK, Button.Y, Button.CLICK
 
 
-class Climbers:
+class Climbers(Page):
     """The tables of a game, or of ALL. `fresh`: new rows, highlighted."""
 
+    title = "ladder.climbers"
+    idle, when_idle, lockout = 20.0, Pop(), 0.4
+    closing = Button.FIRE, Button.START, Button.Y, Button.CLICK
+    hints = ((Button.FIRE, "results.on"), (Button.RIGHT, "ladder.hint_games"))
+
     def __init__(self, context: Context, game: str, fresh: Sequence[Score] = ()) -> None:
-        self.context, self.game, self.fresh = context, game, list(fresh)
-        self.age = self.turned = self.idle = 0.0
-        hints = [(Button.FIRE, "results.on"), (Button.RIGHT, "ladder.hint_games")]
-        self.prompts = context.prompts(hints)
+        super().__init__(context)
+        self.game, self.fresh, self.turned = game, list(fresh), 0.0
 
     @property
     def arrows(self) -> Arrows:
@@ -40,41 +40,38 @@ class Climbers:
         reach = text_width(self._title(), LABEL) / 2 + 60
         return {Button.LEFT: (960 - reach, LINE_Y), Button.RIGHT: (960 + reach, LINE_Y)}
 
-    def on_enter(self) -> None:
-        """Nothing to do."""
+    @property
+    def resting(self) -> float:
+        return self.untouched
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """LEFT and RIGHT change the game; any button continues."""
-        event = as_direction(self.prompts.as_button(event), self.arrows)
-        self.idle = 0.0
+        """LEFT and RIGHT change the game, as do the arrows; any button continues."""
+        return super().handle(as_direction(event, self.arrows))
+
+    def press(self, event: InputEvent) -> StackOperation:
         if event.button in (Button.LEFT, Button.RIGHT):
             step = 1 if event.button is Button.RIGHT else -1
             tables = [*climbed_games(), ALL]
             self.game, self.turned = tables[(tables.index(self.game) + step) % len(tables)], 0.0
             self.context.sounds.play("move")
-        elif self.age > INPUT_LOCKOUT and event.button in CLOSING:
-            self.context.sounds.play("back")
-            return Pop()
         return None
 
-    def update(self, seconds: float) -> StackOperation:
-        """Continue after a while without input."""
-        self.age += seconds
+    def advance(self, seconds: float) -> StackOperation:
         self.turned += seconds
-        self.idle += seconds
-        return Pop() if self.idle > STAY else None
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
-        """Draw the tables and the prompts."""
-        self.paint(screen)
+    def draw_foot(self, screen: pygame.Surface) -> None:
+        """Draw the arrows, too."""
         draw_arrows(screen, self.arrows)
-        self.prompts.draw(screen)
+        super().draw_foot(screen)
+
+    @property
+    def subtitle(self) -> str:
+        return self.context.words("ladder.measure")
 
     def paint(self, screen: pygame.Surface) -> None:
-        """Draw the tables only."""
+        """Draw the tables; their rows are revealed one after the other."""
         words, table = self.context.words, table_of(self.game)
-        screen.blit(backdrop(), (0, 0))
-        heading(words("ladder.climbers"), words("ladder.measure")).draw(screen)
         text(self._title(), LABEL, ICE, "head").draw(screen, 960, LINE_Y)
         for column, (title, days) in zip((0, 6), SPANS.items(), strict=True):
             rows = [self._row(row) for row in self.context.scores.best(table, days)]

@@ -22,7 +22,7 @@ def show(context: Context, game: str) -> Show | None:
     if not climbed:
         return None
     best = Climbers(context, secrets.choice(climbed))
-    return Show(best, best.paint)
+    return Show(best, best.show)
 
 
 FEATURE = Feature(

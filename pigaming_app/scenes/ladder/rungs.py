@@ -13,26 +13,23 @@ from pigaming_app.events.ladder import LEVELS, Climb
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.brain_names import LIT
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation, Swap
+from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
 from pigaming_app.scenes.ladder import rungs_view as view
 from pigaming_app.scenes.ladder.climber import Climber, begun, device_of
 from pigaming_app.scenes.ladder.climbers import game_name
 from pigaming_app.scenes.ladder.summit import Summit
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.play.scene import MatchScene, new_seed
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.views.sprites.robot import seat_robot
-from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST, SUB
+from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, SUB
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, chip, heading
+from pigaming_app.ui.widgets.labels import black_out, chip
 
-IDLE = 60.0  # s without input before the return to the title
-INPUT_LOCKOUT = 0.6  # s during which input is ignored: players may still hammer
-MESSAGE_SECONDS = 4.0  # s, display time of a message
 X, W = span(6, 6)
 SAID_Y, NEXT_Y, STANDING_Y = 240, 334, 424  # px
 ITEMS_Y, ITEM_H, ITEM_PITCH = 494, 84, 104  # px
@@ -41,19 +38,21 @@ PLAY, EASIER, ANEW, STOP = "play", "easier", "anew", "stop"
 GLAD = ("won", "up")  # of what happened last
 
 
-class LadderPage:
+class LadderPage(Page):
     """The page of a climber. `said`: key of what happened last; empty: nothing yet. `saved`: false: it is lost if the
     arcade ends.
     """
 
+    title, idle, lockout = "ladder.title", 60.0, 0.6
+    hints = ((Button.FIRE, "ladder.hint_ok"), (Button.BACK, "ladder.hint_later"))
+
     def __init__(self, context: Context, climber: Climber, said: str = "", saved: bool = True) -> None:
-        self.context, self.climber, self.said = context, climber, said
-        self.age, self.message_left = 0.0, 0.0 if saved else MESSAGE_SECONDS
-        self.going = False  # a match is wanted, but not loaded yet
+        self.climber, self.said = climber, said
         self.access = Access(context, lambda: [self.climber.device])
-        self.focus = Focus(self.spots())
-        hints = [(Button.FIRE, "ladder.hint_ok"), (Button.BACK, "ladder.hint_later")]
-        self.prompts = context.prompts(hints, device=lambda: self.access.hint_device)
+        super().__init__(context, Focus(self.spots()), self.access)
+        self.going = False  # a match is wanted, but not loaded yet
+        if not saved:
+            self.show_message(context.words("app.unsaved"), wrong=True)
         self.queue = PrewarmQueue(self._jobs())
 
     @property
@@ -73,38 +72,25 @@ class LadderPage:
 
     def handle(self, event: InputEvent) -> StackOperation:
         """FIRE and START do what is selected, BACK leaves the climb for later."""
-        admitted = self.access.admit(self.prompts.as_button(event))
-        if admitted is None or self.age < INPUT_LOCKOUT or self.going:
-            return None
-        if admitted.button is Button.BACK:
-            self.context.sounds.play("back")
-            return Pop()
-        if self.focus.handle(admitted):
-            self.context.sounds.play("move")
-        chosen = self.focus.activated(admitted)
-        if chosen is None:
-            return None
+        return None if self.going else super().handle(event)
+
+    def choose(self, name: str, event: InputEvent) -> StackOperation:
         if not self.context.controls.connected(self.climber.device):
-            self.climber = replace(self.climber, device=device_of(admitted))
+            self.climber = replace(self.climber, device=device_of(event))
         self.context.sounds.play("accept")
-        return self._do(chosen)
+        return self._do(name)
 
-    def update(self, seconds: float) -> StackOperation:
-        """Animate; begin a match as soon as it is loaded; return to the title when idle."""
-        self.age += seconds
-        self.message_left -= seconds
-        self.focus.update(seconds)
-        if self.access.update(seconds):
-            self.context.sounds.play("back")
-            return Pop()
-        if self.going:
-            return self._begin()
-        return Home() if self.context.idle > IDLE else None
+    def advance(self, seconds: float) -> StackOperation:
+        """Begin a match as soon as it is loaded."""
+        return self._begin() if self.going else None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    @property
+    def subtitle(self) -> str:
+        return game_name(self.context.words, self.climb.game)
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the ladder, what happened last, and the items."""
         words, climb = self.context.words, self._shown()
-        screen.blit(backdrop(), (0, 0))
-        heading(words("ladder.title"), game_name(words, climb.game)).draw(screen)
         view.draw_ladder(screen, climb, self.age / view.CLIMB_SECONDS if self.said == "up" else 1.0, self.age)
         said = self.said or "welcome"
         color = FOCUS if said in GLAD else ICE
@@ -119,10 +105,6 @@ class LadderPage:
         for i, line in enumerate(paragraph(self._note(), W, 2, MIST)):
             line.draw(screen, X, NOTE_Y + NOTE_PITCH * i)
         self.focus.draw(screen)
-        if self.message_left > 0.0:
-            caption(words("app.unsaved"), ALARM).draw(screen, 960, self.prompts.y)
-        else:
-            self.prompts.draw(screen)
 
     def spots(self) -> list[FocusSpot]:
         """The items that are possible now."""
@@ -167,7 +149,7 @@ class LadderPage:
         """Change the climb, save it, and offer what is now possible."""
         self.climber, self.said = replace(self.climber, climb=climb), said
         if not self.climber.save():
-            self.message_left = MESSAGE_SECONDS
+            self.show_message(self.context.words("app.unsaved"), wrong=True)
         self.focus.set_spots(self.spots())
         self.focus.move_to(PLAY)
 

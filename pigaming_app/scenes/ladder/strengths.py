@@ -10,12 +10,12 @@ from pigaming_app.ai.registry import level_of
 from pigaming_app.events.league_files import Ratings, Strength, ratings_of
 from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.plugins.parts import data_folders
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import (
-    ALARM,
     BODY,
     FOCUS,
     ICE,
@@ -30,16 +30,13 @@ from pigaming_app.ui.draw import (
     text_width,
 )
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.numbers import signed
-from pigaming_app.ui.widgets.caption import caption
-from pigaming_app.ui.widgets.labels import heading, sign
+from pigaming_app.ui.widgets.labels import sign
 
-IDLE = 60.0  # s without input before the return to the title
-MESSAGE_SECONDS = 6.0  # s, display time of a message
 ROWS = 12  # at most
 GAME_Y, TOP, BOTTOM, NOTE_Y = 226, 272, 896, 924  # px
 PITCH = 76  # px from row to row, at most
@@ -47,47 +44,33 @@ NAMES, BARS, VALUES = LEFT, (556, 1640), RIGHT  # px: left edge, ends of the lon
 ARROW = 20  # px
 APART, WIPE = 0.06, 0.35  # s: delay from row to row, wipe of one row
 NAMED = ("idle", "random", "hand1", "hand2", "hand3")  # AIs that no other screen names
-CLOSING = Button.FIRE, Button.START, Button.BACK, Button.X, Button.CLICK
 
 log = logging.getLogger("pigaming")
 
 
-class Strengths:
-    """The page of a game; LEFT and RIGHT show another one."""
+class Strengths(Page):
+    """The page of a game; LEFT and RIGHT show another one, any button leaves."""
+
+    title = "strengths.title"
+    idle, stay = 60.0, 6.0
+    closing = Button.FIRE, Button.START, Button.X, Button.CLICK
+    hints = ((Button.FIRE, "results.on"), (Button.RIGHT, "ladder.hint_games"))
 
     def __init__(self, context: Context, game: str) -> None:
-        self.context = context
-        self.message_left = 0.0
-        hints = [(Button.FIRE, "results.on"), (Button.RIGHT, "ladder.hint_games")]
-        self.prompts = context.prompts(hints)
+        super().__init__(context)
         self._show(game)
 
-    def on_enter(self) -> None:
-        """Nothing to do."""
-
-    def handle(self, event: InputEvent) -> StackOperation:
-        """LEFT and RIGHT change the game, any button leaves."""
-        event = self.prompts.as_button(event)
+    def press(self, event: InputEvent) -> StackOperation:
         if event.button in (Button.LEFT, Button.RIGHT):
             names = shown_games()
             step = 1 if event.button is Button.RIGHT else -1
             self._show(names[(names.index(self.game) + step) % len(names)])
             self.context.sounds.play("move")
-        elif event.button in CLOSING:
-            self.context.sounds.play("back")
-            return Pop()
         return None
 
-    def update(self, seconds: float) -> StackOperation:
-        """Animate; return to the title when idle."""
-        self.age += seconds
-        self.message_left -= seconds
-        return Home() if self.context.idle > IDLE else None
-
-    def draw(self, screen: pygame.Surface) -> None:
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the name of the game and the bars."""
         words, name = self.context.words, self.context.words(f"games.{self.game}")
-        screen.blit(backdrop(), (0, 0))
-        heading(words("strengths.title"), self._conditions()).draw(screen)
         text(name, LABEL, ICE, "head").draw(screen, 960, GAME_Y)
         reach = text_width(name, LABEL) / 2 + 60
         for side, x in (("left", 960 - reach), ("right", 960 + reach)):
@@ -97,10 +80,6 @@ class Strengths:
             text(words("strengths.measure"), BODY, MIST).draw(screen, 960, NOTE_Y)
         else:
             text(words("strengths.none"), LABEL, MIST, "head").draw(screen, 960, 540)
-        if self.message_left > 0.0:
-            caption(words("strengths.damaged"), ALARM).draw(screen, 960, self.prompts.y)
-        else:
-            self.prompts.draw(screen)
 
     # ---- inside
 
@@ -111,9 +90,10 @@ class Strengths:
         self.ratings, problems = ratings_of(game, (folders().data, shipped))
         for sentence in problems:
             log.warning("%s", sentence)
-        self.message_left = MESSAGE_SECONDS if problems else 0.0
+        self.show_message(self.context.words("strengths.damaged") if problems else "", wrong=True)
 
-    def _conditions(self) -> str:
+    @property
+    def subtitle(self) -> str:
         """Rules and number of matches of the league."""
         if not self.ratings:
             return ""

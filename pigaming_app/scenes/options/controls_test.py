@@ -13,37 +13,38 @@ from pigaming_app.ai.registry import AIS
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.match_choice import last_choice
-from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.options import controls_pictures as gadgets
+from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.sim.robot import GAIN, integrate
 from pigaming_app.sim.world import Robot
 from pigaming_app.ui.draw import ADD, ICE
-from pigaming_app.ui.draw.layers import backdrop, span
+from pigaming_app.ui.draw.layers import span
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, step
 from pigaming_app.ui.input.events import Button, Device, InputEvent, StickState
 from pigaming_app.ui.input.keyboard import NUM
-from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
-from pigaming_app.ui.widgets.labels import black_out, blit_sprite, heading
+from pigaming_app.ui.widgets.labels import black_out, blit_sprite
 
 PLACES = 4
 PADS_Y, KEYS_Y = 216, 580
 HOLD = 0.8  # seconds
 LIT = 0.25  # seconds for which a short press stays highlighted
-IDLE = 120.0  # seconds without input until the title
 SPEED, TURN_RATE = 60.0, 3.0  # px/s and rad/s of the small robots
 TETHER = 0.94  # share of its distance from the middle that a robot keeps in a tick
 GAME = "pitanks"  # whose driving styles are tried
 BUTTONS = (Button.FIRE, Button.BACK, Button.X, Button.Y, Button.START)
 
 
-class ControlsTest:
+class ControlsTest(Page):
     """The page. `lit`: remaining seconds of each highlighted button."""
 
+    title, idle = "padtest.title", 120.0
+
     def __init__(self, context: Context) -> None:
-        self.context = context
+        super().__init__(context)
         self.holding: Device | None = None
         self.held = 0.0
         self.lit: dict[tuple[Device, Button], float] = {}
@@ -51,14 +52,11 @@ class ControlsTest:
         self.timestep = FixedTimestep()
         self.clicks: list[tuple[float, float, float]] = []  # x, y, age in seconds
 
-    def on_enter(self) -> None:
-        pass
-
     def handle(self, event: InputEvent) -> StackOperation:
         """Highlight the button; Escape, the prompt, and B held, leave."""
-        action = self._prompts().as_button(event)
+        action = self.prompts.as_button(event)
         if action.button is Button.BACK and not action.device.has_stick:
-            return self._leave()
+            return self.leave()
         if action.button is Button.BACK:
             self.holding, self.held = action.device, 0.0
         if event.button is Button.CLICK and event.at:
@@ -68,7 +66,7 @@ class ControlsTest:
         self.lit[event.device, event.button] = LIT
         return None
 
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         """Turn the robots, fade highlights, check for B held."""
         controls = self.context.controls
         self.lit = {key: left - seconds for key, left in self.lit.items() if left > seconds}
@@ -79,16 +77,18 @@ class ControlsTest:
         if self.holding and controls.drive(self.holding).turbo:
             self.held += seconds
             if self.held > HOLD:
-                return self._leave()
+                return self.leave()
         else:
             self.holding = None
-        return Home() if self.context.idle > IDLE else None
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    @property
+    def subtitle(self) -> str:
+        return self.context.words("padtest.line")
+
+    def paint(self, screen: pygame.Surface) -> None:
         """Draw the current state of every device."""
         words = self.context.words
-        screen.blit(backdrop(), (0, 0))
-        heading(words("padtest.title"), words("padtest.line")).draw(screen)
         pads = self.context.controls.handhelds()[:PLACES]
         for i in range(PLACES):
             x = span(3 * i, 3)[0]
@@ -101,15 +101,10 @@ class ControlsTest:
         for x_, y_, age in self.clicks:
             wave = effects.wave(ICE, min(effects.WAVE_STEPS - 1, int(age / 0.45 * effects.WAVE_STEPS)))
             screen.blit(wave.image, (round(x_ + wave.dx), round(y_ + wave.dy)), special_flags=ADD)
-        self._prompts().draw(screen)
 
-    def _prompts(self) -> ButtonPrompts:
-        pad = self.context.controls.last.has_stick
-        return self.context.prompts([(Button.BACK, "padtest.hint_hold" if pad else "padtest.hint_back")])
-
-    def _leave(self) -> StackOperation:
-        self.context.sounds.play("back")
-        return Pop()
+    @property
+    def hints(self) -> Hints:
+        return [(Button.BACK, "padtest.hint_hold" if self.context.controls.last.has_stick else "padtest.hint_back")]
 
     def _pad(self, screen: pygame.Surface, x: int, y: int, device: Device) -> None:
         controls, words = self.context.controls, self.context.words

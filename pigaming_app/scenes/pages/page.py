@@ -18,7 +18,7 @@ from pigaming_app.ui.draw.layers import LitImage, backdrop
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.button_prompts import ROOM, ButtonPrompts
 from pigaming_app.ui.widgets.caption import caption
-from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.focus import DIRECTIONS, Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import heading
 
 Hints = Sequence[tuple[Button, str]]
@@ -34,10 +34,13 @@ class Page:
     when_idle: StackOperation = Home()  # after them
     stay = 4.0  # s for which a message is shown
     prompts_y, prompts_room = 980, ROOM  # px
+    closing: Sequence[Button] = ()  # buttons that leave, besides BACK
+    lockout = 0.0  # s after opening in which only directions count: players may still hammer
 
     def __init__(self, context: Context, focus: Focus | None = None, gate: Access | None = None) -> None:
         self.context, self.focus, self.gate = context, focus or Focus([NOWHERE]), gate
         self.age = 0.0  # s since it was opened
+        self.untouched = 0.0  # s since it was opened or got an input
         self.wrong = False  # the message is bad news
         self._message, self._message_left = "", 0.0
 
@@ -57,6 +60,11 @@ class Page:
     def subtitle(self) -> str:
         """The text beside the heading."""
         return ""
+
+    @property
+    def resting(self) -> float:
+        """s without input: since the last one anywhere, if the page does not count for itself."""
+        return self.context.idle
 
     def press(self, event: InputEvent) -> StackOperation:
         """Act on an input other than BACK: move the focus, or do what it activates."""
@@ -83,27 +91,36 @@ class Page:
 
     def handle(self, event: InputEvent) -> StackOperation:
         """BACK leaves; other inputs are up to the page."""
+        self.untouched = 0.0
+        if self.age < self.lockout and event.button not in (*DIRECTIONS, Button.POINT):
+            return None
         admitted: InputEvent | None = self.prompts.as_button(event)
         if self.gate and admitted:
             admitted = self.gate.admit(admitted)
         if admitted is None:
             return None
-        return self.leave() if admitted.button is Button.BACK else self.press(admitted)
+        leaves = admitted.button is Button.BACK or admitted.button in self.closing
+        return self.leave() if leaves else self.press(admitted)
 
     def update(self, seconds: float) -> StackOperation:
         """Animate; leave after a while without input."""
         self.age += seconds
+        self.untouched += seconds
         self._message_left -= seconds
         self.focus.update(seconds)
         if self.gate and self.gate.update(seconds):
             return self.leave()
-        return self.advance(seconds) or (self.when_idle if self.context.idle > self.idle else None)
+        return self.advance(seconds) or (self.when_idle if self.resting > self.idle else None)
 
     def draw(self, screen: pygame.Surface) -> None:
+        self.show(screen)
+        self.draw_foot(screen)
+
+    def show(self, screen: pygame.Surface) -> None:
+        """Draw it without what only a visitor needs."""
         screen.blit(backdrop(), (0, 0))
         self.heading.draw(screen)
         self.paint(screen)
-        self.draw_foot(screen)
 
     # ---- parts
 

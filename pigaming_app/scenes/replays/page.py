@@ -5,38 +5,35 @@ import pygame
 from pigaming_app.games.replay import Replay
 from pigaming_app.scenes.features.replays import to_match
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
+from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.play.replay import ReplayScene
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.recordings.store import StoreError
 from pigaming_app.scenes.replays import view
 from pigaming_app.scenes.replays.view import ROWS, Entry
-from pigaming_app.ui.draw import ALARM, ICE, LABEL, MIST
-from pigaming_app.ui.draw.layers import backdrop
+from pigaming_app.ui.draw import ICE, LABEL, MIST
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
-from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, heading
+from pigaming_app.ui.widgets.labels import black_out
 
-IDLE = 60.0  # s without input before the return to the title
-INPUT_LOCKOUT = 0.3  # s during which input is ignored
+INPUT_LOCKOUT = 0.3  # s during which only BACK counts
 PREWARM_MS = 5.0  # ms per frame for prewarming
 CONFIRM_SECONDS = 3.0  # s for the second press
-MESSAGE_SECONDS = 4.0  # s, display time of a message
 
 
-class ReplaysPage:
+class ReplaysPage(Page):
     """Pages of rows, the latest replay first. A file is read when its row is first shown."""
 
+    title, idle = "replays.title", 60.0
+
     def __init__(self, context: Context) -> None:
-        self.context = context
         self.entries = [Entry(path) for path in store.paths()]
-        self.page, self.age, self.message, self.message_left, self.confirm_left = 0, 0.0, "", 0.0, 0.0
+        self.page, self.confirm_left = 0, 0.0
         self.asked: Entry | None = None  # replay that a second press deletes
-        self.focus = Focus(self._spots())
+        super().__init__(context, Focus(self._spots()))
         self.warmup: dict[str, MatchRunner] = {}  # by game
 
     def on_enter(self) -> None:
@@ -44,13 +41,11 @@ class ReplaysPage:
         self.age = 0.0
         self.context.sounds.music(True)
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """FIRE plays, X deletes, LEFT and RIGHT turn the page, BACK leaves."""
-        event = self.prompts.as_button(event)
-        if event.button is Button.BACK or (not self.entries and event.button in (Button.FIRE, Button.START)):
-            self.context.sounds.play("back")
-            return Pop()
-        if not self.entries or self.age < INPUT_LOCKOUT:
+    def press(self, event: InputEvent) -> StackOperation:
+        """FIRE plays, X deletes, LEFT and RIGHT turn the page."""
+        if not self.entries:
+            return self.leave() if event.button in (Button.FIRE, Button.START) else None
+        if self.age < INPUT_LOCKOUT:
             return None
         if event.button in (Button.LEFT, Button.RIGHT):
             self._turn(1 if event.button is Button.RIGHT else -1)
@@ -60,29 +55,29 @@ class ReplaysPage:
             self.focus.handle(event)
             self._delete(self.entry)
         else:
-            if self.focus.handle(event):
-                self.context.sounds.play("move")
-            chosen = self.focus.activated(event)
-            return self._play(self.entries[int(chosen)]) if chosen else None
+            return super().press(event)
         return None
 
-    def update(self, seconds: float) -> StackOperation:
-        """Read the files of this page, one per frame, and prewarm the focused one; return to the title when idle."""
-        self.age += seconds
-        self.message_left -= seconds
+    def choose(self, name: str, event: InputEvent) -> StackOperation:
+        return self._play(self.entries[int(name)])
+
+    def advance(self, seconds: float) -> StackOperation:
+        """Read the files of this page, one per frame, and prewarm the focused one."""
         self.confirm_left -= seconds
-        self.focus.update(seconds)
         unread = next((entry for entry in self._shown() if not entry.read), None)
         if unread:
             unread.load(self.context.words.language)
         elif self.entries and self.entry.replay:
             self._prewarm(self.entry.replay)
-        return Home() if self.context.idle > IDLE else None
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    @property
+    def subtitle(self) -> str:
+        return f"{self.page + 1} / {self.pages}" if self.pages > 1 else ""
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the rows of this page."""
         words = self.context.words
-        screen.blit(backdrop(), (0, 0))
-        heading(words("replays.title"), f"{self.page + 1} / {self.pages}" if self.pages > 1 else "").draw(screen)
         if not self.entries:
             text(words("replays.none"), LABEL, ICE, "head").draw(screen, 960, 500)
             text(words("replays.how"), 40, MIST).draw(screen, 960, 580)
@@ -100,20 +95,15 @@ class ReplaysPage:
                 view.cross(asked).draw(screen, *view.cross_box(i).topleft)
         if self.entries:
             self.focus.draw(screen)
-        if self.message_left > 0.0:
-            caption(self.message, ALARM).draw(screen, 960, self.prompts.y)
-        else:
-            self.prompts.draw(screen)
 
     # ---- inside
 
     @property
-    def prompts(self) -> ButtonPrompts:
-        """The current button prompts."""
+    def hints(self) -> Hints:
         hints = [(Button.FIRE, "replays.hint_play")] if self.entries else []
         hints += [(Button.RIGHT, "replays.hint_page")] if self.pages > 1 else []
         hints += [(Button.X, "replays.hint_delete")] if self.entries and self.deletable else []
-        return self.context.prompts([*hints, (Button.BACK, "replays.hint_back")])
+        return [*hints, (Button.BACK, "replays.hint_back")]
 
     @property
     def deletable(self) -> bool:
@@ -185,5 +175,5 @@ class ReplaysPage:
         self.context.sounds.play("back")
 
     def _say(self, key: str) -> None:
-        self.message, self.message_left = self.context.words(key), MESSAGE_SECONDS
+        self.show_message(self.context.words(key), wrong=True)
         self.context.sounds.play("error")

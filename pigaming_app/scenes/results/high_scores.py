@@ -12,6 +12,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_of_table, arena_title, load_cached
 from pigaming_app.scenes.flow.match_words import match_length
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.results.high_score_tables import (
     HighScoreTable,
     contests,
@@ -20,70 +21,62 @@ from pigaming_app.scenes.results.high_score_tables import (
 )
 from pigaming_app.storage.scores import Score, ScoreTable
 from pigaming_app.ui.draw import BODY, ICE, LABEL, MIST, text_width
-from pigaming_app.ui.draw.layers import RIGHT, backdrop, span
+from pigaming_app.ui.draw.layers import RIGHT, span
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.arrows import as_direction, draw_arrows
-from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.score_board import Board, BoardRow
 
 WHERE_Y, LINE_Y = 112, 234  # px
-STAY = 12.0  # s without input
-INPUT_LOCKOUT = 0.4  # s during which input is ignored
 ROOM, WHERE_ROOM = 1360, 800  # px: maximum width of the conditions, and of game and arena
 STEPS = {Button.LEFT: -1, Button.RIGHT: 1, Button.UP: -1, Button.DOWN: 1}
-CLOSING = Button.FIRE, Button.START, Button.BACK, Button.Y, Button.CLICK
 
 
-class HighScores:
+class HighScores(Page):
     """The tables of a contest, or of the first one with rows if they are empty. `fresh`: new rows, highlighted."""
 
+    title = "results.scores"
+    idle, when_idle, lockout = 12.0, Pop(), 0.4
+    closing = Button.FIRE, Button.START, Button.Y, Button.CLICK
+    hints = ((Button.FIRE, "results.on"),)
+
     def __init__(self, context: Context, contest: ScoreTable, fresh: Sequence[Score] = ()) -> None:
-        self.context, self.fresh = context, list(fresh)
+        super().__init__(context)
+        self.fresh = list(fresh)
         self.shelf = [table for table in contests(context.scores) if arena_of_table(table.game, table.arena)]
         self._show(nearest(contest, self.shelf))
-        self.age = self.idle = 0.0
-        self.prompts = context.prompts([(Button.FIRE, "results.on")])
 
     @property
     def game(self) -> str:
         """The game on display."""
         return self.contest.game
 
-    def on_enter(self) -> None:
-        """Nothing to do."""
+    @property
+    def resting(self) -> float:
+        return self.untouched
 
     def handle(self, event: InputEvent) -> StackOperation:
         """Directions and arrows select other tables; any button continues."""
-        event = self.prompts.as_button(event)
-        self.idle = 0.0
-        event = as_direction(event, self.arrows)
+        return super().handle(as_direction(event, self.arrows))
+
+    def press(self, event: InputEvent) -> StackOperation:
         if event.button in STEPS:
             self._step(event.button)
-        elif self.age > INPUT_LOCKOUT and event.button in CLOSING:
-            self.context.sounds.play("back")
-            return Pop()
         return None
 
-    def update(self, seconds: float) -> StackOperation:
-        """Continue after a while without input."""
-        self.age += seconds
+    def advance(self, seconds: float) -> StackOperation:
         self.turned += seconds
-        self.idle += seconds
-        return Pop() if self.idle > STAY else None
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
-        """Draw the tables and the prompt."""
-        self.paint(screen)
+    def draw_foot(self, screen: pygame.Surface) -> None:
+        """Draw the arrows, too."""
         draw_arrows(screen, self.arrows)
-        self.prompts.draw(screen)
+        super().draw_foot(screen)
 
     def paint(self, screen: pygame.Surface) -> None:
-        """Draw the tables only; their rows are revealed one after the other."""
+        """Draw the tables; their rows are revealed one after the other."""
         words, contest = self.context.words, self.contest
-        screen.blit(backdrop(), (0, 0))
-        heading(words("results.scores")).draw(screen)
         text(self._where(), BODY, MIST, "body", "r", WHERE_ROOM).draw(screen, RIGHT, WHERE_Y)
         text(conditions(words, contest), LABEL, ICE, "head", "c", ROOM).draw(screen, 960, LINE_Y)
         tables = high_score_tables(contest)

@@ -115,7 +115,7 @@ class Attract:
         if not tables:
             return None
         best = HighScores(self.context, secrets.choice(tables))
-        return TimedPage(best, best.paint)
+        return TimedPage(best, best.show)
 
     def _of_features(self) -> Iterator[Callable[[str], Scene | None]]:
         """The shows of features."""

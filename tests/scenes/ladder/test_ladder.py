@@ -13,7 +13,7 @@ from pigaming_app.scenes.flow.stack import Swap
 from pigaming_app.scenes.ladder.choice import LadderChoice
 from pigaming_app.scenes.ladder.climber import Climber
 from pigaming_app.scenes.ladder.climbers import Climbers
-from pigaming_app.scenes.ladder.rungs import INPUT_LOCKOUT, LadderPage, after_match
+from pigaming_app.scenes.ladder.rungs import LadderPage, after_match
 from pigaming_app.scenes.ladder.strengths import Strengths, shown
 from pigaming_app.scenes.ladder.summit import SKIP, Summit
 from pigaming_app.scenes.play.pause import Pause
@@ -45,7 +45,7 @@ def saved() -> list[Climb]:
 def begin(arcade: Arcade, device: Device = KEYS[0]) -> MatchScene:
     """From the ladder into the match."""
     arcade.shown(LadderPage)
-    arcade.wait(INPUT_LOCKOUT + 0.1)
+    arcade.wait(LadderPage.lockout + 0.1)
     arcade.press(Button.FIRE, device)
     return arcade.shown(MatchScene)
 
@@ -85,7 +85,7 @@ def test_a_climb_from_the_first_rung_to_the_letters_and_the_table(arcade: Arcade
     assert saved() == [Climb("pitanks", wins=1)]
     play_unseen(arcade, 5, 0)
     assert (page(arcade).said, page(arcade).climb.rung) == ("up", 2)
-    arcade.wait(INPUT_LOCKOUT + 0.1)
+    arcade.wait(LadderPage.lockout + 0.1)
     page(arcade).climber = Climber(Climb("pitanks", rung=5, wins=1, beaten=4, lost=2), page(arcade).climber.number)
     play(arcade, 5, 0)
     assert arcade.shown(Summit).climb.at_top
@@ -129,7 +129,7 @@ def test_weaker_robots_are_offered_between_matches_and_shown_on_the_ladder(arcad
     assert [spot.name for spot in page(arcade).focus.spots] == ["play", "stop"]
     play_unseen(arcade, -5, 5)
     assert [spot.name for spot in page(arcade).focus.spots] == ["play", "easier", "stop"]
-    arcade.wait(INPUT_LOCKOUT + 0.1)
+    arcade.wait(LadderPage.lockout + 0.1)
     arcade.press(Button.DOWN)
     assert page(arcade)._shown().level == 2, "seen before it is chosen"
     arcade.press(Button.FIRE)
@@ -173,7 +173,7 @@ def test_only_the_climber_acts_until_the_pad_is_pulled(arcade: Arcade) -> None:
     arcade.frame()
     mine = page(arcade).climber.device
     assert mine.kind == "pad"
-    arcade.wait(INPUT_LOCKOUT + 0.1)
+    arcade.wait(LadderPage.lockout + 0.1)
     arcade.press(Button.FIRE, KEYS[1])
     arcade.shown(LadderPage)
     pad.unplug()
@@ -190,7 +190,7 @@ def test_a_climb_that_was_left_goes_on_and_one_that_ends_without_stars_is_gone(a
     arcade.press(Button.FIRE)
     assert page(arcade).climb == Climb("pitanks", wins=1)
     assert [spot.name for spot in page(arcade).focus.spots] == ["play", "anew", "stop"]
-    arcade.wait(INPUT_LOCKOUT + 0.1)
+    arcade.wait(LadderPage.lockout + 0.1)
     arcade.press(Button.UP)
     arcade.press(Button.FIRE)
     assert arcade.shown(LadderChoice).saved.keys() == {"race"}
@@ -216,7 +216,7 @@ def test_a_damaged_file_is_told_in_one_line_and_a_full_disk_too(
     monkeypatch.setattr(climb_files, "write_with_backup", refuse)
     arcade.open(LadderPage(arcade.context, Climber(Climb("pitanks"), 1, KEYS[0])))
     play_unseen(arcade, 5, 0)
-    assert page(arcade).message_left > 0.0
+    assert page(arcade).message
     assert page(arcade).climb.wins == 1, "the climb goes on"
 
 
@@ -249,7 +249,7 @@ def test_the_ratings_of_each_game_are_one_press_away_and_the_users_own_come_firs
     (folders().data / file_name("race")).write_text("{}", encoding="utf-8")
     arcade.press(Button.RIGHT)
     page = arcade.shown(Strengths)
-    assert page.message_left > 0.0
+    assert page.message
     assert page.ratings, "the shipped ones"
     arcade.press(Button.BACK)
     arcade.shown(LadderChoice)

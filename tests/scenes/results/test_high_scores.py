@@ -7,7 +7,7 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.results.high_score_tables import contests
-from pigaming_app.scenes.results.high_scores import INPUT_LOCKOUT, STAY, HighScores, conditions
+from pigaming_app.scenes.results.high_scores import HighScores, conditions
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.draw import text_width
 from pigaming_app.ui.i18n import LANGUAGES, Words
@@ -33,7 +33,7 @@ def opened(arcade: Arcade, at: ScoreTable, *filled: ScoreTable) -> HighScores:
         arcade.context.scores.add(table, "ABC", 9_000)
     best = HighScores(arcade.context, replace(at, feat="", timed=False))
     arcade.open(best)
-    arcade.wait(INPUT_LOCKOUT + 0.1, draw=True)
+    arcade.wait(HighScores.lockout + 0.1, draw=True)
     return best
 
 
@@ -99,9 +99,9 @@ def test_a_click_on_an_arrow_goes_its_way_and_a_click_elsewhere_leads_on(arcade:
 
 def test_it_leaves_when_nobody_presses_any_more(arcade: Arcade) -> None:
     best = opened(arcade, ALONE, ALONE, PAIR)
-    arcade.wait(STAY - 2.0)
+    arcade.wait(HighScores.idle - 2.0)
     arcade.press(Button.RIGHT)
-    arcade.wait(STAY - 1.0)
+    arcade.wait(HighScores.idle - 1.0)
     assert arcade.stack.top is best
     arcade.wait(2.0)
     assert arcade.stack.top is not best
