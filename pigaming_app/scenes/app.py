@@ -65,6 +65,7 @@ class App:
         self.frames, self.seconds = 0, 0.0
         self.frozen = False  # whether loaded objects are exempt from garbage collection
         self.shown, self.unfinished = False, 0  # whether a picture was shown yet; frames since the last one
+        self.put_off = False  # whether the last frame was spent on the update
         self.failures, self.failed_at = 0, -FAILURE_WINDOW
         self.blamed: Plugin | None = None  # for the last failure
         self.watchdog = Watchdog(MAX_FRAME, is_running)
@@ -157,10 +158,11 @@ class App:
             elif event.type == pygame.DROPFILE:
                 self.context.dropped.append(Path(event.file))
         first = not self.shown
-        with budget.frame(self.unfinished > 0 or freed):
+        end = cpu_start + PREWARM_UNTIL if self.options.step is None else math.inf
+        with budget.frame(self.unfinished > 0 or freed, end):
             self._dispatch(events, seconds)
             updated = perf_counter()
-            if not self.stack.scenes or not self._paint(cpu_start):
+            if not self.stack.scenes or not self._paint(end):
                 return False
         for service in self.services:
             service.draw(self.context.canvas.screen)
@@ -170,13 +172,14 @@ class App:
         self.meter.note(seconds, updated - start, perf_counter() - updated)
         return True
 
-    def _paint(self, cpu_start: float) -> bool:
-        """Draw the top scene in the rest of a frame that started at `began`; false if it is incomplete."""
+    def _paint(self, end: float) -> bool:
+        """Draw the top scene; false if it is incomplete at `end`, after which no more missing sprites are built."""
         screen = self.context.canvas.screen
-        limited = self.options.step is None and self.shown and self.unfinished < MAX_UNFINISHED
+        limited = self.shown and self.unfinished < MAX_UNFINISHED
         try:
-            with budget.until(cpu_start + PREWARM_UNTIL if limited else math.inf):
-                if not self.unfinished and clock() >= cpu_start + PREWARM_UNTIL:
+            with budget.until(end if limited else math.inf):
+                self.put_off = clock() >= end and not self.put_off
+                if self.put_off:
                     budget.note()  # the update took the whole frame: build missing sprites in the next one
                 self.stack.top.draw(screen)
         except Unfinished:

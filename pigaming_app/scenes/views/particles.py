@@ -5,6 +5,8 @@ Runs in real time with its own random generator. The number of particles is limi
 
 import math
 import random
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import NamedTuple
 
 from pigaming_app.scenes.views.background import LEFT, TOP
@@ -22,6 +24,7 @@ from pigaming_app.scenes.views.sprites.effects import (
 from pigaming_app.scenes.views.sprites.pickups import POPUP_LEVELS, popup
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import Color
+from pigaming_app.ui.draw.frame_budget import Unfinished
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put, step
 
 MAX_PARTICLES = 320  # limit of live particles
@@ -30,10 +33,31 @@ CALM_BURSTS = 3  # in a second, in calm mode
 RISE, RISING = 60.0, 0.8  # px, s: height and duration of a popup
 Cone = tuple[float, float]  # centre and half the opening angle, rad
 ALL: Cone = (0.0, math.pi)
+Frame = Callable[[float], Sprite]  # picture at a share (0..1) of an effect's life; may be built only then
+
+
+def reel(make: Callable[..., Sequence[Sprite]], *args: object) -> Frame:
+    """The sprites of `make(*args)` in their order."""
+
+    def frame(t: float) -> Sprite:
+        frames = make(*args)
+        return frames[int(t * len(frames))]
+
+    return frame
+
+
+def fading(make: Callable[..., Sequence[Sprite]], *args: object) -> Frame:
+    """The sprites of `make(*args)` from the last one, the brightest, to the first."""
+
+    def frame(t: float) -> Sprite:
+        frames = make(*args)
+        return frames[min(int((1.0 - t) * len(frames)), len(frames) - 1)]
+
+    return frame
 
 
 class Particle(NamedTuple):
-    """Moves by (dx, dy) px within `life` seconds, decelerating and fading; the last of `frames` is the brightest."""
+    """Moves by (dx, dy) px within `life` seconds, decelerating."""
 
     born: float
     life: float
@@ -41,7 +65,7 @@ class Particle(NamedTuple):
     y: float
     dx: float
     dy: float
-    frames: tuple[Sprite, ...]
+    frame: Frame
 
 
 class Bloom(NamedTuple):
@@ -51,7 +75,7 @@ class Bloom(NamedTuple):
     life: float
     x: float
     y: float
-    frames: tuple[Sprite, ...]
+    frame: Frame
 
 
 class ScorePopup(NamedTuple):
@@ -85,30 +109,30 @@ class Particles:
             a = cone[0] + self.random.uniform(-cone[1], cone[1])
             c, s, far = math.cos(a), math.sin(a), reach * self.random.random() ** 0.6
             near = start * self.random.uniform(1.0, 1.3)
-            frames = sparks(color, self.random.choice(SPARK_SIZES), step(a, SPARK_TURNS))
+            frame = fading(sparks, color, self.random.choice(SPARK_SIZES), step(a, SPARK_TURNS))
             life = self.random.uniform(0.3, 0.75)
-            self.particles.append(Particle(self.clock, life, x + near * c, y + near * s, far * c, far * s, frames))
+            self.particles.append(Particle(self.clock, life, x + near * c, y + near * s, far * c, far * s, frame))
 
     def debris(self, ax: float, ay: float, bx: float, by: float, count: int) -> None:
         """Splinters along a line."""
         for _ in range(min(count, MAX_PARTICLES - len(self.particles))):
             t, a, far = self.random.random(), self.random.uniform(0, math.tau), self.random.uniform(20, 90)
-            frames = shards(self.random.randrange(SHARDS), self.random.randrange(SPARK_TURNS))
+            frame = fading(shards, self.random.randrange(SHARDS), self.random.randrange(SPARK_TURNS))
             x, y, life = ax + (bx - ax) * t, ay + (by - ay) * t, self.random.uniform(0.5, 1.1)
-            self.particles.append(Particle(self.clock, life, x, y, far * math.cos(a), far * math.sin(a), frames))
+            self.particles.append(Particle(self.clock, life, x, y, far * math.cos(a), far * math.sin(a), frame))
 
     def shock(self, x: float, y: float, color: Color) -> None:
         """Shock wave on the ground."""
-        self.bloom(x, y, 0.45, tuple(wave(color, i) for i in range(WAVE_STEPS)))
+        self.bloom(x, y, 0.45, lambda t: wave(color, int(t * WAVE_STEPS)))
 
     def glow(self, x: float, y: float, color: Color, seconds: float = 0.35) -> None:
         """Fading light on the ground."""
-        self.bloom(x, y, seconds, tuple(light(color, i) for i in range(LIGHT_LEVELS, 0, -1)))
+        self.bloom(x, y, seconds, lambda t: light(color, LIGHT_LEVELS - int(t * LIGHT_LEVELS)))
 
-    def bloom(self, x: float, y: float, seconds: float, frames: tuple[Sprite, ...]) -> None:
+    def bloom(self, x: float, y: float, seconds: float, frame: Frame) -> None:
         """Light that plays its frames once."""
         if self._permitted():
-            self.blooms.append(Bloom(self.clock, seconds, x, y, frames))
+            self.blooms.append(Bloom(self.clock, seconds, x, y, frame))
 
     def score(self, x: float, y: float, text: str, player: int) -> None:
         """Score popup over a robot, kept inside the arena; replaces an overlapping one."""
@@ -147,15 +171,19 @@ class Particles:
         return round(swing * math.sin(self.clock * 71.0)), round(swing * math.cos(self.clock * 83.0))
 
     def draw_light(self, batch: Batch) -> None:
-        """Collect the additive sprites."""
+        """Collect the additive sprites that are built, or can be in this frame."""
         now = self.clock
-        for born, life, x, y, dx, dy, frames in self.particles:
+        for born, life, x, y, dx, dy, frame in self.particles:
             t = (now - born) / life
             far = t * (2.0 - t)
-            image, ox, oy = frames[int((1.0 - t) * len(frames))] if t > 0.0 else frames[-1]
+            try:
+                image, ox, oy = frame(t)
+            except Unfinished:
+                continue
             batch.append((image, (int(x + dx * far + ox), int(y + dy * far + oy))))
-        for born, life, x, y, frames in self.blooms:
-            put(batch, frames[int((now - born) / life * len(frames))], x, y)
+        for born, life, x, y, frame in self.blooms:
+            with suppress(Unfinished):
+                put(batch, frame((now - born) / life), x, y)
 
     def draw_scores(self, batch: Batch) -> None:
         """Collect the popups, which cover what is below them."""

@@ -9,6 +9,7 @@ import pygame
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud.parts import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.hud.score import ScoreHud, pulse
+from pigaming_app.scenes.views.particles import reel
 from pigaming_app.scenes.views.rumble import GIVEN
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
@@ -93,7 +94,7 @@ class SimpleView(MatchView):
         self.walls.show_walls(state)
         for slot in self.hud.show(state):
             if self.options.flashes != "off":
-                self.particles.bloom(slot.x, TOP_OF_PANELS, 0.4, pulse(slot.seat, slot.w))
+                self.particles.bloom(slot.x, TOP_OF_PANELS, 0.4, reel(pulse, slot.seat, slot.w))
         under: Batch = []
         over: Batch = []
         light: Batch = []

@@ -16,7 +16,7 @@ from typing import Any, ParamSpec, TypeVar
 
 # Thread time where its resolution allows: other processes then do not use up a frame's budget.
 clock = thread_time if get_clock_info("thread_time").resolution < 1e-4 else perf_counter
-MAX_PAUSED = 4  # interrupted generators kept: one of the picture, others of what is made ahead; each holds up to 100 MB
+MAX_PAUSED = 4  # interrupted generators kept: one of the picture, others of what is made ahead; each holds up to 30 MB
 
 Args = ParamSpec("Args")
 Result = TypeVar("Result")
@@ -32,18 +32,23 @@ class FrameBudget:
     """Time limit for building sprites. Each frame, or each limit outside a frame, always allows one."""
 
     def __init__(self) -> None:
-        self._end = math.inf
+        self._end = self.prewarm_end = math.inf  # times of `clock`; `prewarm_end`: no prewarming begins after it
         self._built = self._in_frame = False
         self.behind = False  # the frame is late: draw the picture only, prewarm nothing
 
     @contextmanager
-    def frame(self, behind: bool) -> Iterator[None]:
-        """Scope of one frame; `behind`: it is late."""
-        self._in_frame, self._built, self.behind = True, False, behind
+    def frame(self, behind: bool, prewarm_end: float = math.inf) -> Iterator[None]:
+        """Scope of one frame; `behind`: it is late; `prewarm_end`: time of `clock` after which nothing is prewarmed."""
+        self._in_frame, self._built, self.behind, self.prewarm_end = True, False, behind, prewarm_end
         try:
             yield
         finally:
             self._in_frame = self.behind = False
+            self.prewarm_end = math.inf
+
+    def end_of_prewarming(self, milliseconds: float) -> float:
+        """The time at which prewarming of so many ms ends; it is past if the frame has no time for any."""
+        return -math.inf if self.behind else min(clock() + milliseconds / 1000.0, self.prewarm_end)
 
     @contextmanager
     def until(self, end: float) -> Iterator[None]:
@@ -88,9 +93,9 @@ class PrewarmQueue:
 
     def work(self, milliseconds: float) -> bool:
         """Run jobs for up to `milliseconds`, or none if the frame is late; true when the queue is empty."""
-        if budget.behind:
+        end = budget.end_of_prewarming(milliseconds)
+        if clock() >= end:
             return self._next is None
-        end = clock() + milliseconds / 1000.0
         with budget.until(end):
             while self._next:
                 try:
@@ -150,9 +155,10 @@ def drop_paused() -> None:
 
 def finished_within(work: Callable[[], None], milliseconds: float) -> bool:
     """Do resumable work for at most this many milliseconds; true when it is complete."""
-    if budget.behind:
+    end = budget.end_of_prewarming(milliseconds)
+    if clock() >= end:
         return False
-    with budget.until(clock() + milliseconds / 1000):
+    with budget.until(end):
         try:
             work()
         except Unfinished:

@@ -99,6 +99,18 @@ def test_a_piece_longer_than_the_budget_is_still_made(watch: Watch) -> None:
     assert made == [0, 1, 2]
 
 
+def test_two_queues_share_the_time_of_a_frame(watch: Watch) -> None:
+    made, piece = pieces(watch, 0.8 * FRAME)
+    queues = [PrewarmQueue([partial(piece, 2 * number + k) for number in range(3)]) for k in (0, 1)]
+    for _ in range(3):
+        began = watch.now
+        with budget.frame(False, began + FRAME):
+            for queue in queues:
+                queue.work(1000 * FRAME)
+        assert watch.now - began < 2 * FRAME
+    assert made[:2] == [0, 2], "the second one waits for the first"
+
+
 def test_interrupted_work_goes_on_where_it_was(watch: Watch) -> None:
     done: list[int] = []
 

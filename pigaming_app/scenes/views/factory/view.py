@@ -35,6 +35,7 @@ from pigaming_app.scenes.views.factory.panels import X as PANELS
 from pigaming_app.scenes.views.factory.panels import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.factory.panels import pulse
 from pigaming_app.scenes.views.factory.prewarm import jobs
+from pigaming_app.scenes.views.particles import reel
 from pigaming_app.scenes.views.rumble import BLOCKED, DELIVERED, GIVEN, PICKED, TAKEN, rumbles
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import robot as tank
@@ -98,7 +99,7 @@ class FactoryView(MatchView):
         self.particles.advance(seconds)
         for team in self.hud.show(state):
             if self.options.flashes != "off":
-                self.particles.bloom(PANELS[team], TOP_OF_PANELS, 0.4, pulse(team))
+                self.particles.bloom(PANELS[team], TOP_OF_PANELS, 0.4, reel(pulse, team))
         under: Batch = []
         over: Batch = []
         light: Batch = []

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from pigaming_app.games.race.state import Race
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.particles import MAX_PARTICLES, Particle, Particles
+from pigaming_app.scenes.views.particles import MAX_PARTICLES, Frame, Particle, Particles, fading, reel
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.events import RaceEvent
 from pigaming_app.scenes.views.race.ghost import Delta
@@ -172,7 +172,7 @@ class RaceEffects:
         particles = self.particles
         for tone in (color, WHITE):
             for _ in range(min(22, MAX_PARTICLES - len(particles.particles))):
-                _fly(particles, x, y, 210.0, race_signs.confetti(tone, particles.random.randrange(4)), 1.3)
+                _fly(particles, x, y, 210.0, fading(race_signs.confetti, tone, particles.random.randrange(4)), 1.3)
         particles.burst(x, y, FOCUS, 14, 46, 130)
         if self.options.flashes != "off":
             particles.shock(x, y, color)
@@ -183,7 +183,7 @@ class RaceEffects:
         """Beam of light on a robot that was put back on the track."""
         self.back_at[seat] = self.particles.clock
         if self.options.flashes != "off":
-            self.particles.bloom(x, y, BEAM_LASTS, beam(seat))
+            self.particles.bloom(x, y, BEAM_LASTS, reel(beam, seat))
 
     def _photo(self, x: float, y: float) -> None:
         """Sparks of a close finish."""
@@ -208,8 +208,8 @@ class RaceEffects:
 def spray(particles: Particles, x: float, y: float, heading: float, count: int, spread: float) -> None:
     """Clods thrown up behind the wheels."""
     for _ in range(min(count, MAX_PARTICLES - len(particles.particles))):
-        frames = race_signs.clods(particles.random.choice(race_signs.CLODS))
-        _fly(particles, x, y, 70.0, frames, 0.6, heading, spread)
+        frame = fading(race_signs.clods, particles.random.choice(race_signs.CLODS))
+        _fly(particles, x, y, 70.0, frame, 0.6, heading, spread)
 
 
 def _fly(
@@ -217,7 +217,7 @@ def _fly(
     x: float,
     y: float,
     reach: float,
-    frames: tuple[Sprite, ...],
+    frame: Frame,
     life: float,
     heading: float = 0.0,
     spread: float = 3.2,
@@ -225,4 +225,4 @@ def _fly(
     a = heading + particles.random.uniform(-spread, spread)
     c, s, far = math.cos(a), math.sin(a), reach * particles.random.uniform(0.3, 1.0)
     life *= particles.random.uniform(0.6, 1.0)
-    particles.particles.append(Particle(particles.clock, life, x + 34 * c, y + 34 * s, far * c, far * s, frames))
+    particles.particles.append(Particle(particles.clock, life, x + 34 * c, y + 34 * s, far * c, far * s, frame))

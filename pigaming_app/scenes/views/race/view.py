@@ -10,6 +10,7 @@ import pygame
 from pigaming_app.games.race.state import MISSED_LINE, OFF_COURSE, Race, Racer
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud.parts import Y
+from pigaming_app.scenes.views.particles import reel
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.background import RaceBackground
@@ -156,7 +157,7 @@ class RaceView(MatchView):
             self.cards.moved(event.seat, event.kind == "up", state.tick)
             if self.options.flashes != "off":
                 x = self.cards.xs[int(event.number) - 1]
-                self.particles.bloom(x, Y, 0.4, race_cards.pulse(event.seat))
+                self.particles.bloom(x, Y, 0.4, reel(race_cards.pulse, event.seat))
         elif event.kind == "void":
             self.void_at[event.seat] = self.particles.clock
         elif event.kind == "final_lap" and self.words:
