@@ -67,6 +67,7 @@ def test_every_command_of_the_page_runs_and_the_network_becomes_a_level(tag: Pat
     (snippet,) = LEVEL
     (tag / "ai.py").write_text(f"{FILES['ai.py']}\n{snippet}", encoding="utf-8")
     run("play tag --headless --minutes 0.1 --seats hard,level4")
-    code = "from pigaming_app.ai.registry import BRAINS; print(*(k for k, b in BRAINS['tag'].items() if b.explain))"
+    code = "from pigaming_app.ai.registry import BRAINS\nfrom pigaming_app.ai.explanations.registry import explain_of\n"
+    code += "print(*(k for k, b in BRAINS['tag'].items() if explain_of(b, 'tag')))"
     explained = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, timeout=60)
     assert explained.stdout.split() == ["idle", "random", "level5", "hard"], "networks explain themselves"

@@ -1,7 +1,4 @@
-"""Registry of all brains by game and name, and the players that a match seats.
-
-A game's file `brains.py` also attaches each brain's `explain`, so that no brain imports its own explanation.
-"""
+"""Registry of all brains by game and name, and the players that a match seats."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any

@@ -11,6 +11,7 @@ CORE = "core"
 ALLOWED = {
     ("ladder", "events"): "the rules of a climb, and the ratings of leagues",
     ("lab", "learning"): "it shows what learns",
+    ("lab", "brain"): "the rose of directions",
     ("gym", "learning"): "its compiled loops",
     ("events", "learning"): "its compiled loops, for `event run --headless`",
 }

@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {feature.name: feature.rooms for feature in every_feature()}
 TILES = [*games(), "howto", "ladder", "events", "lab", "editor", "replays", "options"]
 WOVEN = {"events", "phones", "kiosk", "mat"}  # offer more than a tile
-NEEDED_BY = {"events": {"events", "ladder"}, "learning": {"lab"}}
+NEEDED_BY = {"events": {"events", "ladder"}, "learning": {"lab"}, "brain": {"lab"}}
 
 
 def without(rooms: tuple[str, ...], home: Path, *words: str) -> "subprocess.CompletedProcess[str]":

@@ -4,6 +4,7 @@ from math import cos, hypot, pi, sin
 
 import pytest
 
+from pigaming_app.ai.explanations.registry import thoughts_of
 from pigaming_app.ai.learning.league import duel
 from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.networks.encoding import UNIT
@@ -135,7 +136,7 @@ def test_the_network_that_ships_is_offered_and_explains_itself():
     football.sit(0, make_brain("football", "net", 1))
     for _ in range(120):
         football.tick()
-    told = football.brains[0].explain(football.state, 0)
+    told = thoughts_of(football, 0)
     assert told.heads.keys() == {"drive", "turn", "kick", "turbo"}
     assert {sight.kind for sight in told.percepts}
 

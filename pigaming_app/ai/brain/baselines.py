@@ -1,7 +1,6 @@
 """Baselines for measuring other brains: one idle, one uniformly random."""
 
 from pigaming_app.ai.brain.kind import BrainKind, NoWeights
-from pigaming_app.ai.brain.thoughts import Thoughts
 from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
@@ -38,17 +37,5 @@ def act_randomly(match: MatchState, seat: int, mind: SimpleMind, weights: NoWeig
         set_action(match.actions[seat], linear, angular, fire, int(uniform(mind) * 2.0))
 
 
-def explain_idle(match: MatchState, seat: int, mind: SimpleMind, weights: NoWeights) -> Thoughts:
-    return Thoughts("idle", "always")
-
-
-def explain_random(match: MatchState, seat: int, mind: SimpleMind, weights: NoWeights) -> Thoughts:
-    """All moves with equal value, and the one drawn last."""
-    action = match.actions[seat]
-    moves = {(ahead, turn, fire): 0.0 for ahead in (1, 0, -1) for turn in (-1, 0, 1) for fire in (0, 1)}
-    chosen = int(action.linear), int(action.angular), int(action.fire)
-    return Thoughts("random", "dice", names={"percent": 6}, moves=moves, chosen=chosen)
-
-
-IDLE = BrainKind("idle", SimpleMind, stand_still, reset, explain=explain_idle)
-RANDOM = BrainKind("random", SimpleMind, act_randomly, reset, explain=explain_random)
+IDLE = BrainKind("idle", SimpleMind, stand_still, reset)
+RANDOM = BrainKind("random", SimpleMind, act_randomly, reset)

@@ -41,7 +41,8 @@ class BrainKind:
     - `reset(mind, seed)` initialises a fresh mind.
     - `weights(fast)` returns a row of one record with the learned parameters, a NumPy record (`fast`) or a plain one.
       Every call returns the same row; the first call may read a file.
-    - `explain`, with the arguments of `think`, returns the brain's present reasoning for display. Read-only.
+    - `explain`, with the arguments of `think`, returns the brain's present reasoning for display. Read-only. Those of
+      our own brains are in `ai/explanations/`.
     - `plain`: it cannot be compiled; `weights` has the same row for both values of `fast`.
     """
 
@@ -66,10 +67,6 @@ class BrainPlayer:
     def think(self, state: MatchState, seat: int) -> None:
         """Set the seat's action for this tick."""
         self.kind.think(state, seat, self.mind, self.weights)
-
-    def explain(self, state: MatchState, seat: int) -> Thoughts | None:
-        """The brain's present reasoning; None if this kind has no `explain`."""
-        return self.kind.explain(state, seat, self.mind, self.weights) if self.kind.explain else None
 
 
 class HumanPlayer:

@@ -4,8 +4,8 @@ Weights and biases are int16 in units of 1/256. The head holds what the training
 the hash of the engine, and a handicap: a level is a network with a handicap.
 """
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, fields, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, fields
 from functools import cache
 from itertools import pairwise
 from math import isfinite
@@ -15,10 +15,8 @@ from typing import Any
 from pigaming_app import ASSETS
 from pigaming_app.ai.brain.archive import HEAD, BrainFileError, pack, unpack, verify
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.networks.percepts import SUBJECTS
 from pigaming_app.ai.networks.policy import HIDDEN, NO_HANDICAP, Handicap, Policy, network_brain
 from pigaming_app.ai.networks.registry import ENCODINGS
-from pigaming_app.ai.networks.thoughts import make_explain
 from pigaming_app.games.engine_hash import engine_hash
 
 BRAINS = ASSETS / "brains"
@@ -109,16 +107,7 @@ def decode(raw: bytes, name: str) -> TrainedNetwork:
 
 def brain_of(trained: TrainedNetwork) -> BrainKind:
     """The brain that plays by a network, with its handicap."""
-    return explained_brain(trained.name, trained.game, policy_of(trained), trained.handicap)
-
-
-def explained_brain(
-    name: str, game: str, weights: Callable[[bool], Any], handicap: Handicap = NO_HANDICAP
-) -> BrainKind:
-    """A brain by a network of a game, with its explanation if the game has a `Subject`."""
-    encoding = ENCODINGS[game]
-    brain = network_brain(name, encoding, weights, handicap)
-    return replace(brain, explain=make_explain(encoding)) if game in SUBJECTS else brain
+    return network_brain(trained.name, ENCODINGS[trained.game], policy_of(trained), trained.handicap)
 
 
 def policy_of(trained: TrainedNetwork) -> Policy:
@@ -144,7 +133,7 @@ def shipped_brain(
     def policy() -> Policy:
         return policy_of(shipped(file, folder))
 
-    return explained_brain(name, game, lambda fast: policy()(fast), handicap)
+    return network_brain(name, ENCODINGS[game], lambda fast: policy()(fast), handicap)
 
 
 def _trained(head: Mapping[str, Any], arrays: Mapping[str, Any]) -> TrainedNetwork:

@@ -7,7 +7,6 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.unstick import act_on_reflex
 from pigaming_app.ai.qlearning.features import nearest_opponent, situation
 from pigaming_app.ai.qlearning.table import LearnerMind, QTable, apply_move, sample_move
-from pigaming_app.ai.qlearning.thoughts import explain
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import packed, unpack
@@ -55,4 +54,4 @@ class Learned:
 
 def player(name: str, weights: Callable[[bool], Any], reflex: bool = False) -> BrainKind:
     """A brain that plays by a table; `reflex`: it also frees itself when stuck, as in matches against people."""
-    return BrainKind(name, LearnerMind, think, reset_with_reflex if reflex else reset, weights, explain)
+    return BrainKind(name, LearnerMind, think, reset_with_reflex if reflex else reset, weights)

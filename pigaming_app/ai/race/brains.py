@@ -1,19 +1,12 @@
 """The AIs of Robot Race by name, and the driving styles with steering help."""
 
-from dataclasses import replace
-
 from pigaming_app.ai.brain.driving import point_where_to_go, turn_and_drive
 from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT, TURN, GameAI
-from pigaming_app.ai.race import levels, racer, racer_thoughts
+from pigaming_app.ai.race import levels, racer
 from pigaming_app.ai.race.steering_help import with_help
 
 AI = GameAI(
-    {
-        **{
-            kind.name: replace(kind, explain=racer_thoughts.explain) for kind in (racer.HAND1, racer.HAND2, racer.HAND3)
-        },
-        **{level.name: level for level in levels.LEVELS},
-    },
+    {kind.name: kind for kind in (racer.HAND1, racer.HAND2, racer.HAND3, *levels.LEVELS)},
     driving={
         TURN: turn_and_drive,
         POINT: point_where_to_go,

@@ -5,12 +5,9 @@ always, since robots do not slip. What makes it open is the form of the day, whi
 lower levels also drive wider lines, start later, miss braking points, and see pads, boxes and oil later.
 """
 
-from dataclasses import replace
-
 from pigaming_app.ai.networks.files import shipped_brain
 from pigaming_app.ai.networks.policy import Handicap
 from pigaming_app.ai.race.racer import Driver, racer
-from pigaming_app.ai.race.racer_thoughts import explain
 
 NETWORK = "race"  # in assets/brains
 HAND_WRITTEN = (
@@ -64,6 +61,6 @@ HAND_WRITTEN = (
     ),
 )
 LEVELS = (
-    *(replace(racer(f"level{n}", driver), explain=explain) for n, driver in enumerate(HAND_WRITTEN, start=1)),
+    *(racer(f"level{n}", driver) for n, driver in enumerate(HAND_WRITTEN, start=1)),
     shipped_brain("level5", "race", NETWORK, Handicap(sharpness=4.0, form=0.052, delay=0.35, error=0.2)),
 )

@@ -11,6 +11,7 @@ import pygame
 
 from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.brain.thoughts import PETALS, MoveKey, Thoughts
+from pigaming_app.ai.explanations.registry import explain_of, thoughts_of
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.brain import panels as cards
 from pigaming_app.scenes.brain.floor_marks import FloorMarks
@@ -43,7 +44,7 @@ class BrainOverlay:
     @property
     def seats(self) -> list[int]:
         """The seats whose brains can explain themselves."""
-        return [seat for seat in self.view.seats if self._brain(seat)]
+        return [seat for seat in self.view.seats if self._explains(seat)]
 
     def next(self) -> None:
         """Show the first AI, then the next; after the last, none."""
@@ -53,21 +54,20 @@ class BrainOverlay:
 
     def draw(self, screen: pygame.Surface, blend: float, seconds: float) -> None:
         """Draw it over the match, `seconds` after the previous picture."""
-        brain = None if self.seat is None else self._brain(self.seat)
-        if self.seat is None or brain is None:  # a player may have taken the seat
+        if self.seat is None or not self._explains(self.seat):  # a player may have taken the seat
             self.seat = None
             return
         state = self.match.state
         if not self.queried <= state.tick < self.queried + QUERY_PERIOD:
             self.queried = state.tick
-            self.thoughts = brain.explain(state, self.seat) or Thoughts("starts")
+            self.thoughts = thoughts_of(self.match, self.seat) or Thoughts("starts")
         self._ease(seconds)
         self._floor(screen, state, self.seat, blend)
         self._boxes(screen, state, self.seat)
 
-    def _brain(self, seat: int) -> BrainPlayer | None:
+    def _explains(self, seat: int) -> bool:
         brain = self.match.brains[seat]
-        return brain if isinstance(brain, BrainPlayer) and brain.kind.explain else None
+        return isinstance(brain, BrainPlayer) and explain_of(brain.kind, self.match.setup.game) is not None
 
     def _ease(self, seconds: float) -> None:
         """Smooth the displayed values towards the current thoughts."""

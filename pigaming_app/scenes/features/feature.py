@@ -12,13 +12,16 @@ from typing import NamedTuple, Protocol
 
 import pygame
 
+from pigaming_app.games.match import Match
 from pigaming_app.scenes.features.board_page import BoardPage
 from pigaming_app.scenes.features.replay_kind import ReplayKind
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.scenes.flow.stack import Scene, Stack, StackOperation
 from pigaming_app.scenes.launch import Options
+from pigaming_app.scenes.views.view import MatchView
 from pigaming_app.ui.draw import GlowCanvas
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device, InputEvent
 from pigaming_app.ui.window import Pin
 
@@ -107,6 +110,22 @@ class JoinOffer(Protocol):
         """
 
 
+class MatchOverlay(Protocol):
+    """Drawn over a match for one of its AIs at a time."""
+
+    seat: int | None  # of the AI that is shown
+
+    @property
+    def seats(self) -> Sequence[int]:
+        """The seats of AIs that can be shown."""
+
+    def next(self) -> None:
+        """Show the first AI, then the next; after the last, none."""
+
+    def draw(self, screen: pygame.Surface, blend: float, seconds: float) -> None:
+        """Draw it, if one is shown, `seconds` after the previous picture; `blend`: between the last two ticks."""
+
+
 @dataclass(frozen=True)
 class Feature:
     """What a feature consists of, and what it offers the arcade; all of the latter is optional."""
@@ -120,6 +139,7 @@ class Feature:
     service: Callable[[Context, Options], Service | None] | None = None
     join: Callable[[Context], JoinOffer] | None = None
     draw_arena: Callable[[Context, str], Callable[[], Scene] | None] | None = None  # opens the drawn arenas of a game
+    overlay: Callable[[Match, MatchView, Words], MatchOverlay] | None = None
     board_pages: Callable[[Context], Sequence[BoardPage]] | None = None  # of the second screen
     next_line: Callable[[Context, Sequence[Scene]], str] | None = None  # what comes next, for the second screen
     without_limit: Callable[[Sequence[Scene]], bool] | None = None  # the time limit of a group does not apply

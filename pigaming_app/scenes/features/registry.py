@@ -7,15 +7,18 @@ from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 
-from pigaming_app.scenes.features.feature import Feature, JoinOffer, MenuItem
+from pigaming_app.games.match import Match
+from pigaming_app.scenes.features.feature import Feature, JoinOffer, MatchOverlay, MenuItem
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.launch import Options
+from pigaming_app.scenes.views.view import MatchView
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.window import Pin
 
 PACKAGE = "pigaming_app"
-NAMES = ("howto", "ladder", "events", "lab", "editor", "replays", "phones", "kiosk", "mat")
+NAMES = ("brain", "howto", "ladder", "events", "lab", "editor", "replays", "phones", "kiosk", "mat")
 
 log = logging.getLogger("pigaming")
 
@@ -86,3 +89,13 @@ def corner_pin(corners: Sequence[float]) -> Pin | None:
 def join_offer(context: Context) -> JoinOffer | None:
     """The way to take a seat without a device at hand, if there is one."""
     return next((feature.join(context) for feature in features() if feature.join), None)
+
+
+def match_overlay(match: Match, view: MatchView, words: Words) -> MatchOverlay | None:
+    """What can be drawn over a match for one of its AIs, if anything."""
+    return next((feature.overlay(match, view, words) for feature in features() if feature.overlay), None)
+
+
+def has_overlay() -> bool:
+    """True if something can be drawn over a match for one of its AIs."""
+    return any(feature.overlay for feature in features())

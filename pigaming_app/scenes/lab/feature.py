@@ -35,7 +35,7 @@ def saved_brains() -> list[Path]:
 FEATURE = Feature(
     "lab",
     rooms=("scenes.lab", "ai.ppo.lab"),
-    needs=("ai.learning", "ai.ppo"),
+    needs=("ai.learning", "ai.ppo", "scenes.brain"),
     menu=MenuItem(3, page),
     service=service,
     saved_brains=saved_brains,

@@ -11,7 +11,7 @@ from typing import Protocol
 
 import pygame
 
-from pigaming_app.scenes.features.registry import join_offer
+from pigaming_app.scenes.features.registry import has_overlay, join_offer
 from pigaming_app.scenes.flow.access import OWNER_SECONDS, Access, PauseAccess
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, Scene, StackOperation
@@ -114,7 +114,7 @@ class Pause:
         hints = [
             (Button.FIRE, "pause.hint_ok"),
             (Button.BACK, "pause.hint_continue"),
-            (Button.BRAIN, "pause.hint_brain"),
+            *([(Button.BRAIN, "pause.hint_brain")] if has_overlay() else []),
         ]
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: self.access.hint_device)
 

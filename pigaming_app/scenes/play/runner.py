@@ -10,7 +10,7 @@ import pygame
 
 from pigaming_app.ai.game_ai import TURN
 from pigaming_app.games.match import Match
-from pigaming_app.scenes.brain.overlay import BrainOverlay
+from pigaming_app.scenes.features.registry import match_overlay
 from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.device_words import steering
@@ -61,7 +61,7 @@ class MatchRunner:
             self.view = kind(match.arena, match.state, self.players, ShownEffects(context.settings), context.words)
         if names:
             self.view.show_names(names)
-        self.brain = BrainOverlay(match, self.view, context.words)
+        self.brain = match_overlay(match, self.view, context.words)
         self.timestep = FixedTimestep()
         self.things: Sequence[ThingSpec] = match.arena.things  # in the view
         self.undrawn = 0.0  # seconds of real time since the last picture
@@ -108,7 +108,8 @@ class MatchRunner:
         undrawn, self.undrawn = self.undrawn, 0.0
         with self._tag_sprites():
             self.view.draw(screen, self.match.state, blend, undrawn)
-            self.brain.draw(screen, blend, undrawn)
+            if self.brain:
+                self.brain.draw(screen, blend, undrawn)
 
     def picture(self) -> pygame.Surface:
         """The current match, darkened, as drawn behind a page."""

@@ -278,9 +278,10 @@ class MatchScene:
 
     def next_brain(self) -> None:
         """Show the thoughts of the next AI, after the last none; show a notice if there is no AI."""
-        if not self.runner.brain.seats:
+        if self.runner.brain and not self.runner.brain.seats:
             self.notice, self.notice_left = caption(self.context.words("brain.nobody"), sign="ai"), NOTICE_SECONDS
-        self.runner.brain.next()
+        elif self.runner.brain:
+            self.runner.brain.next()
 
     def picture(self) -> pygame.Surface:
         """The match as drawn behind a page."""

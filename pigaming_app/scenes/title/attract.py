@@ -64,7 +64,8 @@ class Attract:
     def handle(self, event: InputEvent) -> StackOperation:
         """Any input returns to the title without further effect; F4 shows the thoughts of the AIs."""
         if event.button is Button.BRAIN and isinstance(self.show, DemoMatch):
-            self.show.runner.brain.next()
+            if self.show.runner.brain:
+                self.show.runner.brain.next()
             return None
         return None if event.button is Button.LOST else Home()
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pigaming_app import ROOT
-from pigaming_app.ai.brain.kind import BrainPlayer
+from pigaming_app.ai.explanations.registry import thoughts_of
 from pigaming_app.ai.learning.league import duel
 from pigaming_app.ai.networks.onnx import child
 from pigaming_app.ai.networks.onnx.files import OnnxPolicy
@@ -89,8 +89,8 @@ class TestWithTheExtra:
         match = new_match(Setup("pitanks", "classic", seats, 0.1, 1, "pickups"))
         while not match.over:
             match.tick()
-        assert isinstance(match.brains[0], BrainPlayer)
-        told = match.brains[0].explain(match.state, 0)
+        told = thoughts_of(match, 0)
+        assert told is not None
         assert told.heads.keys() == {"drive", "turn", "shoot", "turbo"}
         assert max(told.utilities.values()) > 0.0
 

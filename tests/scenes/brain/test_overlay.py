@@ -6,9 +6,12 @@ import pygame
 import pytest
 
 from pigaming_app.ai.brain.kind import BrainPlayer
+from pigaming_app.ai.brain.thoughts import Thoughts
+from pigaming_app.ai.explanations.percepts import SUBJECTS
+from pigaming_app.ai.explanations.registry import thoughts_of
 from pigaming_app.ai.networks.files import brain_of
-from pigaming_app.ai.networks.percepts import SUBJECTS
 from pigaming_app.ai.registry import make_brain, new_match
+from pigaming_app.games.match import Match
 from pigaming_app.games.setup import make_setup
 from pigaming_app.scenes.brain import floor_marks as marks
 from pigaming_app.scenes.brain import panels as cards
@@ -246,14 +249,12 @@ def test_brains_are_queried_a_few_times_a_second_and_never_within_a_tick(
 ) -> None:
     stage = stage_of(arcade, "pitanks")
     asked = []
-    brain = stage.match.brains[0]
-    true = type(brain).explain
 
-    def explain(self, state, seat):
-        asked.append(state.tick)
-        return true(self, state, seat)
+    def asking(match: Match, seat: int) -> Thoughts | None:
+        asked.append(match.state.tick)
+        return thoughts_of(match, seat)
 
-    monkeypatch.setattr(type(brain), "explain", explain)
+    monkeypatch.setattr("pigaming_app.scenes.brain.overlay.thoughts_of", asking)
     stage.brain.next()
     for _ in range(120):
         stage.advance(1 / 60)
@@ -265,7 +266,7 @@ def test_seats_without_an_explaining_brain_are_skipped(arcade: Arcade) -> None:
     stage = stage_of(arcade, "pitanks")
     stage.match.sit(0, make_brain("pitanks", "idle", 1))
     kind = stage.match.brains[0].kind
-    object.__setattr__(stage.match.brains[0], "kind", type(kind)("mute", kind.mind, kind.think, kind.reset))
+    object.__setattr__(stage.match.brains[0], "kind", type(kind)("mute", kind.mind, lambda *_: None, kind.reset))
     overlay = BrainOverlay(stage.match, stage.view, arcade.context.words)
     assert overlay.seats == [1, 2, 3]
 
@@ -309,7 +310,7 @@ def test_every_wish_of_every_brain_has_a_sign(arcade: Arcade) -> None:
         for _ in range(60):
             stage.advance(1 / 60)
         for seat in range(4):
-            told = stage.match.brains[seat].explain(stage.match.state, seat)
+            told = thoughts_of(stage.match, seat)
             assert all(has_sign(game, name) for name in told.utilities if not told.moves)
 
 

@@ -23,7 +23,6 @@ from pigaming_app.ai.networks.onnx.external import has_external_data
 from pigaming_app.ai.networks.onnx.process import NO_MODEL, TOO_LONG, ModelFails, ModelProcess
 from pigaming_app.ai.networks.policy import network_brain
 from pigaming_app.ai.networks.registry import ENCODINGS
-from pigaming_app.ai.networks.thoughts import make_explain
 from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.action import set_action
 
@@ -102,7 +101,7 @@ def read_model(path: Path, game: str) -> BrainKind:
     except BrainFileError as error:
         raise BrainFileError(f"{name}: {error}") from None
     kind = network_brain(name, encoding, lambda fast: row)
-    return replace(kind, think=_idling(kind.think), explain=make_explain(encoding), plain=True)
+    return replace(kind, think=_idling(kind.think), plain=True)
 
 
 @cache

@@ -13,9 +13,10 @@ from typing import Any
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.ai.learning.training import ARENA, GAME, Checkpoint
-from pigaming_app.ai.networks.files import Curve, TrainedNetwork, explained_brain
+from pigaming_app.ai.networks.files import Curve, TrainedNetwork
 from pigaming_app.ai.networks.layers import Layers
-from pigaming_app.ai.networks.policy import Policy
+from pigaming_app.ai.networks.policy import Policy, network_brain
+from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.ppo.lab.messages import PATIENCE, UNTRAINED, Begin, Habit, Order, Report, State, Weights
 from pigaming_app.ai.ppo.lab.task import NetworkRecipe
 from pigaming_app.scenes.brain.rose import PETALS
@@ -236,5 +237,5 @@ class NetworkTrainer:
 
 def checkpoint(state: State, name: str) -> Checkpoint:
     """A network as a named checkpoint."""
-    kind: BrainKind = explained_brain(name, GAME, Policy(Layers(*state.weights)))
+    kind: BrainKind = network_brain(name, ENCODINGS[GAME], Policy(Layers(*state.weights)))
     return Checkpoint(kind, int(state.matches), state.decisions)

@@ -6,6 +6,7 @@ import pytest
 
 from pigaming_app.ai.brain.kind import BrainPlayer, no_weights
 from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PETALS, WALL, Thoughts, blend, petal, towards
+from pigaming_app.ai.explanations.registry import explain_of, thoughts_of
 from pigaming_app.ai.factory import foreman
 from pigaming_app.ai.game_ai import NAMED_LEVELS
 from pigaming_app.ai.pitanks import fsm, gunner
@@ -29,7 +30,7 @@ ALL = [
     (game, name)
     for game, brains in BRAINS.items()
     for name in brains
-    if name not in NAMED_LEVELS and (brains[name].explain or game in OURS)  # those of ours must
+    if name not in NAMED_LEVELS and (explain_of(brains[name], game) or game in OURS)  # those of ours must
 ]
 KEPT = 0.9  # value of the second best move, as a share of the best
 
@@ -65,14 +66,12 @@ def load(game: str):
 
 def by_hand(game: str, besides: str = "") -> list[str]:
     """A brain of the game without learned weights, another one than `besides`, which explains itself."""
-    kinds = {name: kind for name, kind in BRAINS[game].items() if kind.explain and kind.weights is no_weights}
+    kinds = {name: kind for name, kind in BRAINS[game].items() if explain_of(kind, game) and kind.weights is no_weights}
     return [next(name for name in kinds if name not in ("idle", "random", besides))]
 
 
 def thoughts(match: Match, seat: int = 0) -> Thoughts:
-    brain = match.brains[seat]
-    assert isinstance(brain, BrainPlayer)
-    told = brain.explain(match.state, seat)
+    told = thoughts_of(match, seat)
     assert told is not None
     return told
 

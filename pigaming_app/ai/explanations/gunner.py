@@ -7,8 +7,8 @@ from math import pi
 
 from pigaming_app.ai.brain.kind import NoWeights
 from pigaming_app.ai.brain.thoughts import Thoughts, blend, clamp, towards
+from pigaming_app.ai.explanations.fsm import SOON, dodges, percepts
 from pigaming_app.ai.pitanks import fsm, gunner
-from pigaming_app.ai.pitanks.fsm_thoughts import SOON, dodges, percepts
 from pigaming_app.ai.pitanks.gunner import GunnerMind
 from pigaming_app.games.pitanks.observation import Observation
 from pigaming_app.games.pitanks.scoring import lead

@@ -7,11 +7,12 @@ import pytest
 
 from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.brain.thoughts import BULLET, MATE, OPPONENT, PERSON, PRIZE
+from pigaming_app.ai.explanations.networks import make_explain, probabilities, topics_of
+from pigaming_app.ai.explanations.percepts import SUBJECTS
+from pigaming_app.ai.explanations.registry import thoughts_of
 from pigaming_app.ai.networks.files import brain_of
-from pigaming_app.ai.networks.percepts import SUBJECTS
 from pigaming_app.ai.networks.policy import Handicap, draw
 from pigaming_app.ai.networks.registry import ENCODINGS
-from pigaming_app.ai.networks.thoughts import make_explain, probabilities, topics_of
 from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
@@ -34,11 +35,11 @@ def match_of(network, seed=3, others="hand3 hand1 hand3"):
 def test_asking_changes_neither_match_nor_mind_and_everything_told_has_words():
     watched, alone = (match_of(random_network(handicap=Handicap(0.1, 0.05, 0.5))) for _ in range(2))
     brain, words, told = watched.brains[0], [texts(language) for language in LANGUAGES], []
-    assert brain.explain(watched.state, 0).behaviour == "starts"
+    assert thoughts_of(watched, 0).behaviour == "starts"
     for _ in range(600):
         watched.tick()
         alone.tick()
-        told.append(brain.explain(watched.state, 0))
+        told.append(thoughts_of(watched, 0))
         assert list(told[-1].choices.values()) in ([], brain.mind.choices)
     assert digest(watched.state) == digest(alone.state)
     assert digest(brain.mind) == digest(alone.brains[0].mind)
@@ -70,7 +71,7 @@ def test_topics_cover_every_input_once_and_only_one_on_which_a_network_depends_c
         brain.reset(mind, 1)
         mind.inputs[:] = [100.0] * ENCODING.size
         mind.logits[:] = weights.logits(mind.inputs)
-        shares = brain.explain(match.state, 0, mind, weights).utilities
+        shares = make_explain(ENCODING)(match.state, 0, mind, weights).utilities
         assert shares.pop(topic) > 0.1
         assert not any(shares.values())
 
@@ -122,8 +123,8 @@ def test_networks_of_every_game_explain_themselves(game):
         match.tick()
         if tick % 10:
             continue
-        for seat, brain in enumerate(match.brains):
-            told = brain.explain(match.state, seat)
+        for seat in range(4):
+            told = thoughts_of(match, seat)
             assert f"brain.{told.behaviour}" in words
             assert all(-1.0 <= value <= 1.0 for value in told.rose)
             for sight in told.percepts:

@@ -12,8 +12,8 @@ from math import pi
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.ai.brain.thoughts import Thoughts, behaviour_of, blend, towards
+from pigaming_app.ai.explanations.percepts import SUBJECTS
 from pigaming_app.ai.networks.encoding import Encoding
-from pigaming_app.ai.networks.percepts import SUBJECTS
 from pigaming_app.ai.networks.policy import LOGIT, NetworkMind
 from pigaming_app.ai.networks.subject import Subject, perceived
 from pigaming_app.games.simple import MatchState
