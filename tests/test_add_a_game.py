@@ -16,10 +16,10 @@ from tests.plugins.packages import FILES, PAGE, ROOT, write_tag
 COMMANDS = re.findall(r"^    python3 main\.py (.*)$", PAGE, re.M)
 LEVEL = re.findall(r"^```python\n(from pathlib.*?)^```", PAGE, re.M | re.S)
 SHORTER = {
-    "play tag": "play tag --headless --speed max --minutes 0.2 --seats easy,hard",
-    "play tag --seats human,tag.npz,tag.npz,hard": "play tag --headless --speed max --minutes 0.2 --seats hard,tag.npz",
+    "play tag": "play tag --headless --speed max --minutes 0.2 --seats level1,level5",
+    "play tag --seats human,tag.npz,tag.npz,level5": "play tag --headless --minutes 0.05 --seats idle,tag.npz",
     "train ppo tag --minutes 3 --out tag.npz": "train ppo tag --updates 2 --set matches=16 --out tag.npz",
-    "duel tag tag.npz hard --matches 200 --minutes 1 --seed 100": "duel tag tag.npz hard --matches 2 --minutes 0.2",
+    "duel tag tag.npz level5 --matches 200 --minutes 1 --seed 100": "duel tag tag.npz level5 --matches 2 --minutes 0.2",
 }
 
 
@@ -47,7 +47,7 @@ def test_the_page_has_the_files_of_a_game_in_this_style() -> None:
 
 
 def test_tag_is_played_by_its_rules(tag: Path) -> None:
-    points = run("play tag --headless --speed max --minutes 0.5 --seats hard,hard,hard,hard --seed 1 --json")
+    points = run("play tag --headless --speed max --minutes 0.5 --seats level5,level5,level5,level5 --seed 1 --json")
     scores = [int(score) for score in re.findall(r'"score": (\d+)', points)]
     assert len(scores) == 4
     assert 3 * 29 <= sum(scores) <= 3 * 30, "three robots score each second"
@@ -66,8 +66,8 @@ def test_every_command_of_the_page_runs_and_the_network_becomes_a_level(tag: Pat
     (tmp_path / "tag.npz").rename(tag / "brains" / "tag.npz")
     (snippet,) = LEVEL
     (tag / "ai.py").write_text(f"{FILES['ai.py']}\n{snippet}", encoding="utf-8")
-    run("play tag --headless --minutes 0.1 --seats hard,level4")
+    run("play tag --headless --minutes 0.1 --seats level5,level4")
     code = "from pigaming_app.ai.registry import BRAINS\nfrom pigaming_app.ai.explanations.registry import explain_of\n"
     code += "print(*(k for k, b in BRAINS['tag'].items() if explain_of(b, 'tag')))"
     explained = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, timeout=60)
-    assert explained.stdout.split() == ["idle", "random", "level5", "hard"], "networks explain themselves"
+    assert explained.stdout.split() == ["idle", "random", "level5"], "networks explain themselves"

@@ -17,7 +17,7 @@ from pigaming_app.storage.settings import Settings, folders
 from tests import tags
 
 ROOT = Path(__file__).resolve().parents[1]
-SHORT = ["--headless", "--speed", "max", "--minutes", "0.1", "--variant", "pickups", "--seats", "fsm,easy,off,off"]
+SHORT = ["--headless", "--speed", "max", "--minutes", "0.1", "--variant", "pickups", "--seats", "fsm,level1,off,off"]
 
 
 @pytest.fixture(autouse=True)
@@ -33,7 +33,7 @@ def test_a_match_without_a_window_tells_its_result(capsys):
 
 
 def test_rounds_are_played_until_one_side_has_won_most(capsys):
-    words = "play pitanks --variant pickups --rounds 3 --minutes 0.05 --headless --speed max --seats hard,idle --json"
+    words = "play pitanks --variant pickups --rounds 3 --minutes 0.05 --headless --speed max --seats level5,idle --json"
     assert main(words.split()) == 0
     result = json.loads(capsys.readouterr().out)
     assert 2 <= len(result["rounds"]) <= 3
@@ -80,7 +80,7 @@ def test_robots_without_a_deadman_are_refused_for_matches(where, emulated, capsy
     if where == "settings":
         Settings(radio="stock").save(folders().config)
         radio = []
-    assert main(["play", "--seats", "fsm,easy,off,off", "--real", "1", *radio, *emulated]) == 2
+    assert main(["play", "--seats", "fsm,level1,off,off", "--real", "1", *radio, *emulated]) == 2
     told = capsys.readouterr().err.strip()
     assert "no deadman" in told
     assert "\n" not in told
@@ -101,7 +101,7 @@ def test_robots_without_a_deadman_do_not_dance_either(tmp_path, capsys):
 
 
 def test_a_duel_prints_one_object(capsys):
-    duel = ["duel", "pitanks", "hard", "idle", "--matches", "4", "--seed", "1", "--minutes", "0.2", "--json"]
+    duel = ["duel", "pitanks", "level5", "idle", "--matches", "4", "--seed", "1", "--minutes", "0.2", "--json"]
     assert main(duel) == 0
     told = json.loads(capsys.readouterr().out)
     wanted = {"game", "left", "right", "matches", "wins", "ties", "losses", "wilson95"}
@@ -150,8 +150,8 @@ def test_the_doctor_speaks_json(capsys):
         ["play", "--rounds", "3", "--record", "a.replay", "--headless"],
         ["replay", "/nowhere"],
         ["duel", "pitanks", "fsm", "wizard"],
-        ["duel", "pitanks", "fsm", "easy", "--matches", "0"],
-        ["duel", "chess", "fsm", "easy"],
+        ["duel", "pitanks", "fsm", "level1", "--matches", "0"],
+        ["duel", "chess", "fsm", "level1"],
         ["bench", "chess"],
     ],
     ids=" ".join,
@@ -164,7 +164,7 @@ def test_what_is_wrong_is_one_line_and_exit_code_2(arguments, capsys):
 
 
 def test_the_game_stands_after_the_job(capsys):
-    seats = ["--seats", "easy,easy,off,off", "--headless", "--speed", "max", "--minutes", "0.05", "--json"]
+    seats = ["--seats", "level1,level1,off,off", "--headless", "--speed", "max", "--minutes", "0.05", "--json"]
     assert main(["play", "factory", *seats]) == 0
     assert json.loads(capsys.readouterr().out)["game"] == "factory"
 

@@ -54,7 +54,7 @@ def company(game):
     """Brains for the four seats: the best one, a machine by hand, if any, and random ones."""
     kinds = BRAINS[game]
     by_hand = kinds[BY_HAND.get(game, "random")]
-    return [kinds.get("hard", kinds["random"]), kinds["random"], by_hand, kinds["random"]]
+    return [kinds.get("level5", kinds["random"]), kinds["random"], by_hand, kinds["random"]]
 
 
 def with_things(game, folder):
@@ -173,7 +173,7 @@ def test_every_match_draws_headless_and_drawing_changes_nothing(game, arena):
     pygame.font.init()
     screen = pygame.display.set_mode((1920, 1080))
     match = Match(setup(game, arena))
-    scene = SCREENS[game].view(match.arena, match.state, ["easy", "random", "random", "random"], AllEffects())
+    scene = SCREENS[game].view(match.arena, match.state, ["level1", "random", "random", "random"], AllEffects())
     for seat in range(4):
         match.sit(seat, make_brain(game, "random", seat))
     screen.fill((1, 2, 3))

@@ -217,7 +217,7 @@ def test_ghosts(tmp_path, caplog):
 
 
 def packed_replay(path):
-    match = new_match(make_setup("pitanks", ["fsm", "easy"], "classic", 0.05, 1, None, None, ["fsm", "easy"]))
+    match = new_match(make_setup("pitanks", ["fsm", "level1"], "classic", 0.05, 1, None, None, ["fsm", "level1"]))
     while not match.over:
         match.tick()
     save_replay(match, path)

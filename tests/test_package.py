@@ -162,10 +162,10 @@ def test_it_names_its_version_and_the_commit_that_it_was_made_from(run):
 
 
 def test_a_match_is_played_from_elsewhere(run):
-    seats = ("--seats", "normal,hard", "--minutes", "0.2")
+    seats = ("--seats", "level3,level5", "--minutes", "0.2")
     ended = run("pigaming", "play", "pitanks", "--headless", "--speed", "max", *seats)
     assert (ended.returncode, ended.stderr) == (0, "")
-    assert {line.split()[2] for line in ended.stdout.splitlines()} == {"normal", "hard"}
+    assert {line.split()[2] for line in ended.stdout.splitlines()} == {"level3", "level5"}
 
 
 def test_the_arcade_opens_and_can_be_measured(run):

@@ -8,7 +8,6 @@ from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_d
 from pigaming_app.ai.brain.kind import BrainKind
 
 LEVELS = ("level1", "level2", "level3", "level4", "level5")  # in every game; one to five stars on the screen
-NAMED_LEVELS = {"easy": "level1", "normal": "level3", "hard": "level5"}  # second names
 
 TURN, POINT = "turn", "point"
 HELPED_TURN, HELPED_POINT = "helped_turn", "helped_point"  # with steering help
@@ -39,9 +38,8 @@ class GameAI:
 
     @property
     def brains(self) -> dict[str, BrainKind]:
-        """All brains by name; three of the levels answer to a second name."""
-        kinds = {"idle": baselines.IDLE, "random": baselines.RANDOM, **self.kinds}
-        return {**kinds, **{name: kinds[level] for name, level in NAMED_LEVELS.items()}}
+        """All brains by name."""
+        return {"idle": baselines.IDLE, "random": baselines.RANDOM, **self.kinds}
 
 
 def levels(*kinds: BrainKind) -> dict[str, BrainKind]:

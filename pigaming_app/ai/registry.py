@@ -8,7 +8,7 @@ from pigaming_app.ai.brain.driving import Controller
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer, HumanPlayer, OneButtonPlayer
 from pigaming_app.ai.brain_files import is_path, read_brain
 from pigaming_app.ai.factory import brains as factory
-from pigaming_app.ai.game_ai import CHAUFFEUR, LEVELS, NAMED_LEVELS, ONE_BUTTON, RANDOM_ONLY, GameAI
+from pigaming_app.ai.game_ai import CHAUFFEUR, LEVELS, ONE_BUTTON, RANDOM_ONLY, GameAI
 from pigaming_app.ai.pitanks import brains as pitanks
 from pigaming_app.ai.race import brains as race
 from pigaming_app.games.game import Setup
@@ -56,8 +56,7 @@ def known_brains(game: str, wanted: Sequence[str]) -> list[str]:
 
 def level_of(brain: str) -> int:
     """The level, 1 to 5, for which a brain is named; 0 if its name is that of no level."""
-    name = NAMED_LEVELS.get(brain, brain)
-    return LEVELS.index(name) + 1 if name in LEVELS else 0
+    return LEVELS.index(brain) + 1 if brain in LEVELS else 0
 
 
 def make_brain(game: str, name: str, seed: int) -> BrainPlayer:

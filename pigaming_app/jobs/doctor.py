@@ -239,7 +239,9 @@ def _engine() -> Line:
         from pigaming_app.ai.registry import new_match
         from pigaming_app.games.setup import make_setup
 
-        match = new_match(make_setup("pitanks", ["easy", "hard"], "classic", 1, 1, None, None, ["easy", "hard"]))
+        match = new_match(
+            make_setup("pitanks", ["level1", "level5"], "classic", 1, 1, None, None, ["level1", "level5"])
+        )
         for _ in range(50):
             match.tick()
     except Exception as error:  # a broken engine must not prevent the report

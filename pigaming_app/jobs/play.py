@@ -53,7 +53,7 @@ class PlayOptions(RobotOptions, MatchOptions, JsonOption, GameOption):
     """The match, and what to keep of it."""
 
     seats: str = option(
-        "human, off, an AI or a trained one's file for each seat; default human,normal", default="human,normal"
+        "human, off, an AI or a trained one's file for each seat; default human,level3", default="human,level3"
     )
     teams: str | None = option("a number for each seat, such as 0,0,1,1; default: the game's own")
     seed: int = option("default 1; below 0: of a training", integer(-SEEDS, SEEDS - 1), 1, metavar="NUMBER")

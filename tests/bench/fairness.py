@@ -1,6 +1,6 @@
 """Fairness of a rule set between equal AIs: ties, wins by seat, and other measures of each game.
 
-    python -m tests.bench.fairness GAME [--variant V] [--matches 400] [--brains hard,hard,hard,hard] [--json]
+    python -m tests.bench.fairness GAME [--variant V] [--matches 400] [--brains level5,level5,level5,level5] [--json]
 
 The matches are spread evenly over the arenas; each has its own seed. A robot stands still if it moves by less than
 20 px/s for more than a second while it is free to move.
@@ -37,7 +37,7 @@ def main() -> int:
     parser.add_argument("--minutes", type=float)
     parser.add_argument("--arena")
     parser.add_argument("--goal", type=int)
-    parser.add_argument("--brains", default="hard,hard,hard,hard", help="by seat")
+    parser.add_argument("--brains", default="level5,level5,level5,level5", help="by seat")
     parser.add_argument("--json", action="store_true")
     words = parser.parse_args()
     trial = Trial(

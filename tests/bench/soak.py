@@ -24,7 +24,7 @@ from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.record import unpack
 from pigaming_app.sim.world import HZ, ROBOTS
 
-BRAIN = ("hard", "random", "normal", "random")
+BRAIN = ("level5", "random", "level3", "random")
 ABREAST = 24  # matches at once
 SECONDS = 120
 

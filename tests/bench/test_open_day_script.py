@@ -131,7 +131,7 @@ def test_sticks_are_released_after_a_match_and_nobody_waits_for_ever(arcade: Arc
     try:
         stage.group, stage.players = DAY.groups[0], [SimpleNamespace(hands=hands)]
         stage.reactions = {MatchScene: lambda: hands.steer(1.0, -1.0, False, True)}
-        arcade.open(MatchScene(arcade.context, setup("easy easy off off")))
+        arcade.open(MatchScene(arcade.context, setup("level1 level1 off off")))
         stage.play(1.0)
         assert hands.steered == (1.0, -1.0, False, True)
         arcade.stack.scenes[-1] = Floor()

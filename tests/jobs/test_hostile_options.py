@@ -37,10 +37,10 @@ FILES = (
     "DEEP.toml", "x.txt", "x.png/", "x.npz",
 )  # fmt: skip
 ANY = WORDS + NUMBERS + FILES
-SHORT = ["--headless", "--speed", "max", "--minutes", "0.05", "--seats", "fsm,easy"]
+SHORT = ["--headless", "--speed", "max", "--minutes", "0.05", "--seats", "fsm,level1"]
 PLAY = ["play", *SHORT]
-DUEL = ["duel", "pitanks", "easy", "idle", "--matches", "1", "--minutes", "0.05"]
-LEAGUE = ["league", "pitanks", "easy", "idle", "--matches", "1", "--minutes", "0.05"]
+DUEL = ["duel", "pitanks", "level1", "idle", "--matches", "1", "--minutes", "0.05"]
+LEAGUE = ["league", "pitanks", "level1", "idle", "--matches", "1", "--minutes", "0.05"]
 TRAIN = ["train", "qlearning", "--matches", "1", "--minutes", "0.05", "--plain", "--out", "a.npz"]
 PPO = ["train", "ppo", *SET, "--out", "foreign.npz", "--resume"]  # refused at the latest for its foreign checkpoint
 OPTIONS = {
@@ -60,7 +60,7 @@ OPTIONS = {
     ("replay", "--verify"): ("",),
     ("bench",): ("",),
     ("train", "qlearning", "--out", "a.npz"): ("",),
-    ("duel", "pitanks", "easy"): ("",),
+    ("duel", "pitanks", "level1"): ("",),
     ("calibrate", "--sheet", "a.pdf"): ("--edge", "--camera", "--display", "--emulate", "--sheet", ""),
     ("robots", "--nonsense"): ("--camera", "--port", "--emulate", ""),
     ("fidelity", "replay"): ("",),
@@ -145,7 +145,7 @@ def test_a_picture_is_there_whenever_it_was_asked_for(here, at):
 
 def test_a_match_that_ends_before_the_time_of_the_picture_is_shown_at_its_end(here):
     race = ["play", "race", "--headless", "--speed", "max", "--laps", "1", "--minutes", "2"]
-    assert cli.main([*race, "--seats", "hard,hard", "--screenshot", "a.png", "--at", "3600"]) == 0
+    assert cli.main([*race, "--seats", "level5,level5", "--screenshot", "a.png", "--at", "3600"]) == 0
     assert pygame.image.load(here / "a.png").get_size() == (1920, 1080)
 
 

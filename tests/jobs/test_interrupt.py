@@ -39,18 +39,18 @@ BODIES = {  # what keeps a job busy when Ctrl-C comes, once it has begun
     "a child": "begin()\nsubprocess.run([sys.executable, '-c', 'import time; time.sleep(99)'])",
 }
 JOBS = [  # quick ones first; then those whose processes and threads are many
-    ("play race --headless --seats hard,hard", 2.0),
+    ("play race --headless --seats level5,level5", 2.0),
     ("--kiosk", 3.0),
     *(pytest.param(words, seconds, marks=pytest.mark.long) for words, seconds in [
         ("", 3.0),
         ("doctor", 1.0),
-        ("duel pitanks hard easy --matches 90000", 4.0),
+        ("duel pitanks level5 level1 --matches 90000", 4.0),
         ("train ppo race --minutes 9 --out a.npz", 5.0),
         ("train qlearning --plain --matches 9000 --out a.npz", 4.0),
         ("bench phones", 3.0),
         ("bench race", 6.0),
         ("bench robots", 6.0),
-        ("play --emulate --seats hard,hard", 5.0),
+        ("play --emulate --seats level5,level5", 5.0),
         ("test --quick tests/sim", 3.0),
     ]),
 ]  # fmt: skip

@@ -27,14 +27,14 @@ def job(*words: object) -> str:
 def matches(game: str, folder: Path) -> None:
     """Duel, league, replay, event, and real robots in an emulated arena."""
     few = ("--matches", 2, "--minutes", 0.05)
-    assert json.loads(job("duel", game, "hard", "idle", *few, "--json"))["game"] == game
-    assert "random" in job("league", game, "hard", "random", *few)
-    job("play", game, "--headless", "--minutes", 0.1, "--seats", "hard,easy", "--record", folder / "one.replay")
+    assert json.loads(job("duel", game, "level5", "idle", *few, "--json"))["game"] == game
+    assert "random" in job("league", game, "level5", "random", *few)
+    job("play", game, "--headless", "--minutes", 0.1, "--seats", "level5,level1", "--record", folder / "one.replay")
     assert "plays out the same" in job("replay", folder / "one.replay", "--verify")
-    entrants = ("--entrants", "A=hard,B=easy,C=idle", "--format", "roundrobin", "--minutes", 0.05)
+    entrants = ("--entrants", "A=level5,B=level1,C=idle", "--format", "roundrobin", "--minutes", 0.05)
     job("event", "new", folder / "one.event", "--game", f"{game},race", *entrants)
     assert "A" in job("event", "run", folder / "one.event", "--headless")
-    robots = ("--emulate", 1, "--real", "1,2,3,4", "--seats", "hard,easy,hard,easy", "--minutes", 0.05)
+    robots = ("--emulate", 1, "--real", "1,2,3,4", "--seats", "level5,level1,level5,level1", "--minutes", 0.05)
     assert json.loads(job("play", game, "--headless", *robots, "--json"))["game"] == game
 
 
@@ -83,7 +83,7 @@ def screens(game: str) -> None:
             arcade.wait(0.4)
     arcade.press(Button.FIRE)
     assert arcade.shown(Lobby).game == game
-    one, two, three, four = (Seat("hard" if seat else "human", seat) for seat in range(4))
+    one, two, three, four = (Seat("level5" if seat else "human", seat) for seat in range(4))
     setup = Setup(game, "classic", (one, two, three, four), 1.0, 3, games()[game].default.name)
     arcade.open(MatchScene(arcade.context, setup, [KEYS[0], None, None, None]))
     for _ in range(3):

@@ -20,7 +20,7 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.start import opened
 from pigaming_app.scenes.views.registry import shown_games
 
-seats = tuple(Seat("hard", seat) for seat in range(4))
+seats = tuple(Seat("level5", seat) for seat in range(4))
 match = lambda context: MatchScene(context, Setup("tag", "classic", seats, 1.0, 3, "standard"), [None] * 4)
 print(*shown_games())
 with opened(Options(first_scene=match, headless=True, step=1 / 30, frames=240)) as app:

@@ -23,12 +23,12 @@ endless.LIMIT, endless.GRACE, league.MIN_COMPILED_MATCHES = 0.6, 0.3, {compiled}
 from pigaming_app.jobs.cli import main
 sys.exit(main(sys.argv[1:]))
 """
-PLAY = "play tag --headless --speed max --minutes 0.1 --seats hard,easy"
-DUEL = "duel tag hard idle --matches 2 --minutes 0.1"
-LEAGUE = "league tag hard idle --matches 2 --minutes 0.1"
+PLAY = "play tag --headless --speed max --minutes 0.1 --seats level5,level1"
+DUEL = "duel tag level5 idle --matches 2 --minutes 0.1"
+LEAGUE = "league tag level5 idle --matches 2 --minutes 0.1"
 BENCH = "bench tag"
 TRAIN = "train ppo tag --updates 1 --set matches=16 --out tag.npz"
-OTHER = "duel pitanks easy idle --matches 2 --minutes 0.05"
+OTHER = "duel pitanks level1 idle --matches 2 --minutes 0.05"
 TICK, LOOP = "    match.tick += 1\n", "    while True: pass\n"
 SURPRISE = "GAME = Game(\n    surprise=lambda seed: [0 for _ in iter(int, 1)],"
 

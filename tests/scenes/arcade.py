@@ -107,6 +107,6 @@ def service_of(app: App, kind: type[S]) -> S:
 
 
 def setup(brains: str, minutes: float = 0.1, teams: tuple[int, ...] = (0, 1, 2, 3), seed: int = 3) -> Setup:
-    """A match of PiTanks in the classic arena; `brains` such as "human human easy off"."""
+    """A match of PiTanks in the classic arena; `brains` such as "human human level1 off"."""
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains.split(), teams, strict=True))
     return Setup("pitanks", "classic", (one, two, three, four), minutes, seed, "plain")

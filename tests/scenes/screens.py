@@ -142,13 +142,13 @@ class Ending:
 
 
 ENDINGS = {
-    "alone": Ending("pitanks", "human human hard human", ALONE, (-100, -33, 999, 5), (2,)),
+    "alone": Ending("pitanks", "human human level5 human", ALONE, (-100, -33, 999, 5), (2,)),
     "in teams": Ending("pitanks", "human human q2 human", TEAMS, (-100, -133, 999, -105), (0, 2)),
     "tie": Ending("pitanks", "human human human human", ALONE, (-10, -10, -10, -10), ()),
-    "factory": Ending("factory", "human human hard normal", TEAMS, (2, 8, 1, 1), (1, 3), "standard"),
-    "factory party": Ending("factory", "human human hard normal", TEAMS, (22, 18, 11, 21), (1, 3), "party"),
-    "factory together": Ending("factory", "human human hard normal", (0, 0, 0, 0), (2, 8, 1, 1), (0, 1, 2, 3)),
-    "race": Ending("race", "human easy normal hard", ALONE, (9, 9, 9, 5), (0,)),
+    "factory": Ending("factory", "human human level5 level3", TEAMS, (2, 8, 1, 1), (1, 3), "standard"),
+    "factory party": Ending("factory", "human human level5 level3", TEAMS, (22, 18, 11, 21), (1, 3), "party"),
+    "factory together": Ending("factory", "human human level5 level3", (0, 0, 0, 0), (2, 8, 1, 1), (0, 1, 2, 3)),
+    "race": Ending("race", "human level1 level3 level5", ALONE, (9, 9, 9, 5), (0,)),
 }
 
 

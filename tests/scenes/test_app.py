@@ -151,7 +151,7 @@ def test_unreadable_settings_are_reported_on_the_screen_and_in_detail_on_stderr(
     monkeypatch.setattr(App, "_frame", watched)
     run(Options(headless=True, frames=1, step=STEP))
     assert said == ["Não foi possível ler algumas opções. Usam-se as iniciais."]
-    assert "music = 99 is not between 0 and 10" in capsys.readouterr().err
+    assert "music = 99: expected a whole number <= 10" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(("stored", "language"), [(None, "fr"), ('language = "de"\n', "de"), ("music = 3\n", "en")])
@@ -244,7 +244,7 @@ def test_the_second_screen_follows_a_match(home: Path, monkeypatch: pytest.Monke
     options = Options(
         headless=True,
         scoreboard=2,
-        first_scene=lambda context: MatchScene(context, setup("easy easy off off", minutes=1.0)),
+        first_scene=lambda context: MatchScene(context, setup("level1 level1 off off", minutes=1.0)),
         frames=120,
         step=STEP,
     )

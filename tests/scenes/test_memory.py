@@ -47,7 +47,7 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 def match(arcade: Arcade, game: str) -> MatchScene:
     """A match of AIs with the longest goal."""
     rules = games()[game]
-    one, two, three, four = (Seat("normal", team) for team in rules.default.teams)
+    one, two, three, four = (Seat("level3", team) for team in rules.default.teams)
     goal = max(rules.default.goals, default=0)
     setup = Setup(game, arenas(game)[0], (one, two, three, four), 2.0, 1, rules.default.name, goal)
     return MatchScene(arcade.context, setup)

@@ -41,8 +41,8 @@ def ended(game: str, brains: str, teams: tuple[int, ...], winners: tuple[int, ..
 
 
 WHO_WINS = [
-    ("pitanks", "human human hard off", ALONE, (1,), "Player 2 wins!", "Jogador 2 ganha!"),
-    ("pitanks", "human human hard off", ALONE, (2,), "AI 3 ★★★★★ wins!", "Computador 3 ★★★★★ ganha!"),
+    ("pitanks", "human human level5 off", ALONE, (1,), "Player 2 wins!", "Jogador 2 ganha!"),
+    ("pitanks", "human human level5 off", ALONE, (2,), "AI 3 ★★★★★ wins!", "Computador 3 ★★★★★ ganha!"),
     ("pitanks", "human q2 off off", ALONE, (1,), "AI 2 (self-taught 2) wins!", "Computador 2 (autodidata 2) ganha!"),
     (
         "pitanks",
@@ -52,11 +52,11 @@ WHO_WINS = [
         "AI 2 (the cautious robot) wins!",
         "Computador 2 (o robô cauteloso) ganha!",
     ),
-    ("pitanks", "human human human easy", PAIRS, (0, 2), "Team 1 wins!", "Equipa 1 ganha!"),
+    ("pitanks", "human human human level1", PAIRS, (0, 2), "Team 1 wins!", "Equipa 1 ganha!"),
     ("pitanks", "human human human human", (0, 1, 1, 1), (1, 2, 3), "Team 2 wins!", "Equipa 2 ganha!"),
-    ("factory", "human normal human hard", PAIRS, (0, 2), "Ice wins!", "Gelo ganha!"),
-    ("factory", "human human hard normal", PAIRS, (1, 3), "Fire wins!", "Fogo ganha!"),
-    ("factory", "human hard off off", PAIRS, (1,), "Fire wins!", "Fogo ganha!"),
+    ("factory", "human level3 human level5", PAIRS, (0, 2), "Ice wins!", "Gelo ganha!"),
+    ("factory", "human human level5 level3", PAIRS, (1, 3), "Fire wins!", "Fogo ganha!"),
+    ("factory", "human level5 off off", PAIRS, (1,), "Fire wins!", "Fogo ganha!"),
     ("race", "human level2 off off", ALONE, (1,), "AI 2 ★★ wins!", "Computador 2 ★★ ganha!"),
     ("race", "human human off off", ALONE, (), "It's a tie!", "Empate!"),
 ]
@@ -120,9 +120,9 @@ def test_no_ai_is_announced_as_a_person_in_any_language(game: str, language: str
 
 
 def test_the_line_of_a_team_has_the_teams_colour() -> None:
-    fire = winning_color(*ended("factory", "human human hard normal", PAIRS, (1, 3)))
+    fire = winning_color(*ended("factory", "human human level5 level3", PAIRS, (1, 3)))
     assert fire[0] > fire[2], "fire is warm"
-    ice = winning_color(*ended("factory", "human human hard normal", PAIRS, (0, 2)))
+    ice = winning_color(*ended("factory", "human human level5 level3", PAIRS, (0, 2)))
     assert ice[2] > ice[0], "ice is cold"
     assert winning_color(*ended("race", "human human off off", ALONE, (1,))) == PLAYERS[1]
 

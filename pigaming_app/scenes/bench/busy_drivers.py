@@ -13,7 +13,7 @@ class BusyDrivers:
 
     def __init__(self, game: str, variant: str) -> None:
         rules = games()[game].variants[variant]
-        one, two, three, four = (Seat("hard", team) for team in rules.teams)
+        one, two, three, four = (Seat("level5", team) for team in rules.teams)
         goal = max(rules.goals, default=0)
         setup = Setup(game, arenas(game)[0], (one, two, three, four), 8.0, 1, variant, goal)
         self.match = new_match(setup)

@@ -27,7 +27,7 @@ class BusyRace:
     ) -> None:
         self.arena = arena or load("race", "classic")
         self.state = state = Race()
-        one, two, three, four = (Seat("hard" if i < seats else "off", i) for i in range(ROBOTS))
+        one, two, three, four = (Seat("level5" if i < seats else "off", i) for i in range(ROBOTS))
         start(state, self.arena, Setup("race", self.arena.name, (one, two, three, four), 10.0, 1, variant, laps))
         self.seats = range(seats)
 

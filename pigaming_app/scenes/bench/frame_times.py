@@ -61,7 +61,9 @@ def frame_times(game: str, variant: str, frames: int) -> list[float]:
     pygame.font.init()
     screen = pygame.display.set_mode((1920, 1080))
     scene = busy_match(game, variant)
-    view = SCREENS[game].view(scene.arena, scene.state, ["human", "human", "easy", "hard"], AllEffects(), Words("en"))
+    view = SCREENS[game].view(
+        scene.arena, scene.state, ["human", "human", "level1", "level5"], AllEffects(), Words("en")
+    )
     while not view.prewarm(1000.0):
         pass
     times, owed = [], 0.0

@@ -23,7 +23,7 @@ def read(game: str, name: str) -> None:
 def prepare(game: str, name: str) -> None:
     """Seat AIs in an arena, which solves the racing line."""
     rules = games()[game].default
-    one, two, three, four = (Seat("hard", team) for team in rules.teams)
+    one, two, three, four = (Seat("level5", team) for team in rules.teams)
     setup = Setup(
         game,
         name,

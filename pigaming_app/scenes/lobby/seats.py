@@ -5,7 +5,7 @@ FIRE takes the next empty seat, which determines the player number. The last AI 
 
 from dataclasses import dataclass, field, replace
 
-from pigaming_app.ai.game_ai import LEVELS, NAMED_LEVELS
+from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.games.game import ALLIES, FREE, PAIRS, Seat
 from pigaming_app.ui.input.events import Device
 
@@ -220,8 +220,7 @@ class Seats:
         return self.places[seat].team if self.teams else seat
 
     def _strength(self, strength: str) -> str:
-        name = NAMED_LEVELS.get(strength, strength)
-        return name if name in self.rivals else self.strength
+        return strength if strength in self.rivals else self.strength
 
     def _brain(self, place: SeatState) -> str:
         return {EMPTY: "off", HUMAN: "human"}.get(place.kind, place.strength)

@@ -8,7 +8,6 @@ from pigaming_app.ai.brain.kind import BrainPlayer, no_weights
 from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PETALS, WALL, Thoughts, blend, petal, towards
 from pigaming_app.ai.explanations.registry import explain_of, thoughts_of
 from pigaming_app.ai.factory import foreman
-from pigaming_app.ai.game_ai import NAMED_LEVELS
 from pigaming_app.ai.pitanks import fsm, gunner
 from pigaming_app.ai.qlearning.features import NONE, SECTORS, state
 from pigaming_app.ai.qlearning.player import Learned, player
@@ -30,7 +29,7 @@ ALL = [
     (game, name)
     for game, brains in BRAINS.items()
     for name in brains
-    if name not in NAMED_LEVELS and (explain_of(brains[name], game) or game in OURS)  # those of ours must
+    if explain_of(brains[name], game) or game in OURS  # those of ours must
 ]
 KEPT = 0.9  # value of the second best move, as a share of the best
 

@@ -5,7 +5,6 @@ from math import hypot
 
 import pytest
 
-from pigaming_app.ai.game_ai import NAMED_LEVELS
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.pallets import move
@@ -43,6 +42,9 @@ def played(brains, floor="hall", seed=1, pallets=4):
     return match
 
 
+STRENGTHS = ("level1", "level3", "level5")
+
+
 def total(match, name):
     return sum(getattr(load, name) for load in match.state.loads)
 
@@ -61,7 +63,7 @@ def test_four_hard_drivers_spoil_nothing_and_one_team_delivers_everything(floor,
     assert total(match, "hits") <= 2
 
 
-@pytest.mark.parametrize("strength", NAMED_LEVELS)
+@pytest.mark.parametrize("strength", STRENGTHS)
 @pytest.mark.parametrize("floor", FLOORS)
 def test_every_strength_alone_against_another_delivers_everything(floor, strength):
     match = played((strength, strength, "off", "off"), floor, pallets=2)
@@ -84,7 +86,7 @@ def test_eight_pallets_are_no_dead_end(floor):
     ("better", "worse", "least"), one_in(3, [("hand3", "hand1", 9), ("hand3", "hand2", 6), ("hand2", "hand1", 9)])
 )
 def test_the_strengths_are_ordered(better, worse, least):
-    """In nine matches on all three floors, on either side; `normal` beats `hard` in one of five."""
+    """In nine matches on all three floors, on either side; `level3` beats `level5` in one of five."""
     won = 0
     for i, floor in enumerate(FLOORS * 3):
         brains = (worse, better) * 2 if i % 2 else (better, worse) * 2
@@ -113,7 +115,7 @@ def test_the_same_seed_is_the_same_match():
     assert digest(first.state) == digest(again.state)
 
 
-@pytest.mark.parametrize("strength", NAMED_LEVELS)
+@pytest.mark.parametrize("strength", STRENGTHS)
 def test_it_thinks_without_changing_anything_but_its_action(strength):
     match = begun((strength,) * 4)
     brain = make_brain("factory", strength, 1)
@@ -270,7 +272,7 @@ def test_it_clears_the_machine_of_a_person_who_is_busy():
     assert first_aim(shop) == out
 
 
-@pytest.mark.parametrize("strength", NAMED_LEVELS)
+@pytest.mark.parametrize("strength", STRENGTHS)
 def test_it_drives_round_people(strength):
     """A person stands between it and its first pallet."""
     match = begun((strength, "off", "off", "off"), "hall", 2, pallets=2)
@@ -292,6 +294,6 @@ def test_somebody_else_can_take_over_at_any_time():
         match.tick()
         if match.state.tick % (4 * HZ) == 0:
             changes += 1
-            match.sit(2 * (changes % 2), make_brain("factory", [*NAMED_LEVELS][changes % 3], changes))
+            match.sit(2 * (changes % 2), make_brain("factory", STRENGTHS[changes % 3], changes))
     assert match.state.winner == 1 + ICE
     assert total(match, "spoiled") == 0

@@ -6,7 +6,7 @@ from pigaming_app.ai.learning.evaluation import HANDMADE, Evaluation
 from pigaming_app.ai.learning.training import GAME, contest
 from pigaming_app.ai.registry import BRAINS
 
-HARD, IDLE, OWN = BRAINS[GAME]["hard"], BRAINS[GAME]["idle"], BRAINS[GAME][HANDMADE]
+HARD, IDLE, OWN = BRAINS[GAME]["level5"], BRAINS[GAME]["idle"], BRAINS[GAME][HANDMADE]
 
 
 def played(evaluation: Evaluation, ticks: int) -> Evaluation:

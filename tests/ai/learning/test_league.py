@@ -110,7 +110,7 @@ def test_left_and_right_swapped_is_the_same_duel_seen_from_the_other_side():
 @pytest.mark.long
 def test_compiled_or_plain_the_scores_are_the_same():
     plain, fast = (  # the loop of another test, which is in the cache
-        duel("pitanks", "fsm", "hard", matches=4, seed=11, minutes=0.5, variant="plain", fast=fast)
+        duel("pitanks", "fsm", "level5", matches=4, seed=11, minutes=0.5, variant="plain", fast=fast)
         for fast in (False, True)
     )
     assert (plain.wins, plain.ties, plain.losses) == (fast.wins, fast.ties, fast.losses)
@@ -125,8 +125,8 @@ def test_a_brain_that_is_not_there_is_refused():
 
 def test_allies_play_the_same_seeds_alone_and_the_better_time_wins():
     won, even = (
-        duel("factory", "hard", other, matches=1, seed=7, goal=4, minutes=1.0, variant="together", fast=False)
-        for other in ("idle", "hard")
+        duel("factory", "level5", other, matches=1, seed=7, goal=4, minutes=1.0, variant="together", fast=False)
+        for other in ("idle", "level5")
     )
     assert (won.wins, won.ties, won.losses) == (1, 0, 0)
     assert (won.mean_score_left, won.mean_score_right) == (4.0, 0.0)
@@ -150,13 +150,13 @@ def test_a_league_is_every_pairs_duel_over_the_same_seeds(monkeypatch):
 
 @pytest.mark.parametrize(("game", "minutes"), [("pitanks", 0.5), ("race", 0.5), ("factory", 1.5)])
 def test_a_league_puts_who_plays_before_who_stands_still(game, minutes):
-    found = league.league(game, ["idle", "hard", "random"], matches=2, seed=1, minutes=minutes, fast=False)
-    assert found.standings[0].brain == "hard"
-    assert {one.brain for one in found.standings} == {"idle", "hard", "random"}
+    found = league.league(game, ["idle", "level5", "random"], matches=2, seed=1, minutes=minutes, fast=False)
+    assert found.standings[0].brain == "level5"
+    assert {one.brain for one in found.standings} == {"idle", "level5", "random"}
     for standing in found.standings:
         assert standing.rating.low <= standing.rating.rating <= standing.rating.high
         assert standing.wins + standing.ties + standing.losses == 4
-    alone = duel(game, "idle", "hard", matches=2, seed=1, minutes=minutes, fast=False)
+    alone = duel(game, "idle", "level5", matches=2, seed=1, minutes=minutes, fast=False)
     first = found.duels[0]
     assert (alone.wins, alone.ties, alone.losses) == (first.wins, first.ties, first.losses)
     assert alone.mean_score_right == first.mean_score_right
@@ -166,9 +166,9 @@ def test_a_league_puts_who_plays_before_who_stands_still(game, minutes):
     ("brains", "said"),
     [
         ([], "two brains or more"),
-        (["hard"], "two brains or more"),
-        (["hard", "idle", "hard"], "'hard' is named twice"),
-        (["hard", "genius"], "no brain 'genius'"),
+        (["level5"], "two brains or more"),
+        (["level5", "idle", "level5"], "'level5' is named twice"),
+        (["level5", "genius"], "no brain 'genius'"),
     ],
 )
 def test_what_is_no_league_is_refused(brains, said):

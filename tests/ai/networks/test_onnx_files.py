@@ -63,7 +63,10 @@ def test_a_missing_extra_is_one_line(tmp_path, monkeypatch, capsys):
     Path("a.onnx").write_bytes(model(MATRIX))
     monkeypatch.setitem(sys.modules, "onnxruntime", None)
     monkeypatch.setattr("pigaming_app.jobs.terminal.refusal.find_spec", lambda name: None)
-    for words in (["play", "pitanks", "--seats", "a.onnx,hard", "--headless"], ["duel", "pitanks", "hard", "a.onnx"]):
+    for words in (
+        ["play", "pitanks", "--seats", "a.onnx,level5", "--headless"],
+        ["duel", "pitanks", "level5", "a.onnx"],
+    ):
         assert main(words) == 2
         assert "onnxruntime is missing (extra `onnx`)" in capsys.readouterr().err
     with pytest.raises(ChoiceError, match=r"^a\.onnx: onnxruntime is missing"):
@@ -85,7 +88,7 @@ class TestWithTheExtra:
         inputs = np.random.default_rng(2).integers(-256, 257, ENCODING.size).astype(float)
         logits = kind.weights(False)[0].logits(inputs.tolist())
         assert np.array(logits) / 65536.0 == pytest.approx(inputs / 256.0 @ MATRIX, rel=1e-4, abs=1e-4)
-        seats = Seat("my net.onnx", 0), Seat("hard", 1), Seat("off", 2), Seat("off", 3)
+        seats = Seat("my net.onnx", 0), Seat("level5", 1), Seat("off", 2), Seat("off", 3)
         match = new_match(Setup("pitanks", "classic", seats, 0.1, 1, "pickups"))
         while not match.over:
             match.tick()
@@ -114,7 +117,7 @@ class TestWithTheExtra:
     )
     def test_a_model_beyond_its_limits_is_one_line(self, raw, reason, capsys):
         Path("a.onnx").write_bytes(raw)
-        assert main(["play", "pitanks", "--headless", "--minutes", "0.1", "--seats", "a.onnx,hard"]) == 2
+        assert main(["play", "pitanks", "--headless", "--minutes", "0.1", "--seats", "a.onnx,level5"]) == 2
         (line,) = capsys.readouterr().err.splitlines()
         assert line.startswith(f"PiGaming: a.onnx: {reason}")
 
@@ -131,7 +134,7 @@ class TestWithTheExtra:
         monkeypatch.setattr(OnnxPolicy, "_try", lambda policy: None)
         monkeypatch.setattr("pigaming_app.ai.networks.onnx.files.failed", failures)
         Path("a.onnx").write_bytes(raw)
-        seats = Seat("a.onnx", 0), Seat("hard", 1), Seat("off", 2), Seat("off", 3)
+        seats = Seat("a.onnx", 0), Seat("level5", 1), Seat("off", 2), Seat("off", 3)
         match = new_match(Setup("pitanks", "classic", seats, 0.1, 1, "pickups"))
         while not match.over:
             match.tick()

@@ -393,7 +393,7 @@ class PartyWatch(Watch):
             self.before[p] = pallet.state
 
 
-@pytest.mark.parametrize("brains", one_in(2, ["hard normal easy random", "hard hard hard hard"]))
+@pytest.mark.parametrize("brains", one_in(2, ["level5 level3 level1 random", "level5 level5 level5 level5"]))
 @pytest.mark.parametrize("floor", one_in(3, FLOORS))
 def test_no_pallet_is_lost_or_doubled_while_drivers_play(floor, brains):
     brains = brains.split()

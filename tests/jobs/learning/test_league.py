@@ -11,7 +11,7 @@ from pigaming_app.events.league_files import ratings_of
 from pigaming_app.jobs.cli import main
 from pigaming_app.jobs.learning.league import table
 
-NAMES = ["easy", "normal", "hard", "classic", "q1", "q2", "fsm", "random", "idle"]
+NAMES = ["level1", "level3", "level5", "classic", "q1", "q2", "fsm", "random", "idle"]
 
 
 def run(words: str) -> int:
@@ -49,10 +49,10 @@ def test_tables_are_not_wider_than_a_hundred_columns(count, matches):
 
 
 def test_a_cell_says_how_the_row_fared_against_the_column():
-    lines = list(table(made_up(["hard", "idle"], 100)))
-    head = next(i for i, line in enumerate(lines) if line.split() == ["hard", "idle"])
+    lines = list(table(made_up(["level5", "idle"], 100)))
+    head = next(i for i, line in enumerate(lines) if line.split() == ["level5", "idle"])
     assert [line.split() for line in lines[head + 1 : head + 5]] == [
-        ["hard", "-", "100/0/0"],
+        ["level5", "-", "100/0/0"],
         ["[96,", "100]"],
         ["idle", "0/0/100", "-"],
         ["[0,", "4]"],
@@ -60,20 +60,20 @@ def test_a_cell_says_how_the_row_fared_against_the_column():
 
 
 def test_a_league_prints_the_best_first(capsys):
-    assert run("pitanks idle random hard --matches 2 --minutes 0.4 --variant plain") == 0
+    assert run("pitanks idle random level5 --matches 2 --minutes 0.4 --variant plain") == 0
     out = capsys.readouterr().out
-    assert re.search(r"^  1 hard +\+\d+ \[[+-]\d+, \+\d+\]", out, re.MULTILINE)
+    assert re.search(r"^  1 level5 +\+\d+ \[[+-]\d+, \+\d+\]", out, re.MULTILINE)
     assert "a tie is half a win" in out
     assert not any(line.endswith(" ") for line in out.splitlines())
 
 
 def test_json_is_one_object_and_nothing_else(capsys):
-    assert run("race idle easy hard --matches 2 --minutes 0.3 --arena kidney --seed 4 --json") == 0
+    assert run("race idle level1 level5 --matches 2 --minutes 0.3 --arena kidney --seed 4 --json") == 0
     captured = capsys.readouterr()
     found = json.loads(captured.out)
     assert captured.err == ""
     assert (found["game"], found["arena"], found["matches"], found["seed"]) == ("race", "kidney", 2, 4)
-    assert [row["brain"] for row in found["standings"]] == ["hard", "easy", "idle"]
+    assert [row["brain"] for row in found["standings"]] == ["level5", "level1", "idle"]
     best = found["standings"][0]
     assert best["rating95"][0] < best["rating"] < best["rating95"][1]
     assert len(found["duels"]) == 3
@@ -90,16 +90,16 @@ def test_json_is_one_object_and_nothing_else(capsys):
         "pitanks fsm fsm",
         "pitanks fsm wizard",
         "pitanks fsm human",
-        "pitanks fsm easy --matches 0",
-        "pitanks fsm easy --matches many",
-        "pitanks fsm easy --seed x",
-        "pitanks fsm easy --minutes -1",
-        "pitanks fsm easy --arena nowhere",
-        "pitanks fsm easy --variant odd",
-        "pitanks fsm easy --laps 3",
-        "race easy hard --pallets 2",
-        "race easy hard --laps 99",
-        "race easy hard --loud",
+        "pitanks fsm level1 --matches 0",
+        "pitanks fsm level1 --matches many",
+        "pitanks fsm level1 --seed x",
+        "pitanks fsm level1 --minutes -1",
+        "pitanks fsm level1 --arena nowhere",
+        "pitanks fsm level1 --variant odd",
+        "pitanks fsm level1 --laps 3",
+        "race level1 level5 --pallets 2",
+        "race level1 level5 --laps 99",
+        "race level1 level5 --loud",
     ],
 )
 def test_wrong_words_are_one_line_and_exit_code_2(words, capsys):

@@ -236,7 +236,7 @@ def test_simulated_robots_drive_like_measured_ones_on_request(tmp_path, capsys):
     slow = Drivetrain(Wheel(60.0, 0.0), Wheel(60.0, 0.0), 62.0, 0.2, 0.1)
     file = tmp_path / "robots.toml"
     file.write_text(to_toml([slow] * 4))
-    race = ["play", "race", "--seats", "hard,hard", "--headless", "--speed", "max", "--minutes", "0.4"]
+    race = ["play", "race", "--seats", "level5,level5", "--headless", "--speed", "max", "--minutes", "0.4"]
     ideal, measured = output(capsys, *race), output(capsys, *race, "--robots", str(file))
     assert max(row["laps"] for row in ideal["rows"]) >= 1
     assert max(row["laps"] for row in measured["rows"]) == 0

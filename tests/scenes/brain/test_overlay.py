@@ -33,9 +33,9 @@ from tests.ai.networks.random_network import random_network
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
 
-SEATS = {"pitanks": ["hard", "easy", "random", "idle"], "race": ["hard", "easy", "random", "idle"]}
-SEATS["factory"] = ["hard", "normal", "easy", "random"]
-SEATS["football"] = ["hard", "net", "easy", "random"]
+SEATS = {"pitanks": ["level5", "level1", "random", "idle"], "race": ["level5", "level1", "random", "idle"]}
+SEATS["factory"] = ["level5", "level3", "level1", "random"]
+SEATS["football"] = ["level5", "net", "level1", "random"]
 READABLE = 0.85  # minimum horizontal scale of readable text
 
 
@@ -58,7 +58,7 @@ def stage_of(arcade: Arcade, game: str, seed: int = 1) -> MatchRunner:
 
 
 def test_f4_cycles_through_the_ais_and_then_hides_the_overlay(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human easy off hard", 1.0), KEYS[:1])
+    match = MatchScene(arcade.context, setup("human level1 off level5", 1.0), KEYS[:1])
     arcade.open(match)
     shown = []
     for _ in range(4):
@@ -84,7 +84,7 @@ def test_alt_and_f4_is_for_the_window_manager(arcade: Arcade) -> None:
 
 
 def test_the_overlay_closes_when_a_person_takes_the_seat(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human easy off off", 1.0), [None])
+    match = MatchScene(arcade.context, setup("human level1 off off", 1.0), [None])
     arcade.open(match)
     f4(arcade)
     assert match.runner.brain.seat == 0, "an AI drives for somebody"
@@ -96,7 +96,7 @@ def test_the_overlay_closes_when_a_person_takes_the_seat(arcade: Arcade) -> None
 
 
 def test_in_a_pause_it_leads_back_into_the_match(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human easy off off", 1.0), KEYS[:1])
+    match = MatchScene(arcade.context, setup("human level1 off off", 1.0), KEYS[:1])
     arcade.open(match)
     arcade.wait(4.5)
     arcade.press(Button.START)
@@ -120,7 +120,7 @@ def test_a_pause_names_the_pads_own_button_for_it(arcade: Arcade, kind: str, usb
     plain = kind == "Joystick"
     with VirtualPad(f"{kind} pad", usb, plain=plain) as pad:
         arcade.frame()
-        match = MatchScene(arcade.context, setup("human easy off off", 1.0), [Device("pad", pad.number)])
+        match = MatchScene(arcade.context, setup("human level1 off off", 1.0), [Device("pad", pad.number)])
         arcade.open(match)
         arcade.wait(4.5)
         pad.tap("start" if not plain else 9)

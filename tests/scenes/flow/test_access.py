@@ -194,7 +194,7 @@ def test_in_setup_only_seated_devices_choose(arcade: Arcade) -> None:
 def test_in_a_match_nothing_on_a_free_pad_pauses(arcade: Arcade, pads: ExitStack) -> None:
     _, first = plug(arcade, pads)
     guest, _ = plug(arcade, pads)
-    match = running(arcade, "human easy off off", [first])
+    match = running(arcade, "human level1 off off", [first])
     tap(arcade, guest, *BUTTONS, "a")
     arcade.press(Button.BACK, KEYS[0])
     arcade.press(Button.START, KEYS[0])
@@ -205,7 +205,7 @@ def test_in_a_match_nothing_on_a_free_pad_pauses(arcade: Arcade, pads: ExitStack
 
 def test_an_operator_holds_escape_to_pause_pads_and_to_take_a_pause_over(arcade: Arcade, pads: ExitStack) -> None:
     pad, first = plug(arcade, pads)
-    match = running(arcade, "human easy off off", [first])
+    match = running(arcade, "human level1 off off", [first])
     key(arcade, pygame.KSCAN_ESCAPE, 0.4)
     assert arcade.stack.top is match
     key(arcade, pygame.KSCAN_ESCAPE, ESCAPE_SECONDS + 0.2)
@@ -220,7 +220,7 @@ def test_an_operator_holds_escape_to_pause_pads_and_to_take_a_pause_over(arcade:
 
 def test_while_ais_play_alone_any_device_pauses(arcade: Arcade, pads: ExitStack) -> None:
     guest, _ = plug(arcade, pads)
-    match = running(arcade, "easy easy off off", [])
+    match = running(arcade, "level1 level1 off off", [])
     for button in ("start", "b"):
         tap(arcade, guest, button)
         arcade.shown(Pause)
@@ -257,7 +257,7 @@ def test_f4_of_the_keyboard_works_in_any_match_but_ends_no_pause_of_another_devi
     arcade: Arcade, pads: ExitStack
 ) -> None:
     pad, first = plug(arcade, pads)
-    match = running(arcade, "human easy off off", [first])
+    match = running(arcade, "human level1 off off", [first])
     key(arcade, pygame.KSCAN_F4)
     assert match.runner.brain.seats == [1]
     tap(arcade, pad, "start")
@@ -281,7 +281,7 @@ def test_an_unplugged_pad_owns_no_pause(arcade: Arcade, pads: ExitStack) -> None
 
 @pytest.mark.parametrize(("name", "downs"), [("restart", 1), ("end", 3)])
 def test_restart_and_end_ask_once(arcade: Arcade, name: str, downs: int) -> None:
-    match = running(arcade, "human easy off off", KEYS[:1])
+    match = running(arcade, "human level1 off off", KEYS[:1])
     arcade.press(Button.START)
     page = arcade.shown(Pause)
     for _ in range(downs):
@@ -337,7 +337,7 @@ def test_taps_are_bounded_and_belong_to_their_device(arcade: Arcade, pads: ExitS
 
 def test_a_tap_in_a_menu_or_the_countdown_does_not_fire_in_the_match(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads)
-    match = MatchScene(arcade.context, setup("human easy off off", 1.0), [device])
+    match = MatchScene(arcade.context, setup("human level1 off off", 1.0), [device])
     pad.tap("a")
     arcade.frame()
     arcade.open(match)
@@ -407,7 +407,7 @@ def test_when_all_are_idle_the_match_asks_and_the_first_press_returns_its_seat(
 def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(arcade: Arcade, pads: ExitStack) -> None:
     _, first = plug(arcade, pads)
     guest, device = plug(arcade, pads)
-    match = running(arcade, "human easy easy off", [first])
+    match = running(arcade, "human level1 level1 off", [first])
     tap(arcade, guest, "a", "a", "a")
     arcade.wait(TAKE_SECONDS + 0.2, draw=True)
     assert match.devices == [first, None, None, None]
@@ -439,7 +439,7 @@ def ended(arcade: Arcade, brains: str, devices: list[Device]) -> Results:
 
 def test_b_leaves_the_results_only_late_and_held(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads)
-    results = ended(arcade, "human easy off off", [device])
+    results = ended(arcade, "human level1 off off", [device])
     for _ in range(12):
         tap(arcade, pad, "b")
         arcade.wait(0.2)
@@ -458,7 +458,7 @@ def test_b_leaves_the_results_only_late_and_held(arcade: Arcade, pads: ExitStack
 def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade, pads: ExitStack) -> None:
     _, first = plug(arcade, pads)
     guest, device = plug(arcade, pads)
-    results = ended(arcade, "human easy off off", [first])
+    results = ended(arcade, "human level1 off off", [first])
     arcade.wait(LATE + 1.0)
     tap(arcade, guest, *BUTTONS, "a")
     guest.press("b")
@@ -478,7 +478,7 @@ def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade, pad
 
 
 def test_change_game_keeps_all_seats(arcade: Arcade) -> None:
-    ended(arcade, "human off human hard", [KEYS[2], None, KEYS[0], None])  # type: ignore[list-item]
+    ended(arcade, "human off human level5", [KEYS[2], None, KEYS[0], None])  # type: ignore[list-item]
     arcade.wait(3.0)
     arcade.press(Button.X, KEYS[1])
     arcade.shown(Results)

@@ -115,7 +115,7 @@ def test_a_game_that_never_starts_does_not_keep_the_others_waiting(
 
 def test_a_match_waits_on_its_page_until_its_arena_is_ready(controls: object, home: Path) -> None:
     arcade = Arcade(controls)  # type: ignore[arg-type]
-    seats = Seats("normal")
+    seats = Seats("level3")
     seats.join(KEYS[0])
     seats.add_opponents()
     page = MatchSetupPage(arcade.context, "pitanks", seats)
@@ -169,7 +169,7 @@ def test_the_compilers_run_once_from_the_title_on_and_end_with_the_arcade(
 @pytest.mark.parametrize("simulated", [True, False], ids=["in simulated time", "with a match on top"])
 def test_nothing_is_prepared_where_no_title_is_shown(home: Path, simulated: bool) -> None:
     def first(context: object) -> MatchSetupPage:
-        seats = Seats("normal")
+        seats = Seats("level3")
         seats.join(KEYS[0])
         return MatchSetupPage(context, "pitanks", seats)  # type: ignore[arg-type]
 

@@ -27,7 +27,7 @@ def notes(folder: Path) -> list[PlayedMatch]:
 
 
 def test_a_match_is_noted_as_soon_as_it_is_over(arcade: Arcade, tmp_path: Path) -> None:
-    scene = MatchScene(arcade.context, setup("human easy easy off", minutes=0.05), [KEYS[0]])
+    scene = MatchScene(arcade.context, setup("human level1 level1 off", minutes=0.05), [KEYS[0]])
     arcade.open(scene)
     arcade.until(lambda: scene.ending.begun)
     (found,) = notes(tmp_path)
@@ -38,11 +38,11 @@ def test_a_match_is_noted_as_soon_as_it_is_over(arcade: Arcade, tmp_path: Path) 
 
 
 def test_a_match_that_is_left_is_noted_as_such(arcade: Arcade, tmp_path: Path) -> None:
-    scene = MatchScene(arcade.context, setup("easy easy off off"))
+    scene = MatchScene(arcade.context, setup("level1 level1 off off"))
     arcade.open(scene)
     arcade.stack.apply(Home())
     assert notes(tmp_path) == []  # it had not begun
-    scene = MatchScene(arcade.context, setup("easy easy off off"))
+    scene = MatchScene(arcade.context, setup("level1 level1 off off"))
     arcade.open(scene)
     arcade.until(lambda: scene.match.state.tick > 10)
     arcade.stack.apply(Home())
@@ -52,7 +52,7 @@ def test_a_match_that_is_left_is_noted_as_such(arcade: Arcade, tmp_path: Path) -
 
 def test_three_rounds_are_one_match(arcade: Arcade, tmp_path: Path) -> None:
     rounds = Rounds(3)
-    arcade.open(MatchScene(arcade.context, setup("easy easy off off", minutes=0.02), rounds=rounds))
+    arcade.open(MatchScene(arcade.context, setup("level1 level1 off off", minutes=0.02), rounds=rounds))
     arcade.until(lambda: rounds.done and bool(notes(tmp_path)), 120.0)
     (found,) = notes(tmp_path)
     assert found.seconds == pytest.approx(sum(outcome.seconds for outcome in rounds.outcomes), abs=0.05)

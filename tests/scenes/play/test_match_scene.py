@@ -55,7 +55,7 @@ def two_pads(arcade: Arcade, pads: ExitStack, minutes: float = 1.0) -> tuple[Mat
 
 def test_nothing_moves_before_go_and_everything_after(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads)
-    match = MatchScene(arcade.context, setup("human hard off off", 1.0), [device, None, None, None])
+    match = MatchScene(arcade.context, setup("human level5 off off", 1.0), [device, None, None, None])
     arcade.open(match)
     pad.stick(0.0, -1.0)
     arcade.wait(COUNTDOWN - 0.1, draw=True)
@@ -81,7 +81,7 @@ def test_a_pad_that_points_drives_where_the_stick_points_also_after_it_was_replu
 ) -> None:
     pad, device = plug(arcade, pads)
     arcade.context.driving.change(device, "pitanks", "plain", 1)
-    match = MatchScene(arcade.context, setup("human easy off off", 5.0), [device])
+    match = MatchScene(arcade.context, setup("human level1 off off", 5.0), [device])
     arcade.open(match)
     assert match.runner.driver(0, device)[1] == "point"
     arcade.wait(COUNTDOWN + 0.1)
@@ -103,7 +103,7 @@ def test_a_pad_that_points_drives_where_the_stick_points_also_after_it_was_replu
 
 
 def test_time_is_up_then_the_results(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human easy hard off"), [KEYS[0], None, None, None])
+    match = MatchScene(arcade.context, setup("human level1 level5 off"), [KEYS[0], None, None, None])
     arcade.open(match)
     arcade.until(lambda: match.match.over)
     assert arcade.sounds.heard.count("tick") == 6
@@ -115,7 +115,7 @@ def test_time_is_up_then_the_results(arcade: Arcade) -> None:
 
 
 def test_a_suspended_machine_causes_no_burst_of_ticks(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("easy hard off off", 1.0))
+    match = MatchScene(arcade.context, setup("level1 level5 off off", 1.0))
     arcade.open(match)
     arcade.wait(COUNTDOWN + 0.2)
     before = match.match.state.tick
@@ -148,7 +148,7 @@ def test_turbo_on_a_pad_is_not_a_pause(arcade: Arcade, pads: ExitStack) -> None:
 
 
 def test_the_pause_menu_restarts_shows_the_controls_and_ends(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human easy off off", 1.0), KEYS[:1])
+    match = MatchScene(arcade.context, setup("human level1 off off", 1.0), KEYS[:1])
     arcade.open(match)
     arcade.wait(COUNTDOWN + 1.0)
     arcade.press(Button.START)
@@ -278,7 +278,7 @@ def test_a_mashed_button_does_not_give_the_seat_to_an_ai(arcade: Arcade, pads: E
 
 
 def test_a_match_without_input_asks_and_then_returns_to_the_title(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human easy off off", 5.0), KEYS[:1])
+    match = MatchScene(arcade.context, setup("human level1 off off", 5.0), KEYS[:1])
     arcade.open(match)
     arcade.until(lambda: isinstance(arcade.stack.top, StillThere), 70.0)
     assert match.match.seconds == pytest.approx(60.0, abs=1.0)
@@ -297,7 +297,7 @@ def test_a_held_stick_counts_as_input(arcade: Arcade, pads: ExitStack) -> None:
 
 
 def test_a_match_of_ais_never_asks(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("easy easy off off", 1.2))
+    match = MatchScene(arcade.context, setup("level1 level1 off off", 1.2))
     arcade.open(match)
     arcade.until(lambda: isinstance(arcade.stack.top, Results), 85.0)
 
@@ -322,7 +322,7 @@ def test_the_numbers_before_a_match_stand_where_they_hide_no_robot() -> None:
 
 @pytest.mark.parametrize(("speed", "records"), [(1.0, 1), (0.5, 0), (2.0, 0)])
 def test_only_a_match_at_real_speed_sets_records(arcade: Arcade, speed: float, records: int) -> None:
-    scene = MatchScene(arcade.context, setup("human normal off off", 0.05), [KEYS[0]], speed)
+    scene = MatchScene(arcade.context, setup("human level3 off off", 0.05), [KEYS[0]], speed)
     arcade.open(scene)
     arcade.until(lambda: scene.match.state.tick > 100)
     scene.match.state.robots[0].score = 9

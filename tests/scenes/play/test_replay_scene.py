@@ -60,7 +60,7 @@ def test_any_input_ends_it(arcade: Arcade, button: Button) -> None:
 
 @pytest.fixture
 def recorded(tmp_path: Path) -> tuple[Path, str]:
-    match = new_match(setup("hard easy normal off", 0.1))
+    match = new_match(setup("level5 level1 level3 off", 0.1))
     while not match.over:
         match.tick()
     save_replay(match, tmp_path / "match.replay")
@@ -105,7 +105,7 @@ def test_a_replay_pauses_speeds_up_and_restarts(arcade: Arcade, recorded: tuple[
 @pytest.fixture(scope="module")
 def long() -> Replay:
     """A replay of 20 s."""
-    match = new_match(setup("hard easy normal off", 1 / 3))
+    match = new_match(setup("level5 level1 level3 off", 1 / 3))
     while not match.over:
         match.tick()
     return recording_of(match)

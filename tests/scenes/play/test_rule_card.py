@@ -75,7 +75,7 @@ def test_the_card_is_there_before_the_match_and_not_after_a_pause(
             scene.draw(screen)
             return line in [mark.text for mark in screen.texts]
 
-        scene = MatchScene(arcade.context, setup("human easy off off"), KEYS[:1])
+        scene = MatchScene(arcade.context, setup("human level1 off off"), KEYS[:1])
         monkeypatch.setattr(scene.runner, "prewarm", lambda milliseconds: True)
         monkeypatch.setattr(scene.runner, "draw", lambda canvas: canvas.fill("black"))
         arcade.open(scene)

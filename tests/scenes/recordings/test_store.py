@@ -19,7 +19,7 @@ NOON = datetime(2026, 5, 9, 12, 0, 0)
 
 @pytest.fixture(scope="module")
 def replay() -> Replay:
-    match = new_match(setup("human hard off easy", 0.05))
+    match = new_match(setup("human level5 off level1", 0.05))
     while not match.over:
         match.tick()
     return recorded(match)
@@ -32,7 +32,7 @@ def _home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_the_name_has_date_game_and_players(replay: Replay) -> None:
     path = store.save(replay, NOON)
-    assert path.name == "2026-05-09_12-00-00_pitanks_human-hard-easy.replay"
+    assert path.name == "2026-05-09_12-00-00_pitanks_human-level5-level1.replay"
     assert path.parent == store.folder()
     assert store.saved_at(path) == NOON
     again = store.load(path)
@@ -65,7 +65,7 @@ def full_folder(replay: Replay) -> list[Path]:
     raw = first.read_bytes()
     for i in range(1, LIMIT):
         when = NOON + timedelta(minutes=i)
-        first.with_name(f"{when:{store.DATE}}_pitanks_human-hard-easy.replay").write_bytes(raw)
+        first.with_name(f"{when:{store.DATE}}_pitanks_human-level5-level1.replay").write_bytes(raw)
     return store.paths()
 
 

@@ -17,7 +17,7 @@ from tests.scenes.arcade import Arcade
 from tests.scenes.screens import FACTS, Ending
 
 ALLIES = (0, 0, 0, 0)
-BRAINS = "human human hard normal"
+BRAINS = "human human level5 level3"
 
 
 @pytest.fixture

@@ -19,7 +19,7 @@ ALONE = ScoreTable("pitanks", "classic", "points", rules="pickups", length=2, pe
 PAIR = replace(ALONE, people=2)
 ISLANDS = replace(ALONE, arena="islands")
 LAP = ScoreTable("race", "classic", "lap", True, "standard", 3, 1)
-OLDER = ScoreTable("pitanks", "classic", "points")
+THREE = replace(PAIR, people=3)
 
 
 @pytest.fixture
@@ -47,7 +47,7 @@ def test_it_opens_at_the_table_of_the_match_that_was_played(arcade: Arcade) -> N
 
 @pytest.mark.parametrize(
     ("filled", "found"),
-    [((), PAIR), ((LAP,), LAP), ((LAP, ISLANDS), ISLANDS), ((LAP, ISLANDS, ALONE), ALONE), ((LAP, OLDER), OLDER)],
+    [((), PAIR), ((LAP,), LAP), ((LAP, ISLANDS), ISLANDS), ((LAP, ISLANDS, ALONE), ALONE), ((LAP, THREE), THREE)],
 )
 def test_an_empty_table_gives_way_to_the_nearest_one_with_rows(
     arcade: Arcade, filled: tuple[ScoreTable], found: ScoreTable
@@ -56,12 +56,12 @@ def test_an_empty_table_gives_way_to_the_nearest_one_with_rows(
 
 
 def test_left_and_right_lead_round_the_tables_of_an_arena_and_up_and_down_round_the_arenas(arcade: Arcade) -> None:
-    best = opened(arcade, ALONE, ALONE, PAIR, OLDER, ISLANDS, LAP)
+    best = opened(arcade, ALONE, ALONE, PAIR, THREE, ISLANDS, LAP)
     for button, table in (
         (Button.RIGHT, PAIR),
-        (Button.RIGHT, OLDER),
+        (Button.RIGHT, THREE),
         (Button.RIGHT, ALONE),
-        (Button.LEFT, OLDER),
+        (Button.LEFT, THREE),
         (Button.DOWN, ISLANDS),
         (Button.DOWN, LAP),
         (Button.LEFT, LAP),
@@ -123,7 +123,7 @@ def test_every_heading_fits_and_nothing_runs_over_the_edge(controls: Controls, l
         for people in range(1, 5)
         for side in range(people + 1)
     ]
-    for table in [*tables, OLDER, ScoreTable("race", "classic", "race", True, length=9)]:
+    for table in [*tables, THREE, ScoreTable("race", "classic", "race", True, "standard", 9)]:
         assert text_width(conditions(words, table), 52, "head") < 1500, "between the arrows"
     arcade = Arcade(controls, language)
     best = opened(arcade, tables[0], *tables)

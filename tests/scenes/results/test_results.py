@@ -70,10 +70,10 @@ LOST = outcome({0: -4, 1: -1, 2: 5}, (2,))
 @pytest.mark.parametrize(
     ("brains", "scores", "winners", "teams", "finished"),
     [
-        ("human human hard human", {0: 12, 1: -3, 2: 7, 3: 5}, (0,), (0, 1, 2, 3), True),
-        ("human normal off off", {0: -14, 1: 4}, (1,), (0, 1, 2, 3), True),
-        ("human off human easy", {0: 3, 2: 3, 3: -6}, (), (0, 1, 2, 3), True),
-        ("human human human easy", {0: -3, 1: -2, 2: 9, 3: -4}, (0, 2), (0, 1, 0, 1), True),
+        ("human human level5 human", {0: 12, 1: -3, 2: 7, 3: 5}, (0,), (0, 1, 2, 3), True),
+        ("human level3 off off", {0: -14, 1: 4}, (1,), (0, 1, 2, 3), True),
+        ("human off human level1", {0: 3, 2: 3, 3: -6}, (), (0, 1, 2, 3), True),
+        ("human human human level1", {0: -3, 1: -2, 2: 9, 3: -4}, (0, 2), (0, 1, 0, 1), True),
         ("human human human human", {0: 60, 1: -20, 2: -20, 3: -20}, (0,), (0, 1, 1, 1), True),
         ("human human off off", {0: 0, 1: 0}, (), (0, 1, 2, 3), False),
     ],
@@ -91,7 +91,7 @@ def test_every_ending_is_shown(controls, monkeypatch, tmp_path, language, brains
 
 
 def test_players_still_firing_do_not_skip_the_results(arcade: Arcade) -> None:
-    results = opened(arcade, "human human hard off", LOST)
+    results = opened(arcade, "human human level5 off", LOST)
     for _ in range(10):
         for button in (Button.FIRE, Button.BACK, Button.START, Button.X):
             arcade.press(button)
@@ -101,7 +101,7 @@ def test_players_still_firing_do_not_skip_the_results(arcade: Arcade) -> None:
 
 
 def test_a_rematch_wants_everyone_and_brings_new_luck(arcade: Arcade) -> None:
-    results = opened(arcade, "human human hard off", LOST)
+    results = opened(arcade, "human human level5 off", LOST)
     arcade.wait(LONG)
     arcade.press(Button.FIRE, KEYS[1])
     arcade.frame()
@@ -119,14 +119,14 @@ def test_a_rematch_wants_everyone_and_brings_new_luck(arcade: Arcade) -> None:
 
 
 def test_start_waits_for_nobody(arcade: Arcade) -> None:
-    opened(arcade, "human human hard off", LOST)
+    opened(arcade, "human human level5 off", LOST)
     arcade.wait(LONG)
     arcade.press(Button.START, KEYS[1])
     assert arcade.shown(MatchScene).devices[:2] == [KEYS[0], KEYS[1]]
 
 
 def test_an_absent_player_does_not_hold_up_the_rematch(arcade: Arcade) -> None:
-    opened(arcade, "human human hard off", LOST)
+    opened(arcade, "human human level5 off", LOST)
     arcade.wait(LONG)
     arcade.press(Button.FIRE, KEYS[0])
     waited = arcade.until(lambda: isinstance(arcade.stack.top, MatchScene))
@@ -135,7 +135,7 @@ def test_an_absent_player_does_not_hold_up_the_rematch(arcade: Arcade) -> None:
 
 
 def test_a_free_pad_votes_for_a_seat_whose_pad_has_gone(arcade: Arcade) -> None:
-    results = opened(arcade, "human human hard off", LOST)
+    results = opened(arcade, "human human level5 off", LOST)
     results.ballot.devices[1] = Device("pad", 999)
     arcade.wait(LONG)
     arcade.press(Button.FIRE, KEYS[0])
@@ -145,7 +145,7 @@ def test_a_free_pad_votes_for_a_seat_whose_pad_has_gone(arcade: Arcade) -> None:
 
 
 def test_other_ways_on(arcade: Arcade) -> None:
-    opened(arcade, "human human hard off", LOST)
+    opened(arcade, "human human level5 off", LOST)
     arcade.wait(LONG)
     arcade.press(Button.Y)
     arcade.wait(1.0, draw=True)
@@ -156,12 +156,12 @@ def test_other_ways_on(arcade: Arcade) -> None:
     arcade.shown(GameChoice)
     arcade.press(Button.BACK)
     arcade.shown(Results)
-    opened(arcade, "human human hard off", LOST)
+    opened(arcade, "human human level5 off", LOST)
     arcade.until(lambda: arcade.stack.top is arcade.title, IDLE + 1.0)
 
 
 def test_the_prompts_can_be_clicked(arcade: Arcade) -> None:
-    results = opened(arcade, "human human hard off", LOST)
+    results = opened(arcade, "human human level5 off", LOST)
     arcade.wait(LONG)
     arcade.click(960, 500)
     assert arcade.stack.top is results
@@ -170,7 +170,7 @@ def test_the_prompts_can_be_clicked(arcade: Arcade) -> None:
 
 
 def test_all_enter_three_letters_at_once_each_on_the_own_device(arcade: Arcade) -> None:
-    results = opened(arcade, "human human hard human", outcome({0: 4, 1: 9, 2: 12, 3: -7}, (2,)))
+    results = opened(arcade, "human human level5 human", outcome({0: 4, 1: 9, 2: 12, 3: -7}, (2,)))
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     page = arcade.shown(Initials)
     assert [claim.seat for claim in page.claims] == [0, 1], "an AI and a loss do not count"
@@ -269,14 +269,14 @@ def test_enter_counts_for_nobody_while_two_players_share_a_keyboard(arcade: Arca
 
 
 def test_nobody_chooses_and_nothing_is_written(arcade: Arcade) -> None:
-    results = opened(arcade, "human hard off off", outcome({0: 4, 1: -4}, (0,)))
+    results = opened(arcade, "human level5 off off", outcome({0: 4, 1: -4}, (0,)))
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     arcade.until(lambda: arcade.stack.top is results)
     assert not arcade.context.scores.tables()
 
 
 def test_a_match_that_was_broken_off_is_no_record(arcade: Arcade) -> None:
-    results = opened(arcade, "human hard off off", outcome({0: 4, 1: -4}, (0,)), finished=False)
+    results = opened(arcade, "human level5 off off", outcome({0: 4, 1: -4}, (0,)), finished=False)
     arcade.wait(5.0)
     assert arcade.stack.top is results
 
@@ -284,7 +284,7 @@ def test_a_match_that_was_broken_off_is_no_record(arcade: Arcade) -> None:
 def test_a_low_score_is_no_record(arcade: Arcade) -> None:
     for _ in range(10):
         arcade.context.scores.add(ALONE, "ABC", 20)
-    results = opened(arcade, "human hard off off", outcome({0: 4, 1: -4}, (0,)))
+    results = opened(arcade, "human level5 off off", outcome({0: 4, 1: -4}, (0,)))
     arcade.wait(5.0)
     assert arcade.stack.top is results
 
@@ -317,7 +317,7 @@ def test_a_team_is_the_sum_of_its_robots() -> None:
 
 def race(arcade: Arcade, lap: int, whole: int) -> Results:
     """A race of three laps on the classic track, won by player 1, with best lap and total time in ms."""
-    human, ai = Seat("human", 0), Seat("hard", 1)
+    human, ai = Seat("human", 0), Seat("level5", 1)
     match = Setup("race", "classic", (human, ai, Seat("off", 2), Seat("off", 3)), 10, 3, "standard", 3)
     facts = {"laps": 3, "best": lap / 1000.0, "total": whole / 1000.0}
     rows = [
@@ -382,7 +382,7 @@ def test_laps_are_plotted_from_near_the_best_on_and_the_best_is_ringed() -> None
     assert LapPlot(100, 100, 800, 500, [Curve((0,), ())], 3).marked() == []
 
 
-@pytest.mark.parametrize(("brain", "records"), [("easy", 0), ("idle", 0), ("classic", 0), ("normal", 1), ("q2", 1)])
+@pytest.mark.parametrize(("brain", "records"), [("level1", 0), ("idle", 0), ("classic", 0), ("level3", 1), ("q2", 1)])
 def test_a_record_needs_an_opponent_no_weaker_than_normal(arcade: Arcade, brain: str, records: int) -> None:
     results = opened(arcade, f"human {brain} off off", outcome({0: 4, 1: -4}, (0,)))
     assert len(results.claims) == records

@@ -66,11 +66,11 @@ def test_every_ending_has_its_moment_within_the_picture(controls: Controls, name
 @pytest.mark.parametrize(
     ("brains", "scores", "winners", "teams", "seats", "sound"),
     [
-        ("human human hard human", {0: 12, 1: -3, 2: 7, 3: 5}, (0,), (0, 1, 2, 3), [0], "fanfare"),
-        ("human normal off off", {0: -14, 1: 4}, (1,), (0, 1, 2, 3), [1], "lose"),
-        ("easy normal off off", {0: -14, 1: 4}, (1,), (0, 1, 2, 3), [1], "fanfare"),
-        ("human off human easy", {0: 3, 2: 3, 3: -6}, (), (0, 1, 2, 3), [0, 2], "tie"),
-        ("human human human easy", {0: -3, 1: -2, 2: 9, 3: -4}, (2, 0), (0, 1, 0, 1), [0, 2], "fanfare"),
+        ("human human level5 human", {0: 12, 1: -3, 2: 7, 3: 5}, (0,), (0, 1, 2, 3), [0], "fanfare"),
+        ("human level3 off off", {0: -14, 1: 4}, (1,), (0, 1, 2, 3), [1], "lose"),
+        ("level1 level3 off off", {0: -14, 1: 4}, (1,), (0, 1, 2, 3), [1], "fanfare"),
+        ("human off human level1", {0: 3, 2: 3, 3: -6}, (), (0, 1, 2, 3), [0, 2], "tie"),
+        ("human human human level1", {0: -3, 1: -2, 2: 9, 3: -4}, (2, 0), (0, 1, 0, 1), [0, 2], "fanfare"),
         ("human human human human", {0: 1, 1: 1, 2: 1, 3: 1}, (), (0, 1, 2, 3), [0, 1, 2, 3], "tie"),
     ],
 )
@@ -95,21 +95,21 @@ def test_the_first_are_celebrated_with_the_right_sound(
 @pytest.mark.parametrize(("stars", "sound", "pieces"), [(3, "fanfare", True), (1, "fanfare", True), (0, "lose", False)])
 def test_allies_get_stars_instead_of_a_crown(arcade: Arcade, stars: int, sound: str, pieces: bool) -> None:
     ended = outcome({0: 1, 1: 1, 2: 2, 3: 0}, (0, 1, 2, 3), (0, 0, 0, 0))
-    scene = moment(arcade, "human normal normal normal", with_stars(ended, stars), (0, 0, 0, 0))
+    scene = moment(arcade, "human level3 level3 level3", with_stars(ended, stars), (0, 0, 0, 0))
     arcade.wait(2.0, draw=True)
     assert arcade.sounds.heard == [sound]
     assert bool(scene.celebration.pieces) == pieces
 
 
 def test_it_takes_three_seconds_and_leaves_the_results_ready(arcade: Arcade) -> None:
-    scene = moment(arcade, "human human hard human", WON)
+    scene = moment(arcade, "human human level5 human", WON)
     waited = arcade.until(lambda: arcade.stack.top is scene.then)
     assert waited == pytest.approx(LENGTH, abs=0.1)
     assert scene.then.prewarm(0.0)
 
 
 def test_players_skip_it_after_a_second_and_free_devices_do_not(arcade: Arcade) -> None:
-    scene = moment(arcade, "human easy hard easy", WON)
+    scene = moment(arcade, "human level1 level5 level1", WON)
     arcade.wait(SKIP - 0.1)
     arcade.press(Button.FIRE)
     assert arcade.stack.top is scene
@@ -123,7 +123,7 @@ def test_players_skip_it_after_a_second_and_free_devices_do_not(arcade: Arcade) 
 
 
 def test_the_mouse_skips_it_too(arcade: Arcade) -> None:
-    scene = moment(arcade, "human easy hard easy", WON)
+    scene = moment(arcade, "human level1 level5 level1", WON)
     arcade.wait(SKIP + 0.1)
     arcade.click(960, 500)
     assert arcade.stack.top is scene.then
@@ -131,7 +131,7 @@ def test_the_mouse_skips_it_too(arcade: Arcade) -> None:
 
 def test_without_flashes_there_is_confetti_and_no_burst(arcade: Arcade) -> None:
     arcade.context.settings.flashes = "off"
-    scene = moment(arcade, "human easy hard easy", WON)
+    scene = moment(arcade, "human level1 level5 level1", WON)
     for _ in range(60):
         arcade.frame(FRAME, draw=True)
         assert not scene.celebration.sparks
@@ -143,10 +143,10 @@ def test_everything_is_rendered_before_it_is_shown(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, stars: int | None
 ) -> None:
     if stars is None:
-        scene = moment(arcade, "human easy hard easy", WON)
+        scene = moment(arcade, "human level1 level5 level1", WON)
     else:
         allies = outcome({0: 1, 1: 1, 2: 2, 3: 0}, (0, 1, 2, 3), (0, 0, 0, 0))
-        scene = moment(arcade, "human easy hard easy", with_stars(allies, stars), (0, 0, 0, 0))
+        scene = moment(arcade, "human level1 level5 level1", with_stars(allies, stars), (0, 0, 0, 0))
     while not scene.prewarm(50.0):
         pass
     made: list[object] = []

@@ -138,7 +138,7 @@ def test_one_to_go_is_a_banner_with_a_sound_once(screen, variant):
 
 def test_an_output_counts_down_before_a_worker_clears_it(screen):
     match = begun()
-    view, state = seen(match, ["hard"] * 4), match.state
+    view, state = seen(match, ["level5"] * 4), match.state
     move(state, 0, IN_SLOT, OUTPUT_A)
     pallet, slot = state.pallets[0], state.slots[OUTPUT_A]
     pallet.state = HALF
@@ -186,10 +186,10 @@ def test_no_jam_is_announced_while_the_input_is_empty():
     assert sounds(view, state) == []
 
 
-@pytest.mark.parametrize(("brain", "shown"), [("human", True), ("hard", False)])
+@pytest.mark.parametrize(("brain", "shown"), [("human", True), ("level5", False)])
 def test_the_task_of_an_ai_is_shown_to_its_human_mate(screen, brain, shown):
     match = begun()
-    view, state = seen(match, [brain, "hard", "hard", "hard"]), match.state
+    view, state = seen(match, [brain, "level5", "level5", "level5"]), match.state
     box = around(state.slots[0].x, state.slots[0].y, 100)
     view.guide.slots = [-1, -1, 0, -1]
     mate = pixels(screen, view, state, box)
@@ -408,7 +408,7 @@ def test_allies_have_warehouses_of_one_colour(screen, variant):
 @pytest.mark.parametrize("variant", repeated(sorted(games()["factory"].variants, key="party".__ne__)))
 def test_a_match_fits_the_cache_and_is_left_alone(screen, variant):
     scene = BusyFactory(variant)
-    players = ["human", "human", "easy", "hard"]
+    players = ["human", "human", "level1", "level5"]
     view = SCREENS["factory"].view(scene.arena, scene.state, players, AllEffects(), Words("pt"))
     while not view.prewarm(1000.0):
         pass

@@ -52,7 +52,7 @@ def screen():
 def begun(floor="hall", goal=4, brains=("human",) * 4, teams=(ICE, FIRE, ICE, FIRE)):
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains, teams, strict=True))
     setup = Setup("factory", floor, (one, two, three, four), 5.0, 3, "standard", goal)
-    return new_match(setup) if "hard" in brains else Match(setup)
+    return new_match(setup) if "level5" in brains else Match(setup)
 
 
 def seen(match, players=HUMANS, taste=None):
@@ -79,8 +79,8 @@ def feed(state, p, s, kind=IN_SLOT):
 @pytest.mark.long
 @pytest.mark.parametrize(("goal", "floor"), repeated((goal, floor) for goal in (8, 2) for floor in arenas("factory")))
 def test_a_match_among_drivers_draws_and_is_left_alone(screen, floor, goal):
-    match = begun(floor, goal, ("hard",) * 4)
-    view = seen(match, ["hard"] * 4)
+    match = begun(floor, goal, ("level5",) * 4)
+    view = seen(match, ["level5"] * 4)
     heard = set()
     for tick in range(1500):
         match.tick()
@@ -303,7 +303,7 @@ def test_people_are_shown_the_next_step_and_drivers_their_aim(screen):
     state.pallets[0].state = DONE
     assert next_slot(state, 0, -1) in range(EXIT_ICE, EXIT_ICE + SHELVES)
 
-    view, mates = seen(match, ["human", "hard", "hard", "hard"]), state.loads[3]
+    view, mates = seen(match, ["human", "level5", "level5", "level5"]), state.loads[3]
     mates.aim = 1 + INPUT_A
     for _ in range(10):
         view.watch(state)

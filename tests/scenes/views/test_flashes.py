@@ -25,7 +25,7 @@ def filmed(game: str, variant: str, calm: bool) -> list[Cells]:
     screen = pygame.display.set_mode((1920, 1080))
     scene = busy_match(game, variant)
     effects = ShownEffects(Settings(calm=calm))
-    view = SCREENS[game].view(scene.arena, scene.state, ["human", "human", "easy", "hard"], effects, Words("en"))
+    view = SCREENS[game].view(scene.arena, scene.state, ["human", "human", "level1", "level5"], effects, Words("en"))
     film = []
     for picture in range(int((1.0 + SECONDS) * RATE)):
         for _ in range(round(1.0 / RATE / DT)):

@@ -194,7 +194,7 @@ def test_a_bounty_stays_in_the_arena(screen, y):
 
 def test_a_busy_party_draws_and_leaves_the_match_alone(screen):
     scene = BusyPiTanks(variant="party")
-    view = PiTanksView(scene.arena, scene.state, ["human", "easy", "hard", "fsm"], AllEffects(), Words("en"))
+    view = PiTanksView(scene.arena, scene.state, ["human", "level1", "level5", "fsm"], AllEffects(), Words("en"))
     for _ in range(8):
         scene.tick()
         before = digest(scene.state)

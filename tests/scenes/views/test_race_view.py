@@ -78,7 +78,7 @@ def put(state, seat, x, y):
 @pytest.mark.parametrize("language", one_in(2, LANGUAGES))
 def test_a_whole_race_of_any_company_draws_and_leaves_the_race_alone(screen, seats, language):
     scene = BusyRace(seats, laps=1)
-    view = seen(scene, ["human", "easy", "hard", "normal"], language=language)
+    view = seen(scene, ["human", "level1", "level5", "level3"], language=language)
     for tick in range(600):
         scene.tick()
         before = digest(scene.state)
@@ -529,15 +529,15 @@ def test_a_better_lap_of_a_person_becomes_the_ghost_and_a_worse_one_does_not(tmp
 
 def test_laps_of_machines_and_laps_that_a_machine_took_over_are_not_kept(tmp_path):
     scene = BusyRace(2, laps=5)
-    players = ["hard", "human", "off", "off"]
+    players = ["level5", "human", "off", "off"]
     view = SCREENS["race"].view(scene.arena, scene.state, players, AllEffects(), Words("en"))
     view.enable_persistence(tmp_path)
     drive_laps(scene, view, 0, [600, 500])
     view.watch(scene.state)
     assert view.recorder.ghost is None
 
-    players[1] = "normal"  # the shell's list: a person's pad was disconnected
-    view.players[1] = "normal"
+    players[1] = "level3"  # the shell's list: a person's pad was disconnected
+    view.players[1] = "level3"
     drive_laps(scene, view, 1, [400])
     view.players[1] = "human"
     view.watch(scene.state)
@@ -551,7 +551,7 @@ def test_the_ghost_starts_with_every_lap_of_the_first_person_and_ends_with_its_o
     scene = BusyRace(2, laps=5)
     scene.state.racers[1].line = line
     ghosts.save_ghost(tmp_path, scene.arena, a_ghost()).join()
-    view = seen(scene, ["hard", "human", "off", "off"])
+    view = seen(scene, ["level5", "human", "off", "off"])
     view.enable_persistence(tmp_path)
     state, racer = scene.state, scene.state.racers[1]
     assert view.recorder.pose(state, 1.0) is None  # it waits for the line
@@ -581,7 +581,7 @@ def test_a_golden_difference_compares_with_the_ghost_from_line_to_line(screen, t
 
 def test_without_a_person_there_is_no_ghost_and_no_file(tmp_path):
     scene = BusyRace(2)
-    view = seen(scene, ["hard", "easy", "off", "off"])
+    view = seen(scene, ["level5", "level1", "off", "off"])
     assert view.recorder is None
     for _ in range(50):
         scene.tick()

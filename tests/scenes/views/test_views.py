@@ -38,7 +38,7 @@ def sounds(view, state):
 @pytest.mark.parametrize("teams", [FREE, (0, 1, -1, -1), (0, -1, 2, 3), (0, 1, 0, 1), (0, 1, 1, 1)])
 def test_a_second_of_any_company_draws_and_leaves_the_match_alone(screen, teams):
     scene = BusyPiTanks(teams)
-    view = seen(scene, ["human", "easy", "hard", "fsm"])
+    view = seen(scene, ["human", "level1", "level5", "fsm"])
     for _ in range(50):
         scene.tick()
         before = digest(scene.state)

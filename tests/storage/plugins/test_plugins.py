@@ -41,7 +41,9 @@ def python(code: str) -> subprocess.CompletedProcess[str]:
 
 
 def play() -> subprocess.CompletedProcess[str]:
-    return program("play", "tag", "--headless", "--speed", "max", "--minutes", "0.1", "--seats", "hard,easy", "--json")
+    return program(
+        "play", "tag", "--headless", "--speed", "max", "--minutes", "0.1", "--seats", "level5,level1", "--json"
+    )
 
 
 def test_a_new_game_plays_at_once(tag: Path) -> None:
@@ -97,7 +99,7 @@ def test_one_that_is_switched_off_is_named(tag: Path) -> None:
 )  # fmt: skip
 def test_one_that_fails_is_left_out_with_file_and_reason(tag: Path, file: str, old: str, new: str, reason: str) -> None:
     reason = reason.format(n=changed(tag / file, old, new))
-    ended = program("duel", "pitanks", "easy", "idle", "--matches", "2", "--minutes", "0.05")
+    ended = program("duel", "pitanks", "level1", "idle", "--matches", "2", "--minutes", "0.05")
     assert ended.returncode == 0
     assert ended.stderr.startswith(LEFT_OUT.format(folder=tag, reason=reason).rstrip("\n"))
     assert ended.stderr.count("\n") == 1
@@ -217,18 +219,18 @@ def test_wrong_numbers_are_named_and_an_exit_is_a_failure(tag: Path, before: str
     rules = tag / "rules.py"
     assert before in rules.read_text()
     rules.write_text(rules.read_text().replace(before, after))
-    ended = program("play", "tag", "--headless", "--speed", "max", "--minutes", "0.5", "--seats", "hard,hard")
+    ended = program("play", "tag", "--headless", "--speed", "max", "--minutes", "0.5", "--seats", "level5,level5")
     assert ended.returncode == 1
     assert re.fullmatch(rf"PiGaming: The game tag in \S+ is left out: {reason}\n", ended.stderr)
 
 
 @pytest.mark.parametrize(
-    "words", ["play tag --headless", "duel tag hard idle --matches 2", "league tag hard idle --matches 2"]
+    "words", ["play tag --headless", "duel tag level5 idle --matches 2", "league tag level5 idle --matches 2"]
 )
 def test_one_that_fails_in_a_match_ends_the_job_with_one_line(tag: Path, words: str) -> None:
     rules = tag / "rules.py"
     rules.write_text(rules.read_text().replace("    match.tick += 1\n", "    match.tick += 1\n    match.tick //= 0\n"))
-    ended = program(*words.split(), "--minutes", "0.1", *(("--seats", "hard,easy") if "play" in words else ()))
+    ended = program(*words.split(), "--minutes", "0.1", *(("--seats", "level5,level1") if "play" in words else ()))
     assert ended.returncode == 1
     line = rules.read_text().splitlines().index("    match.tick //= 0") + 1
     reason = f"rules.py, line {line}: ZeroDivisionError: integer division or modulo by zero."
@@ -242,7 +244,7 @@ def test_one_that_fails_in_another_process_is_named(tag: Path) -> None:
         "from concurrent.futures import ProcessPoolExecutor\nfrom multiprocessing import get_context\n"
         "from pigaming_app.ai.plugin_faults import blame\nfrom pigaming_app.ai.registry import new_match\n"
         "from pigaming_app.games.game import Seat, Setup\nfrom pigaming_app.games.registry import games\n"
-        "seats, _ = tuple(Seat('hard', k) for k in range(4)), games()\n"
+        "seats, _ = tuple(Seat('level5', k) for k in range(4)), games()\n"
         "with ProcessPoolExecutor(1, get_context('fork')) as pool:\n"
         "    error = pool.submit(new_match, Setup('tag', 'classic', seats, 1.0, 1, 'standard')).exception()\n"
         "print(blame(error).name)"
@@ -261,7 +263,7 @@ def test_one_that_prints_does_not_print_into_outcomes_from_another_process(tag: 
         "from time import sleep\nfrom pigaming_app.events.event import Event\n"
         "from pigaming_app.events.spec import Entrant, EventSpec, Format\n"
         "from pigaming_app.scenes.events.quick_match import QuickMatches\n"
-        "entrants = tuple(Entrant(name, 'hard') for name in ('A', 'B', 'C'))\n"
+        "entrants = tuple(Entrant(name, 'level5') for name in ('A', 'B', 'C'))\n"
         "event = Event(EventSpec('Day', Format.ROUND_ROBIN, ('tag',), entrants, minutes={'tag': 0.1}))\n"
         "quick = QuickMatches(event, event.open[:1])\n"
         "while quick.next_outcome() is None and not quick.over: sleep(0.01)\n"
@@ -278,7 +280,7 @@ def test_two_of_one_name_and_one_of_our_names(tag: Path, tmp_path: Path, monkeyp
         write(user_folder() / name, name)
         switch(name, True)
     switch("tag@robot_tag", True)
-    ended = program("duel", "pitanks", "easy", "idle", "--matches", "2", "--minutes", "0.05")
+    ended = program("duel", "pitanks", "level1", "idle", "--matches", "2", "--minutes", "0.05")
     assert ended.returncode == 0
     assert sorted(line.partition(" in ")[0] for line in ended.stderr.splitlines()) == [
         "PiGaming: The game football",
@@ -371,7 +373,7 @@ def test_only_a_plug_ins_own_replays_depend_on_its_rules(tag: Path) -> None:
 
 
 def test_a_replay_names_a_game_that_is_not_here_and_rules_that_are_others(tag: Path, tmp_path: Path) -> None:
-    words = ["play", "tag", "--headless", "--speed", "max", "--minutes", "0.1", "--seats", "hard,easy"]
+    words = ["play", "tag", "--headless", "--speed", "max", "--minutes", "0.1", "--seats", "level5,level1"]
     assert program(*words, "--record", str(tmp_path / "one.replay")).returncode == 0
     replay = program("replay", str(tmp_path / "one.replay"), "--verify")
     assert (replay.returncode, replay.stderr) == (0, "")
@@ -401,7 +403,7 @@ def test_a_new_game_may_have_a_name_that_its_files_use(home: Path) -> None:
     ended = python(
         "from pigaming_app.ai.registry import AIS\nfrom pigaming_app.scenes.views.registry import shown_games\n"
         "from pigaming_app.games.registry import games\nfrom pigaming_app.games.game import Seat, Setup\n"
-        "from pigaming_app.ai.registry import new_match\nseats = tuple(Seat('hard', k) for k in range(4))\n"
+        "from pigaming_app.ai.registry import new_match\nseats = tuple(Seat('level5', k) for k in range(4))\n"
         f"for name in {names}: new_match(Setup(name, 'classic', seats, 1.0, 1, 'standard')).tick()\n"
         "print(*shown_games())"
     )

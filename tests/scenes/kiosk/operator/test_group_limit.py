@@ -42,7 +42,7 @@ def test_the_title_returns_after_a_countdown(arcade: Arcade) -> None:
 
 def test_a_match_is_played_to_its_end(arcade: Arcade) -> None:
     limit = GroupLimit(arcade.context)
-    match = MatchScene(arcade.context, setup("easy easy off off"))
+    match = MatchScene(arcade.context, setup("level1 level1 off off"))
     playing, after = [Floor(), Floor(), match], [Floor(), Floor()]
     for _ in range(100):
         assert limit.update(10.0, playing) is None
@@ -53,7 +53,7 @@ def test_a_match_is_played_to_its_end(arcade: Arcade) -> None:
 
 def test_another_match_does_not_stop_the_countdown(arcade: Arcade) -> None:
     limit = GroupLimit(arcade.context)
-    match = MatchScene(arcade.context, setup("easy easy off off"))
+    match = MatchScene(arcade.context, setup("level1 level1 off off"))
     limit.update(301.0, [Floor(), Floor()])
     assert limit.update(FAREWELL / 2, [Floor(), match]) is None
     assert limit.update(FAREWELL / 2, [Floor(), match]) == Home()
@@ -66,7 +66,7 @@ def test_attract_mode_takes_no_time(arcade: Arcade) -> None:
 
 
 def test_an_event_has_no_limit(arcade: Arcade) -> None:
-    limit, match = GroupLimit(arcade.context), MatchScene(arcade.context, setup("easy easy off off"))
+    limit, match = GroupLimit(arcade.context), MatchScene(arcade.context, setup("level1 level1 off off"))
     limit.update(299.0, [Floor(), Floor()])
     drafting = [Floor(), Floor(), SetupPage(arcade.context, Draft(), lambda draft: ""), Floor()]
     assert limit.update(900.0, drafting) is None

@@ -95,7 +95,7 @@ def test_the_cap_limits_music_and_sounds(arcade: Arcade, monkeypatch: pytest.Mon
 def test_holding_fire_on_a_pad_ends_all_matches_and_stops_robots_first(arcade: Arcade) -> None:
     stopped: list[int] = []
     with VirtualPad() as pad:
-        match = MatchScene(arcade.context, setup("easy easy off off"))
+        match = MatchScene(arcade.context, setup("level1 level1 off off"))
         arcade.open(match)
         arcade.until(lambda: match.match.state.tick > 10)
         arcade.context.emergency_stops.append(lambda: stopped.append(len(arcade.stack.scenes)))
@@ -115,7 +115,7 @@ def test_holding_fire_on_a_pad_ends_all_matches_and_stops_robots_first(arcade: A
 
 
 def test_a_match_below_stands_still_and_goes_on(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("easy easy off off"))
+    match = MatchScene(arcade.context, setup("level1 level1 off off"))
     arcade.open(match)
     arcade.until(lambda: match.match.state.tick > 10)
     tick = match.match.state.tick

@@ -121,7 +121,7 @@ def test_every_new_picture_of_the_camera_is_painted() -> None:
 
 
 def test_the_leader_is_first_and_a_tie_has_none(arcade: Arcade) -> None:
-    scene = MatchScene(arcade.context, setup("human easy easy off"), [KEYS[0]])
+    scene = MatchScene(arcade.context, setup("human level1 level1 off"), [KEYS[0]])
     assert [side.leads for side in sides(scene, arcade.context.words)] == [False] * 3
     for seat, points in enumerate((3, 7, -2)):
         scene.match.state.robots[seat].score = points
@@ -135,7 +135,7 @@ def test_the_leader_is_first_and_a_tie_has_none(arcade: Arcade) -> None:
 
 
 def test_teams_are_one_row_with_their_sum(arcade: Arcade) -> None:
-    scene = MatchScene(arcade.context, setup("easy easy easy easy", teams=(0, 1, 0, 1)))
+    scene = MatchScene(arcade.context, setup("level1 level1 level1 level1", teams=(0, 1, 0, 1)))
     for seat, points in enumerate((3, 7, 5, 4)):
         scene.match.state.robots[seat].score = points
     found = sides(scene, arcade.context.words)
@@ -143,7 +143,7 @@ def test_teams_are_one_row_with_their_sum(arcade: Arcade) -> None:
 
 
 def test_the_clock_counts_down_and_a_page_above_is_noted(arcade: Arcade) -> None:
-    scene = MatchScene(arcade.context, setup("easy easy off off", minutes=2.0))
+    scene = MatchScene(arcade.context, setup("level1 level1 off off", minutes=2.0))
     arcade.open(scene)
     words = arcade.context.words
     assert (snapshot(scene, words, True).clock, snapshot(scene, words, True).state) == ("2:00", "waiting")
@@ -154,7 +154,7 @@ def test_the_clock_counts_down_and_a_page_above_is_noted(arcade: Arcade) -> None
 
 def test_the_result_stays_until_the_next_match_but_not_that_of_a_match_left(arcade: Arcade) -> None:
     page = ScorePage(arcade.context)
-    scene = MatchScene(arcade.context, setup("easy easy off off", minutes=0.02))
+    scene = MatchScene(arcade.context, setup("level1 level1 off off", minutes=0.02))
     assert page.parts([arcade.title, scene])
     arcade.open(scene)
     arcade.until(lambda: scene.match.over)
@@ -162,14 +162,14 @@ def test_the_result_stays_until_the_next_match_but_not_that_of_a_match_left(arca
     assert page.parts([arcade.title])
     assert page.last
     assert page.last.state == "over"
-    page.parts([arcade.title, MatchScene(arcade.context, setup("easy easy off off"))])
+    page.parts([arcade.title, MatchScene(arcade.context, setup("level1 level1 off off"))])
     assert page.parts([arcade.title]) is None
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_part_can_be_painted_and_lies_on_the_canvas(arcade: Arcade, language: str) -> None:
     arcade.context.words.switch(language)
-    scene = MatchScene(arcade.context, setup("human easy q1 fsm"), [KEYS[0]])
+    scene = MatchScene(arcade.context, setup("human level1 q1 fsm"), [KEYS[0]])
     pages = [match_parts(arcade.context, snapshot(scene, arcade.context.words, False))]
     pages.append(list(StandbyPage(arcade.context).parts([])))
     for parts in pages:
@@ -270,7 +270,7 @@ def test_f2_goes_through_the_pages_that_have_something_to_show(arcade: Arcade) -
     desk = OperatorDesk(arcade.context, 1, True)
     key = pygame.Event(pygame.KEYDOWN, key=pygame.K_F2, scancode=0, mod=0)
     seen = []
-    scene = MatchScene(arcade.context, setup("easy easy off off"))
+    scene = MatchScene(arcade.context, setup("level1 level1 off off"))
     for _ in range(3):
         desk.filter([key], [arcade.title, scene])
         seen.append(arcade.context.shared(Pages).chosen)
@@ -296,7 +296,7 @@ def test_the_pages_of_features_stand_behind_those_of_the_kiosk(arcade: Arcade) -
 
 def test_a_paused_match_is_shown_as_such(arcade: Arcade) -> None:
     page = ScorePage(arcade.context)
-    scene = MatchScene(arcade.context, setup("human easy off off"), [KEYS[0]])
+    scene = MatchScene(arcade.context, setup("human level1 off off"), [KEYS[0]])
     arcade.open(scene)
     arcade.until(lambda: scene.match.state.tick > 5)
     arcade.open(Pause(scene, KEYS[0]))

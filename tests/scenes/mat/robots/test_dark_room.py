@@ -27,7 +27,7 @@ def _as_it_was(mat: EmulatedSession) -> Iterator[None]:
 
 
 def gathering(arcade: Arcade) -> tuple[RealMatch, TakePlaces]:
-    match = match_of(arcade.context, match_for("pitanks", "easy easy easy easy", 0.1), [], ALL)
+    match = match_of(arcade.context, match_for("pitanks", "level1 level1 level1 level1", 0.1), [], ALL)
     assert isinstance(match, RealMatch)
     assert match.gathering is not None
     arcade.open(match)

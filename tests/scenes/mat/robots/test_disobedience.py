@@ -30,7 +30,7 @@ def named(arcade: Arcade) -> list[tuple[str, int | None]]:
 
 def gathering(arcade: Arcade, real: tuple[int, ...] = (0, 1)) -> RealMatch:
     """A match whose robots are still driving to their start positions."""
-    match = match_of(arcade.context, match_for("pitanks", "normal easy easy easy", 1.0), [], real)
+    match = match_of(arcade.context, match_for("pitanks", "level3 level1 level1 level1", 1.0), [], real)
     assert isinstance(match, RealMatch)
     arcade.open(match)
     return match

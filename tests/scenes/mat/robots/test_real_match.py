@@ -72,7 +72,7 @@ def until(arcade: Arcade, kind: type, timeout: float = 8.0) -> float:
 
 def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) -> RealMatch:
     """A running PiTanks match whose robots may start from their current positions."""
-    match = match_of(arcade.context, match_for("pitanks", "normal easy off off", minutes), [], real)
+    match = match_of(arcade.context, match_for("pitanks", "level3 level1 off off", minutes), [], real)
     assert isinstance(match, RealMatch)
     arcade.open(match)
     started(arcade, match)
@@ -82,7 +82,7 @@ def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) 
 @pytest.mark.long
 def test_rounds_are_played_with_robots_that_take_their_places_again(arcade: Arcade) -> None:
     rounds = Rounds(3)
-    first = match_of(arcade.context, match_for("pitanks", "easy easy off off", 0.02), [], (0, 1), rounds=rounds)
+    first = match_of(arcade.context, match_for("pitanks", "level1 level1 off off", 0.02), [], (0, 1), rounds=rounds)
     assert isinstance(first, RealMatch)
     arcade.open(first)
     started(arcade, first, 0.1)
@@ -125,7 +125,7 @@ def started(arcade: Arcade, match: RealMatch, seconds: float = 0.5) -> None:
 
 
 def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Arcade, mat: EmulatedSession) -> None:
-    match = match_of(arcade.context, match_for("pitanks", "easy easy off off", 0.05), [], (0, 1))
+    match = match_of(arcade.context, match_for("pitanks", "level1 level1 off off", 0.05), [], (0, 1))
     assert isinstance(match, RealMatch)
     starts = [(robot.x, robot.y) for robot in match.match.state.robots[:2]]
     for robot, (x, y) in enumerate(starts):
@@ -154,7 +154,7 @@ def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Ar
 @pytest.mark.long
 @pytest.mark.parametrize("game", ["pitanks", "factory", "race"])
 def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: str) -> None:
-    match = match_of(arcade.context, match_for(game, "normal easy normal easy", 0.05), [], (0, 2))
+    match = match_of(arcade.context, match_for(game, "level3 level1 level3 level1", 0.05), [], (0, 2))
     assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 1.0)
@@ -340,7 +340,7 @@ def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedSession) -
 def test_simulated_robots_begin_where_real_ones_are_missing(arcade: Arcade, mat: EmulatedSession) -> None:
     mat.arena.faults.switch("marker_covered", True, 1)
     mat.arena.faults.switch("robot_off", True, 2)
-    match = match_of(arcade.context, match_for("pitanks", "easy easy easy off", 1.0), [], (0, 1, 2))
+    match = match_of(arcade.context, match_for("pitanks", "level1 level1 level1 off", 1.0), [], (0, 1, 2))
     assert isinstance(match, RealMatch)
     arcade.open(match)
     play(arcade, 2.5, lit=True)
@@ -377,7 +377,7 @@ def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedSes
         play(arcade, 0.1)
     else:
         arcade.context.settings.radio = "stock"
-        arcade.open(match_of(arcade.context, match_for("race", "normal easy off off", 0.1), [], (0,)))
+        arcade.open(match_of(arcade.context, match_for("race", "level3 level1 off off", 0.1), [], (0,)))
     page = arcade.shown(UnavailablePage)
     assert "no deadman" in sentence(page.message)
     arcade.frame(draw=True)
@@ -395,7 +395,7 @@ def test_the_reason_is_shown_and_simulated_robots_play(
         raise RobotsUnavailable(OperatorMessage("no_camera", number=3))
 
     monkeypatch.setattr(mat, "open", missing)
-    page = match_of(arcade.context, match_for("pitanks", "normal easy off off", 0.1), [], (0,))
+    page = match_of(arcade.context, match_for("pitanks", "level3 level1 off off", 0.1), [], (0,))
     assert isinstance(page, UnavailablePage)
     arcade.open(page)
     assert sentence(arcade.shown(UnavailablePage).message) == "There is no camera 3: plug one in."

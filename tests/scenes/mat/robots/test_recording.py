@@ -65,7 +65,7 @@ def played(arcade: Arcade) -> RealMatch:
     """A match of one real robot against a simulated one, with a fault that paused it."""
     session = MatSession()  # type: ignore[assignment]
     arcade.context.mat = SessionMat(arcade.context, session)
-    match = match_of(arcade.context, match_for("pitanks", "normal easy off off", 2.0), [], (0,))
+    match = match_of(arcade.context, match_for("pitanks", "level3 level1 off off", 2.0), [], (0,))
     assert isinstance(match, RealMatch)
     arcade.open(match)
     started(arcade, match)
@@ -164,7 +164,7 @@ def test_a_match_without_people_ends_at_a_fault_that_needs_them(
 
     monkeypatch.setattr(play_job, "show", show)
     declare_job(parser := Parser(), play_job)
-    line = f"pitanks --emulate --headless --real 1 --seats normal,easy --minutes 2 --record {tmp_path / 'a.replay'}"
+    line = f"pitanks --emulate --headless --real 1 --seats level3,level1 --minutes 2 --record {tmp_path / 'a.replay'}"
     found = parser.parse_args(line.split())
     with pytest.raises(Refusal, match="Robot 1 does not follow"):
         found.start(found)

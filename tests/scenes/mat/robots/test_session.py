@@ -34,7 +34,7 @@ def test_without_camera_and_radio_the_match_says_so_and_goes_on_with_simulated_r
     arcade = Arcade(controls, "pt")
     mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
     arcade.context.mat = SessionMat(arcade.context, mat)
-    seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
+    seats = (Seat("level1", 0), Seat("level1", 1), Seat("off", 2), Seat("off", 3))
     match = match_of(arcade.context, Setup("pitanks", "classic", seats, 1.0, 3, "plain"), [], (0, 1))
     assert isinstance(match, RealMatch)
     arcade.open(match)
@@ -75,7 +75,7 @@ def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, al
     def first(context: Context) -> RealMatch:
         contexts.append(context)
         assert isinstance(session_of(context), EmulatedSession)
-        seats = (Seat("easy", 0), Seat("easy", 1), Seat("off", 2), Seat("off", 3))
+        seats = (Seat("level1", 0), Seat("level1", 1), Seat("off", 2), Seat("off", 3))
         return Failing(
             context,
             Setup("pitanks", "classic", seats, 0.1, 3, "plain"),

@@ -114,7 +114,7 @@ def test_things_are_changed_on_screen_and_kept(simulated: Arcade) -> None:
 def test_an_arena_that_things_block_is_built_again_or_played_without_them(simulated: Arcade) -> None:
     bar = thing(ThingKind.TALL, 760.0, -20.0, 30.0, 940.0)
     keep(simulated, bar)
-    simulated.open(match_of(simulated.context, match_for("pitanks", "easy easy off off", 2.0), [], (0, 1)))
+    simulated.open(match_of(simulated.context, match_for("pitanks", "level1 level1 off off", 2.0), [], (0, 1)))
     page = simulated.shown(UnplayablePage)
     simulated.press(Button.FIRE)
     simulated.press(Button.X)  # removes the bar
@@ -129,7 +129,7 @@ def test_an_arena_that_things_block_is_built_again_or_played_without_them(simula
 
 def test_results_among_things_are_no_records_and_a_rematch_keeps_the_things(simulated: Arcade) -> None:
     keep(simulated, thing(ThingKind.TALL, 700.0, 300.0, 90.0, 60.0))
-    match = match_of(simulated.context, match_for("pitanks", "easy easy off off", 2.0), [], (0, 1))
+    match = match_of(simulated.context, match_for("pitanks", "level1 level1 off off", 2.0), [], (0, 1))
     assert isinstance(match, RealMatch)
     assert match._without_records == range(4)
     keep(simulated)
@@ -147,7 +147,7 @@ def test_a_match_among_scanned_things_has_no_false_alarm_and_stops_when_one_is_p
     things = [box(x, y, 90.0, 70.0, 90.0, 0.3, 0.45, "printed", i) for i, (x, y) in enumerate(BOXES[game])]
     layout = scanned(arcade, mat, [*things, box(300.0, -250.0, 200.0, 25.0, TAPE, 0.5, 0.1, seed=9)])
     assert [one.kind for one in layout.things].count(ThingKind.TALL) == len(things)
-    brains = "easy easy easy easy" if game == "factory" else "hard hard hard off"
+    brains = "level1 level1 level1 level1" if game == "factory" else "level5 level5 level5 off"
     real = (0, 1, 2, 3) if game == "factory" else (0, 1, 2)
     match = match_of(arcade.context, match_for(game, brains, 5.0), [], real)
     assert isinstance(match, RealMatch)
@@ -191,7 +191,7 @@ def test_things_pushed_against_a_robot_explain_that_it_does_not_follow_its_comma
     mat = cleared
     things = [box(x, y, 90.0, 70.0, 90.0, 0.3, 0.45, "printed", i) for i, (x, y) in enumerate(BOXES["pitanks"])]
     scanned(arcade, mat, things)
-    match = match_of(arcade.context, match_for("pitanks", "hard hard off off", 5.0), [], (0, 1))
+    match = match_of(arcade.context, match_for("pitanks", "level5 level5 off off", 5.0), [], (0, 1))
     assert isinstance(match, RealMatch)
     arcade.open(match)
     frames(arcade, mat, lambda _: match.gathering is None, 60.0)
@@ -229,7 +229,7 @@ def test_a_block_that_is_moved_by_hand_is_a_wall_where_it_is_and_in_the_replay(
 ) -> None:
     mat, arcade.context.settings.blocks = cleared, True
     mat.arena.furnish([box(-100.0, -100.0, 160.0, 70.0, 50.0, 0.3, 0.5, marker=32)])
-    match = match_of(arcade.context, match_for(game, "hard hard hard hard", 5.0), [], (0, 1))
+    match = match_of(arcade.context, match_for(game, "level5 level5 level5 level5", 5.0), [], (0, 1))
     assert isinstance(match, RealMatch)
     arcade.open(match)
     frames(arcade, mat, lambda _: match.gathering is None, 40.0)
