@@ -11,7 +11,7 @@ from pigaming_app.events import climb_files, ladder
 from pigaming_app.events.climb_files import FILE, KEPT, MOST
 from pigaming_app.events.ladder import ALL, LEVELS, Climb, climbed_games, stars_and_losses, worth
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import ALLIES, LadderMatches, Outcome, Row, Variant, named
+from pigaming_app.games.game import ALLIES, LadderMatches, Outcome, Row, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import check_teams
 
@@ -94,7 +94,7 @@ def test_in_a_climb_through_all_games_these_take_turns():
 def test_an_added_game_that_only_asks_for_a_ladder_has_one(monkeypatch):
     """By its first rules that set two robots against each other, short, on its arenas in turn."""
     mild, rough = Variant("mild", (2, 4), 4, team_mode=ALLIES, teams=(0, 0, 0, 0)), Variant("rough", (5, 3), 5, (7,), 7)
-    added = replace(games()["football"], ladder=LadderMatches(), variants=named(mild, rough))
+    added = replace(games()["football"], ladder=LadderMatches(), variants=Variant.by_name(mild, rough))
     monkeypatch.setattr(ladder, "games", lambda: {**games(), "football": added})
     setups = [Climb("football", rung=rung).setup(3) for rung in (1, 2, 5)]
     assert [setup.arena for setup in setups] == ["classic", "bumpers", "bumpers"]
