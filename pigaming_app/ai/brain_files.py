@@ -10,8 +10,8 @@ from pathlib import Path, PureWindowsPath
 from pigaming_app.ai.brain.archive import BrainFileError, names, read
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks import files as network_files
-from pigaming_app.ai.networks.onnx import files as onnx_files
 from pigaming_app.ai.qlearning import table_files
+from pigaming_app.storage.optional import optional
 
 ONNX = ".onnx"
 SUFFIXES = (".npz", ONNX)
@@ -47,11 +47,20 @@ def read_brain(game: str, path: str) -> BrainKind:
         raise BrainFileError(f"{stem_of(path)}: not the name of a file") from None  # it has a null character
 
 
+def _read_model(file: Path, game: str) -> BrainKind:
+    """The brain of an ONNX model. Raises BrainFileError, also where the feature that reads it is missing."""
+    models = optional("ai.networks.onnx.files")
+    if models is None:
+        raise BrainFileError(f"{file.name}: ONNX models are not part of this installation")
+    kind: BrainKind = models.read_model(file, game)
+    return kind
+
+
 @cache
 def _read(game: str, path: str) -> BrainKind:
     file = Path(path)
     if file.suffix.lower() == ONNX:
-        return onnx_files.read_model(file, game)
+        return _read_model(file, game)
     raw = read(file, table_files.MAX_BYTES)
     parts = names(raw)
     if parts == network_files.PARTS.keys():

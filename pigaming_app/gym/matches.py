@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from pigaming_app.ai.learning.batch import initial_states
 from pigaming_app.ai.learning.cast import Cast
 from pigaming_app.ai.networks.registry import ENCODINGS
-from pigaming_app.games.batch import initial_states
 from pigaming_app.games.registry import games
 from pigaming_app.gym.loop import Loop, loop_of
 from pigaming_app.gym.options import Task

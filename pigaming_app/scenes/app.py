@@ -13,8 +13,8 @@ from time import perf_counter
 
 import pygame
 
+from pigaming_app.ai.brain.archive import failed
 from pigaming_app.ai.brain_files import display_name
-from pigaming_app.ai.networks.onnx import failed
 from pigaming_app.ai.plugin_faults import blame, suspect
 from pigaming_app.scenes.features.registry import corner_pin, features
 from pigaming_app.scenes.flow.context import Context

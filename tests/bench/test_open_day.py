@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from pigaming_app import ROOT
+from pigaming_app.scenes.kiosk.day_report import report_of
 from pigaming_app.storage.day_log import DayLog, PlayedMatch, ProgramEvent
-from pigaming_app.storage.day_report import report_of
 from pigaming_app.storage.scores import LENGTH, LETTERS, Scores, ScoreTable
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.letter_picker import LetterPicker

@@ -34,7 +34,7 @@ def without(rooms: tuple[str, ...], home: Path, *words: str) -> "subprocess.Comp
 
 def test_every_feature_is_there() -> None:
     assert tuple(feature.name for feature in features()) == NAMES
-    assert {*ROOMS} - {*NAMES} == {"learning", "gym", "bench", "bundle"}
+    assert {*ROOMS} - {*NAMES} == {"learning", "gym", "bench", "bundle", "onnx"}
     for feature in every_feature():
         places = [ROOT / "pigaming_app" / room.replace(".", "/") for room in feature.rooms]
         assert all(place.is_dir() or place.with_suffix(".py").is_file() for place in places), feature.name
@@ -70,7 +70,8 @@ def test_jobs_of_the_core_run_and_those_of_features_are_refused(tmp_path: Path) 
     assert (played.returncode, played.stderr) == (0, "")
     examined = without(rooms, tmp_path, "doctor")
     assert examined.stdout.splitlines()[-1] == "All is well."
-    for line in ("--kiosk", "event new cup.json", "report", "robots", "calibrate", "train ppo", "bench", "test"):
+    event, onnx = "event new cup.json", "play --seats a.onnx"
+    for line in ("--kiosk", event, onnx, "report", "robots", "calibrate", "train ppo", "bench", "test"):
         words = line.split()
         refused = without(rooms, tmp_path, *words)
         assert (refused.returncode, refused.stdout) == (2, "")

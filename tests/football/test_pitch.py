@@ -9,11 +9,11 @@ import pytest
 
 from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import load, parse
-from pigaming_app.games.drawing.problems import Problem
-from pigaming_app.games.drawing.problems import problems as problems_of
 from pigaming_app.games.drawing.values import Drawing, Part, drawing_of
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.editor.model.problems import Problem
+from pigaming_app.scenes.editor.model.problems import problems as problems_of
 from pigaming_app.sim.arena import ArenaError
 from tests.football.pitch import BALL
 

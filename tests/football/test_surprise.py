@@ -4,10 +4,10 @@ import pytest
 
 from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import load
-from pigaming_app.games.drawing.problems import problems
 from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.editor.model.problems import problems
 from tests.cases import repeated
 
 

@@ -27,8 +27,8 @@ from pigaming_app.jobs.terminal import refusal
 from pigaming_app.scenes import start
 from pigaming_app.sim import kernel
 from pigaming_app.sim.drivetrain import NOMINAL, to_toml
+from tests.ai.networks.onnx.tiny_onnx import model
 from tests.ai.networks.random_network import random_network
-from tests.ai.networks.tiny_onnx import model
 from tests.ai.ppo.plain import TINY, plain_loop
 from tests.pages.commands import ROOT
 from tests.pages.stand_ins import EMULATED, LIMITS, MINUTES, WITHOUT_ROBOTS

@@ -17,7 +17,6 @@ from pigaming_app.events.ladder import Climb, table_of, worth
 from pigaming_app.events.league_files import Ratings, Strength
 from pigaming_app.events.spec import Entrant, Format
 from pigaming_app.games.arenas import arenas, load, shipped_arenas
-from pigaming_app.games.drawing.problems import Problem
 from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
@@ -27,6 +26,7 @@ from pigaming_app.scenes.editor import store
 from pigaming_app.scenes.editor.checker import Verdict
 from pigaming_app.scenes.editor.gallery.drawing_page import DrawingPage
 from pigaming_app.scenes.editor.gallery.page import Gallery
+from pigaming_app.scenes.editor.model.problems import Problem
 from pigaming_app.scenes.editor.naming import NamePage as ArenaName
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
@@ -46,6 +46,7 @@ from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.howto.scene import HowTo
+from pigaming_app.scenes.kiosk.day_report import figures as day_figures
 from pigaming_app.scenes.kiosk.operator.figures_page import FiguresPage
 from pigaming_app.scenes.kiosk.operator.page import OperatorPage
 from pigaming_app.scenes.lab.background import Background
@@ -78,7 +79,6 @@ from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.day_log import Battery, PlayedMatch, ProgramEvent, Record
-from pigaming_app.storage.day_report import figures as day_figures
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.plugins.found import Plugin, found
 from pigaming_app.storage.safe_files import write_atomic

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.scenes.kiosk.day_report import figures, report_of, to_csv
 from pigaming_app.storage.day_log import (
     FOLDER,
     KEPT_DAYS,
@@ -25,7 +26,6 @@ from pigaming_app.storage.day_log import (
     read_day,
     to_line,
 )
-from pigaming_app.storage.day_report import figures, report_of, to_csv
 
 DAY = date(2026, 11, 23)
 

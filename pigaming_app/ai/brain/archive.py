@@ -14,6 +14,8 @@ from typing import Any
 
 HEAD = "head"
 
+failed: list[str] = []  # files whose brains have failed in a match; the arcade shows them and empties the list
+
 
 class BrainFileError(ValueError):
     """A file is not a valid brain; the message is one line."""

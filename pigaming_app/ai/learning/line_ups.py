@@ -7,10 +7,10 @@ from typing import Any
 
 from pigaming_app.ai.brain.baselines import IDLE
 from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.learning.batch import initial_states
 from pigaming_app.ai.learning.rollout import cast_with_baselines, compiled_rollout, plain_rollout, rehearse
 from pigaming_app.ai.plugin_faults import bound, check
 from pigaming_app.ai.registry import find_brain
-from pigaming_app.games.batch import initial_states
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import longest

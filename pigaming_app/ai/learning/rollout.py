@@ -10,9 +10,9 @@ from typing import Any
 
 from pigaming_app.ai.brain.baselines import IDLE, RANDOM
 from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.learning.batch import initial_states
 from pigaming_app.ai.learning.cast import Cast, Family, Think, dispatcher
 from pigaming_app.ai.plugin_faults import bound, check
-from pigaming_app.games.batch import initial_states
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import longest

@@ -10,6 +10,7 @@ from functools import cache
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.learning.batch import initial_states
 from pigaming_app.ai.learning.q_learner import learn, learn_last, temperature
 from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.qlearning.player import Learned, player
@@ -17,7 +18,6 @@ from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe, RecipeRecord
 from pigaming_app.ai.qlearning.table import LearnerMind, QTable
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.ai.registry import BRAINS
-from pigaming_app.games.batch import initial_states
 from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from pigaming_app.ai.learning.batch import matches as new_matches
 from pigaming_app.ai.learning.cast import Cast, dispatcher, family_of
 from pigaming_app.ai.networks.encoding import PERIOD, UNIT
 from pigaming_app.ai.networks.layers import Layers
@@ -18,7 +19,6 @@ from pigaming_app.ai.plugin_faults import bound, late
 from pigaming_app.ai.ppo.forward import bend, make_layer, sample
 from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, LEARNERS, OFF, POOL, LineUp, Task
 from pigaming_app.ai.registry import find_brain
-from pigaming_app.games.batch import matches as new_matches
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive

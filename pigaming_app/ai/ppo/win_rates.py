@@ -5,13 +5,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from pigaming_app.ai.learning.batch import matches as new_matches
 from pigaming_app.ai.learning.cast import family_of
 from pigaming_app.ai.networks.encoding import PERIOD
 from pigaming_app.ai.plugin_faults import bound, check
 from pigaming_app.ai.ppo.shard import cast_of, empty_experience, loop_of, nobody
 from pigaming_app.ai.ppo.task import OFF, Task
 from pigaming_app.ai.registry import find_brain
-from pigaming_app.games.batch import matches as new_matches
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.record import packed, unpack

@@ -10,8 +10,8 @@ from importlib.util import find_spec
 from time import process_time
 from typing import Any
 
+from pigaming_app.ai.learning.batch import matches, step_all
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.batch import matches, step_all
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.kernel import can_compile

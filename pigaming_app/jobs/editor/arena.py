@@ -19,12 +19,12 @@ from pigaming_app.games.arenas import (
     read_source,
     shipped_arenas,
 )
-from pigaming_app.games.drawing.problems import problems
 from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game
 from pigaming_app.jobs.terminal.options import JsonOption, argument, flag, option
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
+from pigaming_app.scenes.editor.model.problems import problems
 from pigaming_app.scenes.editor.store import is_full
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.toml_table import FieldError

@@ -12,7 +12,7 @@ from math import inf
 from time import perf_counter, sleep
 
 from pigaming_app.ai.registry import find_brain
-from pigaming_app.events import event_files
+from pigaming_app.events import event_files, resume
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
 from pigaming_app.events.spec import Outcome
@@ -24,7 +24,6 @@ from pigaming_app.jobs.events.show import print_event
 from pigaming_app.jobs.terminal.options import JsonOption, KioskOptions, decimal, flag, option
 from pigaming_app.jobs.terminal.refusal import Refusal, module_of, refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
-from pigaming_app.storage import resume
 from pigaming_app.storage.safe_files import require_writable
 from pigaming_app.storage.settings import folders
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from pigaming_app.jobs.terminal.options import JsonOption, option, path
 from pigaming_app.jobs.terminal.refusal import Refusal
-from pigaming_app.storage.day_report import DayReport, report_of, to_csv
+from pigaming_app.scenes.kiosk.day_report import DayReport, report_of, to_csv
 from pigaming_app.storage.parsing import describe_error, quote
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.settings import folders

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from pigaming_app.storage import safe_start
+from pigaming_app.scenes.kiosk import safe_start
 from pigaming_app.storage.log import append_line
 
 ONCE_TAKEN_BACK, ONCE_SAFE = 2, 5  # restarts in a row, each within a minute of a start or of a setting's change

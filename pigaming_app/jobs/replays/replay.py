@@ -33,6 +33,6 @@ def run(options: ReplayOptions) -> int:
             print(f"{options.file.name}: plays out {'the same' if same else 'DIFFERENTLY'}")
             return 0 if same else 1
     from pigaming_app.scenes.launch import Options
-    from pigaming_app.scenes.play.replay import ReplayScene
+    from pigaming_app.scenes.replays.watch import ReplayScene
 
     return show(Options(first_scene=lambda context: ReplayScene(context, replay), without_title=True))

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
 
 from pigaming_app.games.arenas import parse
-from pigaming_app.games.drawing.problems import Problem, problems
 from pigaming_app.games.drawing.values import Drawing
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.editor.model.problems import Problem, problems
 from pigaming_app.scenes.editor.model.shapes import Routes, Tools
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.toml_table import FieldError

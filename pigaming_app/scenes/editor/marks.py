@@ -6,8 +6,8 @@ from itertools import pairwise
 
 import pygame
 
-from pigaming_app.games.drawing.problems import Problem
 from pigaming_app.scenes.editor.board import SCALE, on_canvas
+from pigaming_app.scenes.editor.model.problems import Problem
 from pigaming_app.scenes.editor.model.shapes import Routes
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ALARM, BLACK, LINE, ORANGE, Color, GlowCanvas, Point, dim, icon

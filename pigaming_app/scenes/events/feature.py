@@ -4,12 +4,12 @@ import logging
 from collections.abc import Sequence
 from pathlib import Path
 
+from pigaming_app.events import resume
 from pigaming_app.scenes.features.board_page import BoardPage
 from pigaming_app.scenes.features.feature import Feature, MenuItem, Service
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, Stack
 from pigaming_app.scenes.launch import Options
-from pigaming_app.storage import resume
 from pigaming_app.storage.settings import folders
 
 log = logging.getLogger("pigaming")

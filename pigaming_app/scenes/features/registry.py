@@ -3,8 +3,6 @@
 import logging
 from collections.abc import Callable, Sequence
 from functools import cache
-from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 
 from pigaming_app.games.match import Match
@@ -14,10 +12,10 @@ from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.views.view import MatchView
+from pigaming_app.storage.optional import is_there, optional
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.window import Pin
 
-PACKAGE = "pigaming_app"
 NAMES = ("brain", "howto", "ladder", "events", "lab", "editor", "replays", "phones", "kiosk", "mat")
 
 log = logging.getLogger("pigaming")
@@ -31,22 +29,15 @@ def features() -> tuple[Feature, ...]:
 
 def declared(room: str) -> Feature | None:
     """The feature that a room declares, or None unless all its rooms are there. Mistakes in its module are raised."""
-    if not is_there(f"{PACKAGE}.{room}.feature"):
+    module = optional(f"{room}.feature")
+    if module is None:
         return None
-    feature = import_module(f"{PACKAGE}.{room}.feature").FEATURE
+    feature = module.FEATURE
     assert isinstance(feature, Feature)
-    missing = [room for room in (*feature.rooms, *feature.needs) if not is_there(f"{PACKAGE}.{room}")]
+    missing = [room for room in (*feature.rooms, *feature.needs) if not is_there(room)]
     if missing:
         log.warning("%s is not offered: %s is missing", feature.name, missing[0])
     return None if missing else feature
-
-
-def is_there(module: str) -> bool:
-    """True if a module can be imported, as far as its file goes."""
-    try:
-        return find_spec(module) is not None
-    except ModuleNotFoundError:  # its package
-        return False
 
 
 def menu() -> dict[str, MenuItem]:

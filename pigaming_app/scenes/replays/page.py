@@ -7,12 +7,12 @@ from pigaming_app.scenes.features.replays import to_match
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
-from pigaming_app.scenes.play.replay import ReplayScene
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.recordings.store import StoreError
 from pigaming_app.scenes.replays import view
 from pigaming_app.scenes.replays.view import ROWS, Entry
+from pigaming_app.scenes.replays.watch import ReplayScene
 from pigaming_app.ui.draw import ICE, LABEL, MIST
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent

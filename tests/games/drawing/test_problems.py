@@ -6,11 +6,11 @@ from time import process_time
 import pytest
 
 from pigaming_app.games.arenas import load, parse, shipped_arenas
-from pigaming_app.games.drawing.problems import Problem
-from pigaming_app.games.drawing.problems import problems as problems_of
 from pigaming_app.games.drawing.values import Drawing, Part, drawing_of
 from pigaming_app.games.race.circuit import examined
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.editor.model.problems import Problem
+from pigaming_app.scenes.editor.model.problems import problems as problems_of
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from tests.hostile import VALUES

@@ -4,12 +4,12 @@ import pytest
 
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import parse
-from pigaming_app.games.drawing.problems import problems
 from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.games.factory.surprise import WALLS, surprise
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.editor.model.problems import problems
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from tests.cases import repeated
 

@@ -7,11 +7,11 @@ import pytest
 
 from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import load
-from pigaming_app.games.drawing.problems import problems
 from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.pitanks.surprise import PAIRS, PASSAGE, surprise
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.editor.model.problems import problems
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from tests.cases import repeated

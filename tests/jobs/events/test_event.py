@@ -184,9 +184,9 @@ def test_a_poster_needs_no_display(capsys, monkeypatch):
 
 
 def test_in_a_kiosk_the_supervisor_marks_the_event_and_the_arcade_opens_what_is_marked(monkeypatch):
+    from pigaming_app.events import resume
     from pigaming_app.jobs import arcade
     from pigaming_app.jobs.terminal import supervised as child
-    from pigaming_app.storage import resume
     from pigaming_app.storage.settings import folders
 
     shown, commands = [], []

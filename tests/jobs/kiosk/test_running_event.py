@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.events import resume
 from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import load, save
 from pigaming_app.events.spec import Entrant, EventSpec, Format
 from pigaming_app.jobs.kiosk.start import supervise
 from pigaming_app.jobs.kiosk.supervisor import Limits
-from pigaming_app.storage import resume
 from pigaming_app.storage.restarts import restarts
 from tests.cases import repeated
 from tests.jobs.kiosk.test_real_arcade import LONG, arcades_begun, crashes, kill_the_arcade, wait
@@ -142,7 +142,7 @@ from pigaming_app.scenes.events import choice, next_page
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.preloaded import modules
 from pigaming_app.scenes.results import winner
-from pigaming_app.storage import resume
+from pigaming_app.events import resume
 
 App._paint = lambda app, began: True  # drawing saves nothing, and takes longer than everything else
 MatchRunner.prewarm = lambda runner, milliseconds: True

@@ -8,7 +8,7 @@ import pytest
 from pigaming_app.jobs.kiosk.safe_start import SafeStart
 from pigaming_app.jobs.kiosk.start import supervise
 from pigaming_app.jobs.kiosk.supervisor import Limits
-from pigaming_app.storage import safe_start
+from pigaming_app.scenes.kiosk import safe_start
 from pigaming_app.storage.plugins import consent
 from pigaming_app.storage.restarts import restarts
 from pigaming_app.storage.settings import Settings

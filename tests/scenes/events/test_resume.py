@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.events import event_files
+from pigaming_app.events import event_files, resume
 from pigaming_app.events.spec import Format
 from pigaming_app.scenes.app import App
 from pigaming_app.scenes.events.choice import EventsPage
@@ -17,7 +17,6 @@ from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.start import opened
 from pigaming_app.scenes.title.scene import Title
-from pigaming_app.storage import resume
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.events import Button, Device, InputEvent

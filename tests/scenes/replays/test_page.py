@@ -7,12 +7,12 @@ import pytest
 
 from pigaming_app.games.replay import Replay, to_match
 from pigaming_app.scenes.flow.stack import Stack
-from pigaming_app.scenes.play.replay import ReplayScene
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.replays.page import CONFIRM_SECONDS, ReplaysPage
 from pigaming_app.scenes.replays.view import ROWS, cross_box, row_box
+from pigaming_app.scenes.replays.watch import ReplayScene
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.i18n import LANGUAGES

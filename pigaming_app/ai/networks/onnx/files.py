@@ -14,10 +14,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.ai.brain.archive import BrainFileError, read
+from pigaming_app.ai.brain.archive import BrainFileError, failed, read
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.encoding import UNIT, Encoding
-from pigaming_app.ai.networks.onnx import failed
 from pigaming_app.ai.networks.onnx.child import BUDGET
 from pigaming_app.ai.networks.onnx.external import has_external_data
 from pigaming_app.ai.networks.onnx.process import NO_MODEL, TOO_LONG, ModelFails, ModelProcess

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from itertools import cycle
 
-from pigaming_app.storage.day_report import DayReport
+from pigaming_app.scenes.kiosk.day_report import DayReport
 from pigaming_app.ui.draw import (
     BODY,
     FOCUS,

@@ -8,11 +8,11 @@ import pygame
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.kiosk.day_report import DayReport, report_of, to_csv
 from pigaming_app.scenes.kiosk.operator.chart import OTHERS, bars_of, chart, games_of
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.day_log import days, now
-from pigaming_app.storage.day_report import DayReport, report_of, to_csv
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.settings import folders

@@ -2,7 +2,7 @@
 
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import game_title
-from pigaming_app.storage import safe_start
+from pigaming_app.scenes.kiosk import safe_start
 from pigaming_app.storage.safe_mode import is_safe
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.i18n import Words

@@ -6,10 +6,10 @@ The process plays dozens of matches at once; this one is like each of them.
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
+from pigaming_app.ai.learning.batch import initial_states
 from pigaming_app.ai.learning.evaluation import HANDMADE
 from pigaming_app.ai.learning.training import ARENA, GAME, MINUTES, training_setup
 from pigaming_app.ai.registry import BRAINS
-from pigaming_app.games.batch import initial_states
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import pygame
 import pytest
 
+from pigaming_app.scenes.kiosk import safe_start
 from pigaming_app.scenes.kiosk.operator.chart import OTHERS, bars_of, games_of, step_of
 from pigaming_app.scenes.kiosk.operator.desk import HOLD, HOLD_IN_KIOSK, OperatorDesk
 from pigaming_app.scenes.kiosk.operator.figures_page import FOLDER, FiguresPage, _short
@@ -13,7 +14,6 @@ from pigaming_app.scenes.kiosk.operator.page import LIMITS, ROWS, SAFE_START, Op
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
-from pigaming_app.storage import safe_start
 from pigaming_app.storage.day_log import DayLog, PlayedMatch, now
 from pigaming_app.storage.safe_mode import DEFAULTS, VARIABLE
 from pigaming_app.storage.settings import Settings, folders

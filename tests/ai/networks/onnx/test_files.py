@@ -17,7 +17,7 @@ from pigaming_app.ai.registry import find_brain, new_match
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.jobs.cli import main
-from tests.ai.networks.tiny_onnx import DOUBLE, endless, field, model, node, tensor, troubled
+from tests.ai.networks.onnx.tiny_onnx import DOUBLE, endless, field, model, node, tensor, troubled
 
 ENCODING = ENCODINGS["pitanks"]
 SIZE, LESS = ENCODING.size, ENCODING.size - 1

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pigaming_app.games.batch import initial_states, matches, step_all
+from pigaming_app.ai.learning.batch import initial_states, matches, step_all
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.action import set_action

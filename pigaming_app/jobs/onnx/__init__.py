@@ -1,0 +1,1 @@
+"""ONNX models need no job."""
