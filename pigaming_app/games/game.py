@@ -2,12 +2,16 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
+
+from msgspec import Meta
 
 from pigaming_app.games import simple
 from pigaming_app.sim.arena import Arena, Layout
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.toml_table import FieldError, TomlTable
+from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.schema import between
 
 FREE, ALONE, PAIRS, ALLIES = "free", "alone", "pairs", "allies"
 """Team modes: free choice; none; two teams of at most two robots; all robots in one team."""
@@ -18,7 +22,7 @@ class Seat:
     """One of the four seats of a match: its player and its team (free-for-all: the seat's own number)."""
 
     brain: str  # human, off, the name of a registered brain, or the path of its file
-    team: int
+    team: Annotated[int, between(0, ROBOTS - 1)]
 
 
 @dataclass(frozen=True)
@@ -28,7 +32,7 @@ class Setup:
     game: str
     arena: str
     seats: tuple[Seat, Seat, Seat, Seat]
-    minutes: float
+    minutes: Annotated[float, Meta(gt=0.0, le=60.0)]
     seed: int
     variant: str  # one of the game's variants
     goal: int = 0  # laps to drive, pallets to deliver; 0 in a game without a goal

@@ -2,10 +2,12 @@
 
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Annotated
 
 from pigaming_app.games.game import ALONE
 from pigaming_app.games.match import Match
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.storage.schema import Count, Finite, between, one_of
 
 LAST, CLOSE, STREAK = "last", "close", "streak"
 KINDS = (LAST, CLOSE, STREAK)
@@ -18,10 +20,10 @@ STREAK_POINTS, STREAK_SECONDS = 3, 6.0  # a streak: so many points of one robot 
 class Moment:
     """One of KINDS, its tick, its robot, and for a close finish the lead in points or s."""
 
-    kind: str
-    tick: int
-    seat: int
-    lead: float = 0.0
+    kind: Annotated[str, one_of(*KINDS)]
+    tick: Count
+    seat: Annotated[int, between(0, ROBOTS - 1)]
+    lead: Finite = 0.0
 
 
 def moments(match: Match) -> tuple[Moment, ...]:

@@ -9,12 +9,14 @@ import hashlib
 import json
 import zlib
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from msgspec import Meta
 
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.engine_hash import engine_hash
-from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.moments import KINDS, Moment, moments
 from pigaming_app.games.registry import games
@@ -26,6 +28,8 @@ from pigaming_app.sim.plant import SimPlant
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.toml_table import printable, quote
 from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.storage.parsing import ParseError, parse_json
+from pigaming_app.storage.schema import Line, between, to_plain, typed
 
 FORMAT = "pigaming-replay-1"
 BYTES_PER_TICK = 3 * ROBOTS
@@ -33,6 +37,8 @@ MAX_TICKS = 60 * 60 * HZ
 MAX_SCORE = 100_000
 MAX_HEAD = 1_000_000  # bytes; an arena file has at most 100,000, before JSON escapes
 MAX_BYTES = MAX_HEAD + BYTES_PER_TICK * MAX_TICKS  # upper bound: ticks are compressed
+Score = Annotated[int, between(-MAX_SCORE, MAX_SCORE)]
+SeatNumber = Annotated[int, between(0, ROBOTS - 1)]
 
 
 class ReplayError(ValueError):
@@ -61,6 +67,22 @@ class Replay:
     def other_engine(self) -> bool:
         """True if another version of the engine recorded it, so that it may play out differently."""
         return self.engine != engine_hash(self.setup.game)
+
+
+@dataclass(frozen=True)
+class Head:
+    """The first line of a file. `check`: see `_check`."""
+
+    format: str
+    engine: Line
+    setup: Setup
+    arena: str
+    ticks: Annotated[int, between(0, MAX_TICKS)]
+    digest: Line
+    scores: Annotated[tuple[Score, ...], Meta(min_length=ROBOTS, max_length=ROBOTS)]
+    winners: Annotated[tuple[SeatNumber, ...], Meta(max_length=ROBOTS)]
+    moments: Annotated[tuple[Moment, ...], Meta(max_length=len(KINDS))]
+    check: str = ""
 
 
 def replayable(match: Match) -> bool:
@@ -92,17 +114,19 @@ def pack(replay: Replay) -> bytes:
     ticks = replay.ticks
     columns = b"".join(ticks[i::BYTES_PER_TICK] for i in range(BYTES_PER_TICK))
     packed = zlib.compress(columns, 9)
-    head: dict[str, Any] = {
-        "format": FORMAT,
-        "engine": replay.engine,
-        "setup": asdict(replay.setup),
-        "arena": replay.source,
-        "ticks": replay.length,
-        "digest": replay.digest,
-        "scores": replay.scores,
-        "winners": replay.winners,
-        "moments": [asdict(moment) for moment in replay.moments],
-    }
+    head = to_plain(
+        Head(
+            FORMAT,
+            replay.engine,
+            replay.setup,
+            replay.source,
+            replay.length,
+            replay.digest,
+            replay.scores,
+            replay.winners,
+            replay.moments,
+        )
+    )
     head["check"] = _check(head, packed)
     return json.dumps(head, separators=(",", ":")).encode() + b"\n" + packed
 
@@ -154,66 +178,37 @@ def _check(head: Mapping[str, Any], packed: bytes) -> str:
 def _decode(raw: bytes) -> Replay:
     line, newline, packed = raw.partition(b"\n")
     try:
-        head = json.loads(line) if newline and len(line) < MAX_HEAD else None
-    except (ValueError, RecursionError, MemoryError):
-        head = None
-    if not isinstance(head, dict) or not str(head.get("format", "")).startswith("pigaming-replay"):
+        plain = parse_json(line) if newline and len(line) < MAX_HEAD else None
+    except ParseError:
+        plain = None
+    if not isinstance(plain, dict) or not str(plain.get("format", "")).startswith("pigaming-replay"):
         raise ReplayError("not a PiGaming replay")
-    if head["format"] != FORMAT:
-        raise ReplayError(f"a replay of another format ({quote(head['format'])}); known is {FORMAT}")
-    if head.get("check") != _check(head, packed):
+    if plain["format"] != FORMAT:
+        raise ReplayError(f"a replay of another format ({quote(plain['format'])}); known is {FORMAT}")
+    if plain.get("check") != _check(plain, packed):
         raise ReplayError("damaged: it has been cut short or edited")
     try:
-        setup = _setup(head["setup"])
-        count, source, last = int(head["ticks"]), str(head["arena"]), str(head["digest"])
-        engine = str(head["engine"])
-        scores, winners, found = _result(head, count)
-        parse(setup.game, source, setup.arena)
-        if not 0 <= count <= MAX_TICKS:
-            raise ValueError("ticks")
+        head = typed(plain, Head)
+        _check_setup(head.setup)
+        parse(head.setup.game, head.arena, head.setup.arena)
         columns = zlib.decompressobj().decompress(packed, BYTES_PER_TICK * MAX_TICKS)
-    except (KeyError, TypeError, ValueError, OverflowError, ArenaError, zlib.error) as error:
-        raise ReplayError(f"not a valid replay ({type(error).__name__}: {printable(str(error))})") from None
-    if len(columns) != count * BYTES_PER_TICK:
+    except (ValueError, ArenaError, zlib.error) as error:
+        raise ReplayError(f"not a valid replay ({printable(str(error))})") from None
+    count = head.ticks
+    if len(columns) != count * BYTES_PER_TICK or any(moment.tick > count for moment in head.moments):
         raise ReplayError("not a valid replay (the number of ticks)")
     ticks = bytearray(len(columns))
     for i in range(BYTES_PER_TICK):
         ticks[i::BYTES_PER_TICK] = columns[i * count : (i + 1) * count]
-    return Replay(setup, source, bytes(ticks), last, engine, scores, winners, found)
-
-
-def _result(head: Mapping[str, Any], ticks: int) -> tuple[tuple[int, ...], tuple[int, ...], tuple[Moment, ...]]:
-    """Scores, winners and moments. Raises KeyError, TypeError or ValueError if they are invalid."""
-    scores, winners = (tuple(int(number) for number in head[name]) for name in ("scores", "winners"))
-    found = tuple(
-        Moment(str(one["kind"]), int(one["tick"]), int(one["seat"]), float(one["lead"])) for one in head["moments"]
+    return Replay(
+        head.setup, head.arena, bytes(ticks), head.digest, head.engine, head.scores, head.winners, head.moments
     )
-    seats = {*winners, *(moment.seat for moment in found)}
-    if len(scores) != ROBOTS or any(abs(score) > MAX_SCORE for score in scores):
-        raise ValueError("scores")
-    if not seats <= {*range(ROBOTS)} or len(winners) > ROBOTS or len(found) > len(KINDS):
-        raise ValueError("result")
-    if any(moment.kind not in KINDS or not 0 <= moment.tick <= ticks for moment in found):
-        raise ValueError("moments")
-    return scores, winners, found
 
 
-def _setup(table: Mapping[str, Any]) -> Setup:
-    """Parse a setup. Raises KeyError, TypeError or ValueError if it is invalid."""
-    seats = [Seat(str(seat["brain"]), int(seat["team"])) for seat in table["seats"]]
-    if len(seats) != ROBOTS or not {seat.team for seat in seats} <= {*range(ROBOTS)}:
-        raise ValueError("seats")
-    one, two, three, four = seats
-    game, minutes, variant, goal = (
-        str(table["game"]),
-        float(table["minutes"]),
-        str(table["variant"]),
-        int(table["goal"]),
-    )
-    rules = games()[game]
-    offered = rules.variants[variant]
-    if not 0 < minutes <= 60 or goal not in (*offered.goals, offered.default_goal):
-        raise ValueError("setup")
-    check_teams(rules, offered, [seat.team for seat in seats if seat.brain != "off"])
-    arena, seed, sudden = str(table["arena"]), int(table["seed"]), bool(table["sudden_death"])
-    return Setup(game, arena, (one, two, three, four), minutes, seed, variant, goal, sudden)
+def _check_setup(setup: Setup) -> None:
+    """Raises ValueError for a setup that the game does not have."""
+    rules = games().get(setup.game)
+    offered = rules.variants.get(setup.variant) if rules else None
+    if rules is None or offered is None or setup.goal not in (*offered.goals, offered.default_goal):
+        raise ValueError("setup: the game, its variant or goal")
+    check_teams(rules, offered, [seat.team for seat in setup.seats if seat.brain != "off"])

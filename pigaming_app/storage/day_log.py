@@ -6,20 +6,21 @@ its arcade, as several may run at once; while one runs, it holds the lock of a f
 """
 
 import contextlib
-import json
 import logging
 import os
 import re
 import secrets
-from dataclasses import asdict, dataclass, replace
 from datetime import date, datetime, timedelta
-from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import Annotated
+
+from msgspec import Meta, Struct
+from msgspec.structs import replace
 
 from pigaming_app.storage.file_lock import hold, is_held
 from pigaming_app.storage.log import require_file
 from pigaming_app.storage.parsing import ParseError, describe_error, one_line, parse_json, read
+from pigaming_app.storage.schema import between, one_of, to_json, typed
 
 FOLDER = "days"
 RUNNING = "running-"  # beginning of the name of an arcade's file
@@ -30,43 +31,43 @@ MOST_SECONDS = 86_400.0  # of a match
 MOST_VOLTS = 100.0
 ROBOTS = ("simulated", "emulated", "real")
 PROGRAM = ("start", "end", "failure")  # failure: of a screen; the arcade went on at the title
-_NAME = re.compile(r"[a-z0-9_]{1,60}")
-_ARCADE = re.compile(r"[0-9a-f]{0,16}")
 _FILE = re.compile(r"(\d{4}-\d{2}-\d{2})\.jsonl")
 log = logging.getLogger("pigaming")
 
 
-@dataclass(frozen=True)
-class PlayedMatch:
+Local = Annotated[datetime, Meta(tz=False)]
+Arcade = Annotated[str, Meta(pattern=r"^[0-9a-f]{0,16}\Z")]
+Players = Annotated[int, between(0, 4)]
+
+
+class PlayedMatch(Struct, frozen=True, tag_field="kind", tag="match"):
     """A match. `seconds` of match time; `complete`: false if it was left before its end."""
 
-    at: datetime  # its start, local time
-    game: str
-    seconds: float
-    people: int
-    ais: int
-    robots: str = "simulated"  # one of ROBOTS
+    at: Local  # its start
+    game: Annotated[str, Meta(pattern=r"^[a-z0-9_]{1,60}\Z")]
+    seconds: Annotated[float, between(0.0, MOST_SECONDS)]
+    people: Players
+    ais: Players
+    robots: Annotated[str, one_of(*ROBOTS)] = "simulated"
     complete: bool = True
-    arcade: str = ""  # a name of the run of the arcade; empty in a log without names
+    arcade: Arcade = ""  # a name of the run of the arcade; empty in a log without names
 
 
-@dataclass(frozen=True)
-class ProgramEvent:
+class ProgramEvent(Struct, frozen=True, tag_field="kind", tag="program"):
     """One of PROGRAM."""
 
-    at: datetime
-    what: str
-    arcade: str = ""
+    at: Local
+    what: Annotated[str, one_of(*PROGRAM)]
+    arcade: Arcade = ""
 
 
-@dataclass(frozen=True)
-class Battery:
+class Battery(Struct, frozen=True, tag_field="kind", tag="battery"):
     """The battery of robot 1 to 4, V."""
 
-    at: datetime
-    robot: int
-    volts: float
-    arcade: str = ""
+    at: Local
+    robot: Annotated[int, between(1, 4)]
+    volts: Annotated[float, between(0.0, MOST_VOLTS)]
+    arcade: Arcade = ""
 
 
 Record = PlayedMatch | ProgramEvent | Battery
@@ -170,47 +171,17 @@ def read_day(data: Path, day: date) -> tuple[list[Record], int]:
 
 def to_line(record: Record) -> str:
     """The line of a record, without its end."""
-    kind = {PlayedMatch: "match", Battery: "battery"}.get(type(record))
-    values = {"what": kind} if kind else {}
-    values |= asdict(record) | {"at": record.at.isoformat(timespec="seconds")}
-    if not record.arcade:
-        del values["arcade"]
-    return json.dumps(values, separators=(",", ":"))
+    return to_json(record)
 
 
 def parse_line(line: str) -> Record:
     """The record of a line. Raises DamagedLine."""
     try:
-        return _parsed(line)
-    except ValueError as error:
+        if len(line) > MAX_LINE:
+            raise ParseError("the line is too long")
+        return typed(parse_json(line), Record)  # type: ignore[arg-type]
+    except ParseError as error:
         raise DamagedLine(str(error)) from None
-
-
-def _parsed(line: str) -> Record:
-    """The record of a line. Raises ValueError."""
-    if len(line) > MAX_LINE:
-        raise ValueError("the line is too long")
-    values = parse_json(line)
-    if not isinstance(values, dict):
-        raise ParseError("not an object")
-    at = datetime.fromisoformat(_text(values, "at"))
-    if at.tzinfo is not None:
-        raise ValueError("at: not local time")
-    what, arcade = values.get("what"), values.get("arcade", "")
-    if not isinstance(arcade, str) or not _ARCADE.fullmatch(arcade):
-        raise ValueError("arcade: no name")
-    if what in PROGRAM:
-        return ProgramEvent(at, str(what), arcade)
-    if what == "battery":
-        return Battery(at, _whole(values, "robot", 1, 4), _number(values, "volts", MOST_VOLTS), arcade)
-    if what != "match":
-        raise ValueError("what: unknown")
-    game, robots, complete = _text(values, "game"), _text(values, "robots"), values.get("complete")
-    if not _NAME.fullmatch(game) or robots not in ROBOTS or not isinstance(complete, bool):
-        raise ValueError("not a match")
-    seconds = _number(values, "seconds", MOST_SECONDS)
-    people, ais = _whole(values, "people", 0, 4), _whole(values, "ais", 0, 4)
-    return PlayedMatch(at, game, seconds, people, ais, robots, complete, arcade)
 
 
 def _append(path: Path, line: str) -> None:
@@ -225,24 +196,3 @@ def _append(path: Path, line: str) -> None:
             file.seek(size - 1)
         torn = size > 0 and file.read(1) != b"\n"
         file.write((b"\n" if torn else b"") + line.encode() + b"\n")
-
-
-def _text(values: dict[str, Any], key: str) -> str:
-    value = values.get(key)
-    if not isinstance(value, str):
-        raise ValueError(f"{key}: not a text")
-    return value
-
-
-def _whole(values: dict[str, Any], key: str, low: int, high: int) -> int:
-    value = values.get(key)
-    if type(value) is not int or not low <= value <= high:
-        raise ValueError(f"{key}: not a number from {low} to {high}")
-    return value
-
-
-def _number(values: dict[str, Any], key: str, high: float) -> float:
-    value = values.get(key)
-    if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value) or not 0 <= value <= high:
-        raise ValueError(f"{key}: not a number from 0 to {high:g}")
-    return float(value)

@@ -4,14 +4,14 @@ A line has `time` (ISO 8601), `reason` ("crash" or "hang"), `detail`, `seconds` 
 and `report` (its crash report, relative to the data folder; empty if there is none).
 """
 
-import json
 import os
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
 from pigaming_app.storage.log import require_file
-from pigaming_app.storage.parsing import parse_json, read_text
+from pigaming_app.storage.parsing import ParseError, read_text
 from pigaming_app.storage.safe_files import write_atomic
+from pigaming_app.storage.schema import from_json, to_json
 
 FILE = "restarts.jsonl"
 MAX_BYTES = 400_000  # size of the file above which its older half is dropped
@@ -37,12 +37,12 @@ def append_restart(data: Path, restart: Restart) -> None:
         size = file.seek(0, os.SEEK_END)
         file.seek(max(0, size - 1))
         torn = file.read(1) not in (b"", b"\n")  # by a power cut
-        file.write(b"\n" * torn + json.dumps(asdict(restart)).encode() + b"\n")
+        file.write(b"\n" * torn + to_json(restart).encode() + b"\n")
         file.flush()
         os.fsync(file.fileno())
     if size > MAX_BYTES:
         kept = restarts(data)
-        write_atomic(path, "".join(f"{json.dumps(asdict(one))}\n" for one in kept[len(kept) // 2 :]).encode())
+        write_atomic(path, "".join(f"{to_json(one)}\n" for one in kept[len(kept) // 2 :]).encode())
 
 
 def restarts(data: Path) -> list[Restart]:
@@ -56,8 +56,6 @@ def restarts(data: Path) -> list[Restart]:
 
 def _parsed(line: str) -> Restart | None:
     try:
-        row = parse_json(line)
-        time, reason, detail, report = (str(row[key]) for key in ("time", "reason", "detail", "report"))
-        return Restart(time, reason, detail, float(row["seconds"]), report)
-    except (ValueError, KeyError, TypeError):
+        return from_json(line, Restart)
+    except ParseError:
         return None

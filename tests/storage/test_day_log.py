@@ -4,11 +4,11 @@ import os
 import signal
 import subprocess
 import sys
-from dataclasses import replace
 from datetime import date, datetime, timedelta
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from pigaming_app.scenes.kiosk.day_report import figures, report_of, to_csv
 from pigaming_app.storage.day_log import (
@@ -62,19 +62,19 @@ def test_without_a_folder_nothing_is_kept(tmp_path: Path, monkeypatch: pytest.Mo
         "[]",
         "null",
         "\0\0\0",
-        '{"what":"start"}',
-        '{"what":"start","at":"noon"}',
-        '{"what":"start","at":"2026-11-23T09:00:00+01:00"}',
-        '{"what":"boom","at":"2026-11-23T09:00:00"}',
+        '{"kind":"program","what":"start"}',
+        '{"kind":"program","what":"start","at":"noon"}',
+        '{"kind":"program","what":"start","at":"2026-11-23T09:00:00+01:00"}',
+        '{"kind":"program","what":"boom","at":"2026-11-23T09:00:00"}',
         to_line(MATCH).replace("180.0", "-1"),
         to_line(MATCH).replace("180.0", "NaN"),
         to_line(MATCH).replace("180.0", "1e400"),
-        to_line(MATCH).replace('"people":2', '"people":true'),
-        to_line(MATCH).replace('"people":2', '"people":5'),
+        to_line(MATCH).replace('"people": 2', '"people": true'),
+        to_line(MATCH).replace('"people": 2', '"people": 5'),
         to_line(MATCH).replace("emulated", "imagined"),
         to_line(MATCH).replace('"pitanks"', '"=cmd()"'),
-        to_line(MATCH).replace('"complete":true', '"complete":1'),
-        to_line(RECORDS[2]).replace('"robot":3', '"robot":5'),
+        to_line(MATCH).replace('"complete": true', '"complete": 1'),
+        to_line(RECORDS[2]).replace('"robot": 3', '"robot": 5'),
         to_line(MATCH)[:-9],
         to_line(MATCH) + " " * 1000,
         "[" * 200,

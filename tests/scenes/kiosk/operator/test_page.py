@@ -211,7 +211,7 @@ def test_a_log_that_cannot_be_read_is_no_failure(arcade: Arcade) -> None:
 def test_other_days_are_a_click_away(arcade: Arcade) -> None:
     file = folders().data / "days" / "2026-01-05.jsonl"
     file.parent.mkdir(parents=True)
-    file.write_text('{"what":"start","at":"2026-01-05T09:00:00"}\n')
+    file.write_text('{"kind":"program","what":"start","at":"2026-01-05T09:00:00"}\n')
     arcade.open(FiguresPage(arcade.context))
     page = arcade.shown(FiguresPage)
     arcade.click(*page.arrows[Button.LEFT])
