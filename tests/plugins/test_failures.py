@@ -1,8 +1,5 @@
 """A plug-in that fails in the arcade: the title returns without its game, with one sentence; all others play."""
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -10,7 +7,8 @@ import pytest
 from pigaming_app.jobs.new_game import write
 from pigaming_app.storage.plugins.consent import switch
 from pigaming_app.storage.plugins.found import user_folder
-from tests.plugins.packages import ROOT, changed
+from tests.plugins.packages import changed
+from tests.processes import python
 
 MATCH = """
 from pigaming_app.games.game import Seat, Setup
@@ -49,9 +47,7 @@ def test_the_title_returns_without_a_game_that_fails_or_hangs_in_a_match(
     write(folder, "tag")
     switch("tag", True)
     changed(folder / file, before, after)
-    quiet = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
-    command = [sys.executable, "-c", MATCH]
-    ended = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=os.environ | quiet, timeout=600)
+    ended = python(MATCH, timeout=600.0)
     assert ended.returncode == 0, ended.stderr[-2000:]
     *_, at_first, later, stack, notice = ended.stdout.splitlines()
     assert at_first.split() == [*later.split(), "tag"]

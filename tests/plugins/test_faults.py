@@ -3,9 +3,6 @@
 Each in a process of its own, as a user starts it, but with shorter times.
 """
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -13,7 +10,8 @@ import pytest
 from pigaming_app.jobs.new_game import write
 from pigaming_app.storage.plugins.consent import switch
 from pigaming_app.storage.plugins.found import user_folder
-from tests.plugins.packages import ROOT, changed, write_tag
+from tests.plugins.packages import changed, write_tag
+from tests.processes import Ended, python
 
 COMMAND = """
 import sys
@@ -41,14 +39,11 @@ def tag(home: Path) -> Path:
     return folder
 
 
-def run(words: str, folder: Path, compiled: bool = False) -> subprocess.CompletedProcess[str]:
-    code = COMMAND.format(compiled=0 if compiled else 1 << 62)
-    quiet = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYTHONPATH": str(ROOT)}
-    command = [sys.executable, "-c", code, *words.split()]
-    return subprocess.run(command, capture_output=True, text=True, cwd=folder, env=os.environ | quiet, timeout=300)
+def run(words: str, folder: Path, compiled: bool = False) -> Ended:
+    return python(COMMAND.format(compiled=0 if compiled else 1 << 62), *words.split(), cwd=folder)
 
 
-def refused(ended: subprocess.CompletedProcess[str], folder: Path) -> str:
+def refused(ended: Ended, folder: Path) -> str:
     """The reason, if the command has ended as it should."""
     assert ended.returncode == 1, (ended.stdout, ended.stderr)
     *before, line = ended.stderr.splitlines()
@@ -125,7 +120,7 @@ endless.overseer.run("tag", lambda: 5, loop, numbers)
 
 
 def test_compiled_code_that_makes_no_tick_is_ended() -> None:
-    ended = subprocess.run([sys.executable, "-c", ENDLESS], capture_output=True, text=True, cwd=ROOT, timeout=60)
+    ended = python(ENDLESS)
     assert ended.returncode == 1
     assert ended.stderr == "PiGaming: The game tag in /tag is left out: its compiled code made no tick.\n"
 

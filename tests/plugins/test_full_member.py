@@ -1,14 +1,13 @@
 """A plug-in in the editor and on the Ladder; one that fails there takes its game from the title alone."""
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from pigaming_app.storage.plugins.consent import switch
 from pigaming_app.storage.plugins.found import user_folder
-from tests.plugins.packages import ROOT, changed, write_tag
+from tests.plugins.packages import changed, write_tag
+from tests.processes import python
 
 SEEN = """
 from pigaming_app.scenes.views.registry import shown_games
@@ -41,7 +40,7 @@ def tag(home: Path) -> Path:
 
 def seen() -> tuple[list[str], str]:
     """The lines that a process prints, and its errors."""
-    ended = subprocess.run([sys.executable, "-c", SEEN], capture_output=True, text=True, cwd=ROOT, timeout=60)
+    ended = python(SEEN)
     assert ended.returncode == 0, ended.stderr
     return ended.stdout.splitlines(), ended.stderr
 
@@ -99,7 +98,7 @@ def test_a_game_that_asks_for_it_is_on_the_ladder(tag: Path, file: str, old: str
         reason = reason.format(n=changed(tag / file, old, new))
     if file == "screens.py":
         (tag / file).unlink()
-    ended = subprocess.run([sys.executable, "-c", CLIMBED], capture_output=True, text=True, cwd=ROOT, timeout=60)
+    ended = python(CLIMBED)
     tag_too = " tag" if file == "rules.py" and not reason else ""
     assert ended.stdout == f"pitanks factory race football{tag_too} | pitanks factory race football{tag_too}\n"
     assert (ended.stderr.count("\n"), f"is left out: {reason}" in ended.stderr) == (bool(reason), bool(reason))

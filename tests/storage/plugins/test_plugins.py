@@ -1,10 +1,7 @@
 """Plug-in games: found, switched on, loaded by part; one that fails is left out with one line."""
 
 import json
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -14,8 +11,8 @@ from pigaming_app.storage.plugins import consent, found
 from pigaming_app.storage.plugins.consent import is_on, switch
 from pigaming_app.storage.plugins.found import Plugin, user_folder
 from tests.plugins.packages import changed, install
+from tests.processes import ROOT, Ended, program, python
 
-ROOT = Path(__file__).resolve().parents[3]
 LEFT_OUT = "PiGaming: The game tag in {folder} is left out: {reason}\n"
 
 
@@ -28,19 +25,7 @@ def tag(home: Path) -> Path:
     return folder
 
 
-def program(*words: str) -> subprocess.CompletedProcess[str]:
-    """The program in a process of its own, with this test's folders."""
-    command = [sys.executable, "-X", "pigaming", str(ROOT / "main.py"), *words]
-    environment = os.environ | {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
-    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120)
-
-
-def python(code: str) -> subprocess.CompletedProcess[str]:
-    """Code in a process of its own, with this test's folders."""
-    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT, timeout=60)
-
-
-def play() -> subprocess.CompletedProcess[str]:
+def play() -> Ended:
     return program(
         "play", "tag", "--headless", "--speed", "max", "--minutes", "0.1", "--seats", "level5,level1", "--json"
     )
@@ -128,9 +113,7 @@ def test_brains_that_the_lobby_could_not_offer(tag: Path, brains: str, reason: s
 def test_a_brain_that_the_lobby_offers_has_a_name(tag: Path) -> None:
     file = tag / "ai.py"
     kinds = 'levels(BrainKind("collector", Mind, think))'
-    file.write_text(
-        file.read_text().replace(kinds, f'{kinds} | {{"ace": BrainKind("ace", Mind, think, reset)}}, ("ace",)')
-    )
+    file.write_text(file.read_text().replace(kinds, f'{kinds} | {{"ace": BrainKind("ace", Mind, think)}}, ("ace",)'))
     ended = python("from pigaming_app.scenes.views.registry import shown_games; print(*shown_games())")
     assert "tag" not in ended.stdout.split()
     assert "is left out: text/en.toml lacks lobby.ace, match.ace." in ended.stderr
