@@ -3,67 +3,55 @@
 import logging
 from pathlib import Path
 
-import pygame
-
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import game_title
-from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.pages.page import Hints
+from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.storage.plugins.consent import switch
 from pigaming_app.storage.plugins.found import Plugin
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, icon, text_width
-from pigaming_app.ui.draw.layers import Layer, backdrop
+from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.draw.text import SMALLEST, fit_size, write_lines
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
-from pigaming_app.ui.widgets.dialog import FOOT, HEAD, ICON, PROMPTS, ROOM, TEXT_X, W, overlay
+from pigaming_app.ui.widgets.dialog import FOOT, HEAD, ICON, ROOM, TEXT_X
 
-IDLE = 90.0  # s without input until the title
 INPUT_LOCKOUT = 0.5  # s: a press of the screen before does not answer
 QUESTION, ON, OFF, UNSAVED = "question", "plays", "stays_off", "unsaved"  # states
 log = logging.getLogger("pigaming")
 
 
-class NewGame:
+class NewGame(Sheet):
     """X switches it on, FIRE leaves it off, BACK leaves it for later. Either counts from the next start on."""
 
+    color = FOCUS
+
     def __init__(self, context: Context, plugin: Plugin) -> None:
-        self.context, self.plugin = context, plugin
-        self.state, self.age = QUESTION, 0.0
-        self.pictures: dict[str, pygame.Surface] = {}
+        super().__init__(context)
+        self.plugin, self.state = plugin, QUESTION
 
     def on_enter(self) -> None:
         self.context.sounds.play("error")
 
-    def handle(self, event: InputEvent) -> StackOperation:
+    def press(self, event: InputEvent) -> StackOperation:
         """Answer, or leave."""
-        event = self.prompts.as_button(event)
-        if event.button is Button.BACK or (self.state != QUESTION and event.button in (Button.FIRE, Button.START)):
-            self.context.sounds.play("back")
-            return Pop()
+        if self.state != QUESTION and event.button in (Button.FIRE, Button.START):
+            return self.leave()
         if self.state == QUESTION and self.age >= INPUT_LOCKOUT and event.button in (Button.X, Button.FIRE):
             self._answer(event.button is Button.X)
         return None
 
-    def update(self, seconds: float) -> StackOperation:
-        self.age += seconds
-        return Home() if self.context.idle > IDLE else None
-
-    def draw(self, screen: pygame.Surface) -> None:
-        if self.state not in self.pictures:
-            self.pictures[self.state] = overlay(backdrop(), FOCUS, self._paint)
-        screen.blit(self.pictures[self.state], (0, 0))
-        self.prompts.draw(screen)
+    @property
+    def look(self) -> str:
+        return self.state
 
     @property
-    def prompts(self) -> ButtonPrompts:
-        """The choices."""
+    def hints(self) -> Hints:
         hints = [(Button.X, "plugins.hint_on"), (Button.FIRE, "plugins.hint_off"), (Button.BACK, "plugins.hint_later")]
-        return self.context.prompts(
-            hints if self.state == QUESTION else [(Button.FIRE, "options.hint_ok")], PROMPTS, W - 80
-        )
+        return hints if self.state == QUESTION else [(Button.FIRE, "options.hint_ok")]
 
     def _answer(self, on: bool) -> None:
         self.state = ON if on else OFF
@@ -75,7 +63,7 @@ class NewGame:
             self.state = UNSAVED
             self.context.sounds.play("error")
 
-    def _paint(self, layer: Layer) -> None:
+    def paint_sheet(self, layer: Layer) -> None:
         words, name = self.context.words, game_name(self.context.words, self.plugin)
         sheet_title(layer, None, words("plugins.new_game", game=name), ICE)
         icon(layer.glow, "unknown", *ICON, 76, FOCUS if self.state == QUESTION else MIST, LINE)

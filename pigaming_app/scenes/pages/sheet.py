@@ -14,8 +14,12 @@ class Sheet(Page):
     """Its still part is drawn once for each `look`."""
 
     prompts_y, prompts_room = PROMPTS, W - 80
-    color: Color = ICE  # of the outline
     _shown: tuple[Hashable, pygame.Surface] | None = None
+
+    @property
+    def color(self) -> Color:
+        """The colour of the outline."""
+        return ICE
 
     @property
     def look(self) -> Hashable:

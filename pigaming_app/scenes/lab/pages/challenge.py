@@ -8,15 +8,16 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
+from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.scenes.play.scene import MatchScene, new_seed
 from pigaming_app.scenes.results.scene import LATE, LEAVE, hold_bar
-from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, badge
+from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, Color, badge
 from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.numbers import numeral
-from pigaming_app.ui.widgets.dialog import FOOT, HEAD, PROMPTS, W, overlay
+from pigaming_app.ui.widgets.dialog import FOOT, HEAD
 
 MINUTES = 1.0
 ROBOT = 1  # seat of the trained robot; the person has seat 0
@@ -61,18 +62,18 @@ class Challenge:
         return Challenge(self.context, self.kind, device or self.device, self.arena)
 
 
-class ChallengeResult:
+class ChallengeResult(Sheet):
     """Result of a challenge, with a rematch prompt."""
 
+    idle, when_idle = IDLE, Pop()
+    hints = ((Button.FIRE, "results.again"), (Button.BACK, "lab.hint_lab"))
+
     def __init__(self, fight: Challenge) -> None:
-        self.fight, self.context = fight, fight.context
+        self.fight = fight
         self.scores = [robot.score for robot in fight.inner.match.state.robots][:2]
-        self.age = self.idle = 0.0
-        self.picture: pygame.Surface | None = None
-        self.access = Access(self.context, lambda: [fight.inner.devices[0]])
-        self.leaving = HoldTimers(self.context.controls, LEAVE)
-        hints = [(Button.FIRE, "results.again"), (Button.BACK, "lab.hint_lab")]
-        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: self.access.hint_device)
+        self.access = Access(fight.context, lambda: [fight.inner.devices[0]])
+        self.leaving = HoldTimers(fight.context.controls, LEAVE)
+        super().__init__(fight.context, gate=self.access)
 
     def on_enter(self) -> None:
         own, theirs = self.scores
@@ -84,7 +85,7 @@ class ChallengeResult:
         admitted = self.access.admit(event)
         if admitted is None and event.button not in (Button.FIRE, Button.START):
             return None
-        self.idle = 0.0
+        self.untouched = 0.0
         if self.age < INPUT_LOCKOUT:
             return None
         if event.button in (Button.FIRE, Button.START):
@@ -92,34 +93,35 @@ class ChallengeResult:
             return Swap(self.fight.rematch(None if event.device.kind == "mouse" else event.device))
         if admitted and event.button is Button.BACK:
             if event.device.kind == "mouse":
-                return self._leave()
+                return self.leave()
             if self.age >= LATE:
                 self.leaving.begin(admitted)
         return None
 
-    def _leave(self) -> StackOperation:
-        self.context.sounds.play("back")
-        return Pop()
+    @property
+    def resting(self) -> float:
+        return self.untouched
 
-    def update(self, seconds: float) -> StackOperation:
-        self.age += seconds
-        self.idle += seconds
-        if self.leaving.update(seconds) or self.access.update(seconds):
-            return self._leave()
-        return Pop() if self.idle > IDLE else None
+    def advance(self, seconds: float) -> StackOperation:
+        return self.leave() if self.leaving.update(seconds) else None
 
-    def draw(self, screen: pygame.Surface) -> None:
-        """Draw the result over the last frame of the match."""
-        if self.picture is None:
-            own, theirs = self.scores
-            color = PLAYERS[0] if own > theirs else PLAYERS[ROBOT] if theirs > own else ICE
-            self.picture = overlay(self.fight.inner.picture(), color, self._paint)
-        screen.blit(self.picture, (0, 0))
-        self.prompts.draw(screen)
+    @property
+    def behind(self) -> pygame.Surface:
+        """The last frame of the match."""
+        return self.fight.inner.picture()
+
+    @property
+    def color(self) -> Color:
+        own, theirs = self.scores
+        return PLAYERS[0] if own > theirs else PLAYERS[ROBOT] if theirs > own else ICE
+
+    def draw_foot(self, screen: pygame.Surface) -> None:
+        """Draw the progress of leaving, too."""
+        super().draw_foot(screen)
         if self.leaving.share:
             hold_bar(screen, self.leaving.share)
 
-    def _paint(self, layer: Layer) -> None:
+    def paint_sheet(self, layer: Layer) -> None:
         words = self.context.words
         own, theirs = self.scores
         name = self.fight.kind.name.upper()

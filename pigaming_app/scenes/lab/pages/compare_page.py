@@ -16,12 +16,12 @@ from pigaming_app.ai.registry import BRAINS
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.host import IDLE, LabHost
 from pigaming_app.scenes.lab.layout import GOOD, NOTHING
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box, icon
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
-from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.labels import heading
+from pigaming_app.ui.input.events import Button
 
 MATCHES = {True: 10, False: 2}  # matches per pair, compiled and interpreted
 MINUTES = 1.0
@@ -51,11 +51,16 @@ class Entrant:
         return WIN * self.won + TIE * self.tied
 
 
-class ComparePage:
+class ComparePage(Page):
     """League of one training."""
 
+    title, idle, when_idle = "lab.compare_title", IDLE, Pop()
+    closing = Button.FIRE, Button.START
+    hints = ((Button.BACK, "lab.hint_lab"),)
+
     def __init__(self, lab: LabHost) -> None:
-        self.lab, self.context = lab, lab.context
+        super().__init__(lab.context)
+        self.lab = lab
         words, trainer = self.context.words, lab.trainer
         checkpoints = trainer.checkpoints()
         self.players = [Entrant(words("lab.after", matches=n), checkpoints[n].kind) for n in sorted(checkpoints)]
@@ -68,23 +73,9 @@ class ComparePage:
         self.pairs = list(combinations(self.players, 2))
         self.whole = len(self.pairs)
         self.exam: Evaluation | None = None
-        self.prompts = self.context.prompts([(Button.BACK, "lab.hint_lab")])
 
-    def on_enter(self) -> None:
-        """Nothing to do."""
-
-    def handle(self, event: InputEvent) -> StackOperation:
-        """Any button returns to the Lab."""
-        event = self.prompts.as_button(event)
-        if event.button in (Button.BACK, Button.FIRE, Button.START):
-            self.context.sounds.play("back")
-            return Pop()
-        return None
-
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         """Advance the matches within the time slice, and animate the rows."""
-        if self.context.idle > IDLE:
-            return Pop()
         end = perf_counter() + SLICE
         while self.pairs and perf_counter() < end:
             self._play()
@@ -93,10 +84,9 @@ class ComparePage:
             player.y += offset * min(1.0, GLIDE * seconds) if abs(offset) > 1.0 else offset
         return None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the table."""
         words = self.context.words
-        screen.blit(backdrop(), (0, 0))
-        heading(words("lab.compare_title")).draw(screen)
         for key, right in COLUMNS:
             text(words(f"lab.{key}"), BODY, MIST, "body", "r").draw(screen, right, 244)
         best = self.order()[0] if not self.pairs else None
@@ -108,7 +98,6 @@ class ComparePage:
                 text(str(number), SUB if big else LABEL, color, "head", "r").draw(screen, right, player.y + HIGH / 2)
         if self.pairs:
             self._bar(screen)
-        self.prompts.draw(screen)
 
     def order(self) -> list[Entrant]:
         """The entrants by points, best first; stable for ties."""

@@ -9,61 +9,51 @@ from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.host import IDLE, LabHost
 from pigaming_app.scenes.lab.network.kind_switch import SIGN, network_sign, table_sign
 from pigaming_app.scenes.lab.saved_robots import RobotFileError, file_of, load_robot, names
+from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box
-from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, span
+from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
-from pigaming_app.ui.widgets.labels import black_out, heading
+from pigaming_app.ui.widgets.labels import black_out
 
 COLUMNS, ROWS = 3, 4
 TOP, HIGH, PITCH = 236, 140, 164
 INPUT_LOCKOUT = 0.3  # s during which input is ignored
 
 
-class OpenPage:
+class OpenPage(Page):
     """Paged cards of the saved robots, most recent first."""
 
+    title, idle, when_idle = "lab.open_title", IDLE, Pop()
+
     def __init__(self, lab: LabHost) -> None:
-        self.lab, self.context = lab, lab.context
+        self.lab = lab
         self.names = names()
         self.networks: dict[str, bool] = {}  # whether a robot has a network, once it was shown
-        self.page, self.age = 0, 0.0
-        self.focus = Focus(self._spots())
-        self.prompts = self.context.prompts(self._hints())
+        self.page = 0
+        super().__init__(lab.context, Focus(self._spots()))
 
-    def on_enter(self) -> None:
-        """Nothing to do."""
-
-    def handle(self, event: InputEvent) -> StackOperation:
-        """FIRE opens, BACK returns to the Lab, Y shows the next page."""
-        event = self.prompts.as_button(event)
-        if event.button is Button.BACK or (not self.names and event.button in (Button.FIRE, Button.START)):
-            self.context.sounds.play("back")
-            return Pop()
+    def press(self, event: InputEvent) -> StackOperation:
+        """FIRE opens, Y shows the next page."""
+        if not self.names:
+            return self.leave() if event.button in (Button.FIRE, Button.START) else None
         if event.button is Button.Y and self.pages > 1:
             self.page = (self.page + 1) % self.pages
             self.focus = Focus(self._spots())
             self.context.sounds.play("move")
-        elif self.names:
-            if self.focus.handle(event):
-                self.context.sounds.play("move")
-            chosen = self.focus.activated(event)
-            return self._open(chosen) if chosen and self.age > INPUT_LOCKOUT else None
-        return None
+            return None
+        return super().press(event)
 
-    def update(self, seconds: float) -> StackOperation:
-        self.age += seconds
-        self.focus.update(seconds)
-        return Pop() if self.context.idle > IDLE else None
+    @property
+    def subtitle(self) -> str:
+        return f"{self.page + 1} / {self.pages}" if self.pages > 1 else ""
 
-    def draw(self, screen: pygame.Surface) -> None:
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the cards of this page."""
         words = self.context.words
-        screen.blit(backdrop(), (0, 0))
-        count = f"{self.page + 1} / {self.pages}" if self.pages > 1 else ""
-        heading(words("lab.open_title"), count).draw(screen)
         if self.names:
             black_out(screen, *(spot.rect for spot in self.focus.spots))
             for spot in self.focus.spots:
@@ -75,7 +65,6 @@ class OpenPage:
             self.focus.draw(screen)
         else:
             text(words("lab.none"), LABEL, MIST, "head").draw(screen, 960, 520)
-        self.prompts.draw(screen)
 
     # ---- inside
 
@@ -90,11 +79,14 @@ class OpenPage:
             FocusSpot("", place(0))
         ]
 
-    def _hints(self) -> list[tuple[Button, str]]:
+    @property
+    def hints(self) -> Hints:
         more = [(Button.Y, "lab.hint_page")] if self.pages > 1 else []
         return ([(Button.FIRE, "lab.hint_open")] if self.names else []) + more + [(Button.BACK, "lab.hint_lab")]
 
-    def _open(self, name: str) -> StackOperation:
+    def choose(self, name: str, event: InputEvent) -> StackOperation:
+        if self.age <= INPUT_LOCKOUT:
+            return None
         words = self.context.words
         try:
             robot = load_robot(name)

@@ -1,74 +1,75 @@
 """Swap page: hand each robot of a running match over to a simulated one, and back."""
 
+import math
+
 import pygame
 
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.mat.robots.interrupted import InterruptedMatch
+from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import menu_spots, sheet_title
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge
 from pigaming_app.ui.draw.layers import Layer
 from pigaming_app.ui.draw.text import fit_size, word
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.dialog import PROMPTS, W, overlay
 from pigaming_app.ui.widgets.focus import Focus
 
 
-class SwapPage:
+class SwapPage(Sheet):
     """The page; the selection takes effect on leaving. `access`: devices that may operate it."""
 
+    idle = math.inf
+    closing = (Button.START,)
+    hints = ((Button.FIRE, "mat.hint_change"), (Button.BACK, "mat.hint_done"))
+
     def __init__(self, match: InterruptedMatch, access: Access) -> None:
-        self.match, self.context, self.access = match, match.context, access
+        self.match, self.access = match, access
         self.seats = [i for i, robot in enumerate(match.match.state.robots) if robot.present]
         self.wanted = {seat: seat in match.real for seat in self.seats}
-        self.focus = Focus(menu_spots([str(seat) for seat in self.seats]))
-        self.picture: pygame.Surface | None = None
-        hints = [(Button.FIRE, "mat.hint_change"), (Button.BACK, "mat.hint_done")]
-        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: access.hint_device)
+        super().__init__(match.context, Focus(menu_spots([str(seat) for seat in self.seats])), access)
 
-    def on_enter(self) -> None:
-        """Nothing to do."""
+    def press(self, event: InputEvent) -> StackOperation:
+        """FIRE, LEFT and RIGHT toggle the focused robot."""
+        if event.button in (Button.LEFT, Button.RIGHT):
+            return self.choose(self.focus.name, event)
+        return super().press(event)
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """FIRE, LEFT and RIGHT toggle the focused robot; BACK and START apply."""
-        admitted = self.access.admit(self.prompts.as_button(event))
-        if admitted is None:
-            return None
-        event = admitted
-        if event.button in (Button.BACK, Button.START):
-            for seat, real in self.wanted.items():
-                self.match.set_real(seat, real)
-            self.context.sounds.play("back")
-            return Pop()
-        if self.focus.handle(event):
-            self.context.sounds.play("move")
-        chosen = self.focus.name if event.button in (Button.LEFT, Button.RIGHT) else self.focus.activated(event)
-        if chosen:
-            self.wanted[int(chosen)] = not self.wanted[int(chosen)]
-            self.context.sounds.play("move")
+    def choose(self, name: str, event: InputEvent) -> StackOperation:
+        self.wanted[int(name)] = not self.wanted[int(name)]
+        self.context.sounds.play("move")
         return None
 
-    def update(self, seconds: float) -> StackOperation:
+    def leave(self) -> StackOperation:
+        """Apply the selection."""
+        for seat, real in self.wanted.items():
+            self.match.set_real(seat, real)
+        return super().leave()
+
+    def advance(self, seconds: float) -> StackOperation:
         """Keep all robots still."""
         self.match.advance_paused(seconds)
-        self.access.update(seconds)
-        self.focus.update(seconds)
         return None
 
-    def draw(self, screen: pygame.Surface) -> None:
-        if self.picture is None:
-            self.picture = overlay(self.match.picture(), ICE, self._paint)
-        screen.blit(self.picture, (0, 0))
+    @property
+    def behind(self) -> pygame.Surface:
+        return self.match.picture()
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the state of each robot."""
         self.focus.draw(screen)
         for spot in self.focus.spots:
             label = self.context.words("mat.real" if self.wanted[int(spot.name)] else "mat.simulated")
             color = FOCUS if spot.name == self.focus.name else MIST
             size = fit_size(label, LABEL, spot.rect.w - 150)
             word(label, size, color, "head", 0.3).draw(screen, spot.rect.centerx + 50, spot.rect.centery)
-        self.prompts.draw(screen)
+
+    def draw_foot(self, screen: pygame.Surface) -> None:
+        """Draw what lies over every page of the match, too."""
+        super().draw_foot(screen)
         self.match.draw_overlay(screen)
 
-    def _paint(self, layer: Layer) -> None:
+    def paint_sheet(self, layer: Layer) -> None:
         sheet_title(layer, None, self.context.words("mat.which"), ICE)
         for spot in self.focus.spots:
             seat = int(spot.name)
