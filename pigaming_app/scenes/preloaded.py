@@ -9,7 +9,6 @@ CORE = (
     "pigaming_app.scenes.views.race.mud",
     "pigaming_app.scenes.options.page",
     "pigaming_app.scenes.options.controls_test",
-    "pigaming_app.scenes.title.attract",
 )
 
 

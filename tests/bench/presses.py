@@ -20,13 +20,13 @@ from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.events.spec import Format
 from pigaming_app.jobs.bench.memory import resident_mb
+from pigaming_app.scenes.attract.scene import Attract
 from pigaming_app.scenes.events.poster import drawn, encoded
 from pigaming_app.scenes.flow.stack import Home, Stack
 from pigaming_app.scenes.lab.background import Background
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.preloaded import modules
-from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.scenes.title.scene import REST, Title
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import read_large

@@ -35,5 +35,5 @@ def test_the_paths_of_a_feature_mirror_its_rooms(name: str) -> None:
 
 
 def test_an_unknown_feature_is_refused() -> None:
-    with pytest.raises(Refusal, match="no feature 'cheese'; there are brain, howto"):
+    with pytest.raises(Refusal, match="no feature 'cheese'; there are attract, brain"):
         paths_of("cheese")

@@ -26,6 +26,7 @@ def tour(played: Sequence[str]) -> None:
     """Title with every tile, lobby and match to the results of some games, every row of the options, attract mode."""
     from pigaming_app.games.registry import games
     from pigaming_app.scenes.app import App
+    from pigaming_app.scenes.features.registry import idle_page
     from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
     from pigaming_app.scenes.lobby.scene import Lobby
@@ -33,7 +34,6 @@ def tour(played: Sequence[str]) -> None:
     from pigaming_app.scenes.play.scene import MatchScene
     from pigaming_app.scenes.results.scene import Results
     from pigaming_app.scenes.start import opened
-    from pigaming_app.scenes.title.attract import Attract
     from pigaming_app.scenes.title.scene import Title
     from pigaming_app.ui.input.events import Button, Device, InputEvent
 
@@ -113,8 +113,8 @@ def tour(played: Sequence[str]) -> None:
                     app.stack.top.on_enter()
                     frames(app, 3)
                     home(app)
-        attract = Attract(app.context)
-        for make in [next(attract.shows) for _ in range(len(games()) * 6)]:
+        attract: Any = idle_page(app.context)
+        for make in [next(attract.shows) for _ in range(len(games()) * 6)] if attract else ():
             if show := make():
                 show.on_enter()
                 show.draw(app.context.canvas.screen)

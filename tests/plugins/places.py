@@ -62,13 +62,13 @@ def screens(game: str) -> None:
 
     pygame.display.init()
     pygame.display.set_mode((1920, 1080))
+    from pigaming_app.scenes.attract.scene import Attract
     from pigaming_app.scenes.editor.gallery.page import Gallery
     from pigaming_app.scenes.events.setup.draft import Draft
     from pigaming_app.scenes.ladder.strengths import Strengths
     from pigaming_app.scenes.lobby.scene import Lobby
     from pigaming_app.scenes.options.games_page import GamesPage
     from pigaming_app.scenes.play.scene import MatchScene
-    from pigaming_app.scenes.title.attract import Attract
     from pigaming_app.scenes.title.scene import Title
     from pigaming_app.ui.input.controls import Controls
     from pigaming_app.ui.input.events import Button

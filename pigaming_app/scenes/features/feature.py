@@ -135,6 +135,7 @@ class Feature:
     needs: Sequence[str] = ()  # rooms of other features without which it is not offered
     menu: MenuItem | None = None
     options: Mapping[str, OptionRow] = field(default_factory=dict)
+    idle: Callable[[Context], Scene] | None = None  # over the title while nobody plays
     show: Callable[[Context, str], Show | None] | None = None  # of a game, for attract mode
     service: Callable[[Context, Options], Service | None] | None = None
     join: Callable[[Context], JoinOffer] | None = None

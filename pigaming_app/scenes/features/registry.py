@@ -16,7 +16,7 @@ from pigaming_app.storage.optional import is_there, optional
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.window import Pin
 
-NAMES = ("brain", "howto", "ladder", "events", "lab", "editor", "replays", "phones", "kiosk", "mat")
+NAMES = ("attract", "brain", "howto", "ladder", "events", "lab", "editor", "replays", "phones", "kiosk", "mat")
 
 log = logging.getLogger("pigaming")
 
@@ -90,3 +90,8 @@ def match_overlay(match: Match, view: MatchView, words: Words) -> MatchOverlay |
 def has_overlay() -> bool:
     """True if something can be drawn over a match for one of its AIs."""
     return any(feature.overlay for feature in features())
+
+
+def idle_page(context: Context) -> Scene | None:
+    """The page over the title while nobody plays, if there is one."""
+    return next((feature.idle(context) for feature in features() if feature.idle), None)

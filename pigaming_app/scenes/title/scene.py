@@ -1,11 +1,11 @@
 """The title: name, underlining robots, a tile per game, and the menu.
 
-After a while without input, attract mode starts.
+After a while without input, the page of a feature shows what there is to play.
 """
 
 import pygame
 
-from pigaming_app.scenes.features.registry import menu
+from pigaming_app.scenes.features.registry import idle_page, menu
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_goal, tagline
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
@@ -112,9 +112,8 @@ class Title:
             self.asked.add(plugin.key)
             return Push(NewGame(self.context, plugin))
         if self.context.idle > self.context.settings.attract_seconds and not self.context.preloader.busy:
-            from pigaming_app.scenes.title.attract import Attract
-
-            return Push(Attract(self.context))
+            page = idle_page(self.context)
+            return Push(page) if page else None
         return None
 
     def draw(self, screen: pygame.Surface) -> None:

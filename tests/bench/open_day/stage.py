@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.scenes.app import App
+from pigaming_app.scenes.attract.scene import Attract
 from pigaming_app.scenes.kiosk.operator.figures_page import FiguresPage
 from pigaming_app.scenes.kiosk.operator.page import OperatorPage
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.focus import Focus

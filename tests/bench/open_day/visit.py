@@ -9,6 +9,7 @@ from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.game_ai import HELPED_POINT, POINT
 from pigaming_app.ai.race.racer import HAND3, act
 from pigaming_app.games.race.observation import observe
+from pigaming_app.scenes.attract.scene import Attract
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.ladder.choice import LadderChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
@@ -22,7 +23,6 @@ from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.results.initials import Initials
 from pigaming_app.scenes.results.scene import LATE, Results
 from pigaming_app.scenes.results.winner import WinnersMoment
-from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.scores import LETTERS
 from pigaming_app.ui.input.events import Button

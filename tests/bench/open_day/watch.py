@@ -6,12 +6,12 @@ from dataclasses import asdict
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.jobs.bench.memory import resident_mb
 from pigaming_app.scenes.app import App
+from pigaming_app.scenes.attract.scene import Attract
 from pigaming_app.scenes.events.next_page import EventMatch
 from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
 from pigaming_app.scenes.kiosk.operator.group_limit import FAREWELL
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.initials import Initials
-from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.scenes.title.scene import Title
 from tests.bench.open_day.audit import table_key
 from tests.bench.open_day.ledger import LedgerFile

@@ -13,6 +13,7 @@ from pigaming_app.ai.networks.files import brain_of
 from pigaming_app.ai.registry import make_brain, new_match
 from pigaming_app.games.match import Match
 from pigaming_app.games.setup import make_setup
+from pigaming_app.scenes.attract.scene import Attract, DemoMatch
 from pigaming_app.scenes.brain import floor_marks as marks
 from pigaming_app.scenes.brain import panels as cards
 from pigaming_app.scenes.brain.overlay import BrainOverlay
@@ -20,7 +21,6 @@ from pigaming_app.scenes.flow.stack import Home
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.title.attract import Attract, DemoMatch
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.draw import ICONS

@@ -11,10 +11,10 @@ from pigaming_app.ai.registry import new_match
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay
 from pigaming_app.games.replay import recorded as recording_of
+from pigaming_app.scenes.attract.scene import PAGE, Attract, DemoMatch, TimedPage
 from pigaming_app.scenes.files import load_replay, save_replay
 from pigaming_app.scenes.play.side_hints import boxes
 from pigaming_app.scenes.replays.watch import IDLE, LINE_LEFT, LINE_RIGHT, LINE_Y, ReplayScene
-from pigaming_app.scenes.title.attract import PAGE, Attract, DemoMatch, TimedPage
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls

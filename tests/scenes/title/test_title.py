@@ -7,11 +7,11 @@ import numpy as np
 import pygame
 import pytest
 
+from pigaming_app.scenes.attract.scene import Attract
 from pigaming_app.scenes.flow.stack import Stack
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.options.page import OptionsPage
-from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.scenes.title.kiosk_unlock import HOLD
 from pigaming_app.scenes.title.language import BOX as LANGUAGE_BOX
 from pigaming_app.scenes.title.scene import Title

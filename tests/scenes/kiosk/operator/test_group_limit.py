@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app.scenes.attract.scene import Attract
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.setup.draft import Draft
@@ -11,7 +12,6 @@ from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.flow.stack import Home
 from pigaming_app.scenes.kiosk.operator.group_limit import FAREWELL, WARNED, GroupLimit
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.ui.input.controls import Controls
 from tests.scenes.arcade import Arcade, Floor, setup
 from tests.scenes.events.drawn import an_event

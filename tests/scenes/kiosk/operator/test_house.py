@@ -6,6 +6,7 @@ import pytest
 
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.app import App
+from pigaming_app.scenes.attract.scene import Attract
 from pigaming_app.scenes.flow.match_choice import last_choice, playable_arenas
 from pigaming_app.scenes.flow.stack import Push
 from pigaming_app.scenes.kiosk.operator.page import ROWS, OperatorPage
@@ -13,7 +14,6 @@ from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.start import opened
-from pigaming_app.scenes.title.attract import Attract
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.settings import Choice, Settings
 from pigaming_app.ui.input.events import Button, InputEvent

@@ -13,6 +13,8 @@ from pigaming_app.games.moments import CLOSE, KINDS, LAST, Moment
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay, recorded
 from pigaming_app.games.setup import make_setup
+from pigaming_app.scenes.attract.clip import Clip
+from pigaming_app.scenes.attract.scene import Attract, DemoMatch, TimedPage
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.howto.scene import HowTo, taught
 from pigaming_app.scenes.launch import Options
@@ -23,8 +25,6 @@ from pigaming_app.scenes.recordings.highlights import KEPT, Highlights, highligh
 from pigaming_app.scenes.results.high_score_tables import high_score_tables
 from pigaming_app.scenes.results.high_scores import HighScores
 from pigaming_app.scenes.start import run
-from pigaming_app.scenes.title.attract import Attract, DemoMatch, TimedPage
-from pigaming_app.scenes.title.clip import Clip
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
@@ -124,8 +124,8 @@ def arcade(controls: Controls, home: Path) -> Arcade:
 
 def until_clip(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> tuple[Attract, Clip]:
     """Attract mode up to its next highlight, with short shows and without prewarming."""
-    monkeypatch.setattr("pigaming_app.scenes.title.attract.MINUTES", 0.02)
-    monkeypatch.setattr("pigaming_app.scenes.title.attract.PAGE", 0.1)
+    monkeypatch.setattr("pigaming_app.scenes.attract.scene.MINUTES", 0.02)
+    monkeypatch.setattr("pigaming_app.scenes.attract.scene.PAGE", 0.1)
     monkeypatch.setattr(MatchRunner, "prewarm", lambda runner, milliseconds: True)
     attract = Attract(arcade.context)
     arcade.open(attract)

@@ -15,6 +15,7 @@ from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.attract.clip import Clip
 from pigaming_app.scenes.features.feature import Show
 from pigaming_app.scenes.features.registry import features
 from pigaming_app.scenes.flow.context import Context
@@ -24,7 +25,6 @@ from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.scenes.recordings.highlights import highlights
 from pigaming_app.scenes.results.high_score_tables import contests
 from pigaming_app.scenes.results.high_scores import HighScores
-from pigaming_app.scenes.title.clip import Clip
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, dim
 from pigaming_app.ui.input.events import Button, InputEvent
