@@ -1,47 +1,33 @@
 """How New Game appears on the screens."""
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
 
-from pigaming_app.api.look import (
-    FOCUS,
-    LINE,
-    Batch,
-    GameScreens,
-    GlowCanvas,
-    Job,
-    SimpleView,
-    Sprite,
-    cached,
-    dim,
-    on_canvas,
-    put,
-    robot,
-    trim,
-)
+from pigaming_app.api.look import STYLE, Batch, GameScreens, GlowCanvas, SimpleView, dim, light_sprite, put, robot
+
+from .rules import NewGame
 
 
 class NewGameView(SimpleView):
     """The coin, besides walls, robots and points."""
 
-    def sprites(self) -> Iterator[Job]:
+    def samples(self) -> Iterator[Callable[[], object]]:
         yield coin
 
-    def marks(self, under: Batch, over: Batch, state: Any, blend: float) -> None:
-        put(under, coin(), *on_canvas(state.coin_x, state.coin_y))
+    def marks(self, under: Batch, over: Batch, state: NewGame, blend: float) -> None:
+        put(under, coin(), *self.on_canvas(state.coin_x, state.coin_y))
 
 
-@cached
-def coin() -> Sprite:
-    """The coin, as light to add."""
-    ink = GlowCanvas(160, 160).set_transform(80, 80)
+@light_sprite(80, 0.9)
+def coin(ink: GlowCanvas) -> None:
+    """The coin."""
     draw_coin(ink, 0.0, 0.0, 40.0)
-    return trim(ink.lit(0.9), 80, 80)
 
 
 def draw_coin(ink: GlowCanvas, x: float, y: float, r: float) -> None:
     """A coin of radius `r` px."""
-    ink.disc(x, y, r, dim(FOCUS, 0.3)).ring(x, y, r, FOCUS, LINE).ring(x, y, 0.5 * r, FOCUS, LINE)
+    ink.disc(x, y, r, dim(STYLE.focus, 0.3)).ring(x, y, r, STYLE.focus, STYLE.line).ring(
+        x, y, 0.5 * r, STYLE.focus, STYLE.line
+    )
 
 
 def tile(ink: GlowCanvas, x: float, y: float) -> None:

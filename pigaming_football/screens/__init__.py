@@ -2,61 +2,44 @@
 
 from collections.abc import Callable
 
-import pygame
-
-from pigaming_app.api.look import (
-    ADD,
-    ICE,
-    MIST,
-    THIN,
-    Actor,
-    Color,
-    GameScreens,
-    GlowCanvas,
-    Lesson,
-    Placed,
-    Steps,
-    dim,
-    fitted,
-    regular_polygon,
-    robot,
-    walls,
-)
+from pigaming_app.api.look import STYLE, Actor, GameScreens, GlowCanvas, Lesson, dim, regular_polygon, robot
 from pigaming_app.api.rules import HEIGHT, WIDTH, Arena
 
 from ..state import Football
 from .sprites import draw_ball, draw_goal, draw_lines
 from .view import FootballView
 
+Points = list[tuple[float, float]]
+Placed = Callable[[Points], Points]
+
 
 def tile(ink: GlowCanvas, x: float, y: float) -> None:
     """The picture on the title: a shot at the goal."""
     draw_goal(ink, 1, x + 458, y + 132, 96, 1.15)
     for i in range(6):
-        ink.line([(x + 242 + 14 * i, y + 158 - 2.4 * i), (x + 332, y + 142)], dim(MIST, 0.10 + 0.08 * i), THIN + 2 * i)
+        ink.line(
+            [(x + 242 + 14 * i, y + 158 - 2.4 * i), (x + 332, y + 142)],
+            dim(STYLE.mist, 0.10 + 0.08 * i),
+            STYLE.thin + 2 * i,
+        )
     draw_ball(ink.set_transform(x + 346, y + 140, 0.0, 1.3), 0.6, False)
     ink.set_transform(0, 0)
     robot(ink, 0, x + 130, y + 178, -0.17, 1.15)
     robot(ink, 3, x + 454, y + 206, -2.2, 1.0)
 
 
-def preview(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:
-    """Preview of a pitch: lines, goals, walls and starts."""
-    out = yield from walls(arena, w, h, allies)
-    left, top, k = fitted(w, h)
-    ink, half = GlowCanvas(w, h, 3), k * arena.plan.mouth
+def plan(ink: GlowCanvas, arena: Arena, left: float, top: float, k: float) -> None:
+    """Lines and goals of a pitch."""
+    half = k * arena.plan.mouth
     draw_lines(ink, left, top, k * WIDTH, k * HEIGHT, half, 0.6)
     for side in (0, 1):
         draw_goal(ink, side, left + side * k * WIDTH, top + k * HEIGHT / 2, half, 0.7 * k, inside=True)
-    yield
-    out.blit((yield from ink.lit_steps(0.5)), (0, 0), special_flags=ADD)
-    return out
 
 
-def footballs(ink: GlowCanvas, placed: Placed, size: float, shape: int, color: Color) -> None:
+def footballs(ink: GlowCanvas, placed: Placed, size: float, shape: int, color: tuple[int, int, int]) -> None:
     """Confetti: a small ball of five corners."""
     whole = placed(regular_polygon(12, size))
-    ink.solid(whole).line(whole, ICE, 2, True).fill(placed(regular_polygon(5, 0.55 * size)), color)
+    ink.solid(whole).line(whole, STYLE.ice, 2, True).fill(placed(regular_polygon(5, 0.55 * size)), color)
 
 
 def _kick_off(x: float, y: float, worth: int = 1) -> Callable[[Football], None]:
@@ -111,7 +94,7 @@ SCREENS = GameScreens(
     FootballView,
     tile,
     fire="hint_kick",
-    preview=preview,
+    plan=plan,
     confetti=footballs,
     team_colors=True,
     lessons=LESSONS,

@@ -1,88 +1,32 @@
 """View of Robot Football: pitch, goals, the rolling ball, its trail and charge, and the celebration of a goal."""
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
-import pygame
-
-from pigaming_app.api.look import (
-    CLOCK,
-    FOCUS,
-    GIVEN,
-    HERO,
-    ICE,
-    LABEL,
-    PLAYERS,
-    TEAMS,
-    TOP,
-    Background,
-    Batch,
-    Bit,
-    Job,
-    LitImage,
-    ScoreHud,
-    SimpleView,
-    SoundCue,
-    Starts,
-    ViewOptions,
-    Words,
-    effects,
-    fit_size,
-    on_canvas,
-    put,
-    readable,
-    step,
-    text,
-)
-from pigaming_app.api.rules import Arena
+from pigaming_app.api.look import STYLE, Batch, SimpleView, SoundCue, put, step
 
 from ..rules import side_of
 from ..start import start_indices
+from ..state import Football
 from . import sprites
 
 FAST, TAIL = 260.0, 0.016  # px/s from which the ball has a trail; s between its spots
 JUMP = 120.0  # px in a tick: the ball was placed, not rolled
 KICK = 140.0  # px/s: a change of velocity that is heard
-CHEER, NETTED = 1.7, 0.5  # s for which a goal is announced, and in which the ball comes to rest in the net
+CHEER, NETTED = 1.7, 0.5  # s for which a goal is cheered, and in which the ball comes to rest in the net
 CHARGES = 16  # steps of the ring of the charge
 JINGLES = ("delivered_ice", "delivered_fire")
-SHOUT_Y = 190.0  # px, of the announcement of a goal
-
-
-class FootballHud(ScoreHud):
-    """Points of robots and teams; words in place of the clock while the next goal wins."""
-
-    def __init__(self, background: Background, state: Any, players: list[str], words: Words | None) -> None:
-        super().__init__(background, state, players)
-        self.lines = words("football.golden_goal").split("|") if words else []
-        self.size = min((fit_size(line, readable(LABEL), CLOCK.w - 24) for line in self.lines), default=LABEL)
-
-    def show_clock(self, state: Any) -> None:
-        if not state.golden_goal or not self.lines:
-            super().show_clock(state)
-            return
-        self.parts.show("clock", "golden", CLOCK.x, CLOCK.w, self.golden_goal)
-
-    def golden_goal(self) -> list[Bit]:
-        """The pieces of the words."""
-        lit = [text(line, self.size, FOCUS, "head", room=CLOCK.w - 24) for line in self.lines]
-        top = 84 - 25 * (len(lit) - 1)
-        return [
-            (part.image, (CLOCK.centerx + part.at[0], top + 50 * i + part.at[1]), None) for i, part in enumerate(lit)
-        ]
 
 
 class FootballView(SimpleView):
     """The ball and its pitch, besides walls, robots and goals."""
 
-    def __init__(
-        self, arena: Arena, state: Any, players: list[str], options: ViewOptions, words: Words | None = None
-    ) -> None:
-        super().__init__(arena, state, players, options, words)
-        self.shout = words("football.goal") if words else ""
+    shocks = (STYLE.ice, *STYLE.teams, STYLE.focus)  # of the kick-off, of goals, of a golden ball
+    glows = STYLE.teams
+
+    def begin(self, state: Football) -> None:
         ball = state.ball
         self.was = self.now = (ball.x, ball.y)
         self.velocity = (ball.vx, ball.vy)
@@ -91,25 +35,18 @@ class FootballView(SimpleView):
         self.goals, self.holder, self.out = state.goals, ball.holder, ball.out
         self.goal_at, self.goal_from, self.scorer = -9.0, (0.0, 0.0), 0
 
-    def starts(self, arena: Arena, state: Any) -> Starts:
-        robots = state.robots
-        indices = start_indices([robot.team for robot in robots], [bool(robot.present) for robot in robots])
-        return super().starts(replace(arena, starts=tuple(arena.starts[k] for k in indices)), state)
+    def start_order(self, state: Football) -> Sequence[int]:
+        return start_indices([robot.team for robot in state.robots], [bool(robot.present) for robot in state.robots])
 
-    def floor(self, starts: Starts, state: Any) -> Callable[[], pygame.Surface]:
-        return partial(sprites.pitch, starts, state.mouth)
+    def floor_marks(self, state: Football) -> tuple[Any, ...]:
+        return sprites.draw_pitch, state.mouth
 
-    def make_hud(self, state: Any) -> FootballHud:
-        return FootballHud(self.background, state, self.players, self.words)
+    def clock_words(self, state: Football) -> str:
+        return self.word("football.golden_goal") if state.golden_goal else ""
 
-    def sprites(self) -> Iterator[Job]:
-        for color in (ICE, *TEAMS, FOCUS):  # of the kick-off, of goals, of a golden ball
-            for stage in range(effects.WAVE_STEPS):
-                yield partial(effects.wave, color, stage)
-        for side in (0, 1):
-            yield partial(self.announcement, side)
-            for level in range(effects.LIGHT_LEVELS, 0, -1):
-                yield partial(effects.light, TEAMS[side], level)
+    def samples(self) -> Iterator[Callable[[], object]]:
+        for color in STYLE.teams:
+            yield partial(self.announcement, self.word("football.goal"), color)
         yield sprites.shadow
         for level in range(1, sprites.TRAIL + 1):
             yield partial(sprites.trail, level, False)
@@ -120,26 +57,15 @@ class FootballView(SimpleView):
                 yield partial(sprites.ball, turn, phase, False)
         for seat in self.seats:
             for charge in range(1, CHARGES + 1):
-                yield partial(effects.timer_ring, PLAYERS[seat], 48 * charge // CHARGES, 34)
+                yield partial(sprites.ring, STYLE.players[seat], 48 * charge // CHARGES)
             for level in range(1, 5):
-                yield partial(sprites.aim, level, PLAYERS[seat])
+                yield partial(sprites.aim, level, seat)
         for left in range(0, 49, 4):
-            yield partial(effects.timer_ring, ICE, left, 34)
-
-    def announcement(self, side: int) -> LitImage:
-        """The word for a goal, in the colour of the side that has scored."""
-        return text(self.shout, fit_size(self.shout, HERO, 1000), TEAMS[side], "head")
-
-    def draw(self, screen: pygame.Surface, state: Any, blend: float, seconds: float) -> None:
-        super().draw(screen, state, blend, seconds)
-        since = self.particles.clock - self.goal_at
-        if self.shout and since < CHEER:
-            rise = 1.0 - (1.0 - min(1.0, since / 0.25)) ** 3
-            self.announcement(self.scorer).draw(screen, 960, TOP + SHOUT_Y + 40 * (1.0 - rise))
+            yield partial(sprites.ring, STYLE.ice, left)
 
     # ---- the ball
 
-    def marks(self, under: Batch, over: Batch, state: Any, blend: float) -> None:
+    def marks(self, under: Batch, over: Batch, state: Football, blend: float) -> None:
         ball, now, gold = state.ball, self.particles.clock, state.ball.worth > 1
         if ball.out:
             self.draw_waiting(under, state, gold)
@@ -148,45 +74,45 @@ class FootballView(SimpleView):
         for tx, ty, at in self.tail:
             level = math.ceil(sprites.TRAIL * (1.0 - (now - at) / 0.22))
             if level > 0:
-                put(under, sprites.trail(min(level, sprites.TRAIL), gold), *on_canvas(tx, ty))
-        put(under, sprites.shadow(), *on_canvas(x, y))
+                put(under, sprites.trail(min(level, sprites.TRAIL), gold), *self.on_canvas(tx, ty))
+        put(under, sprites.shadow(), *self.on_canvas(x, y))
         if ball.holder:
             self.draw_charge(under, state, ball.holder - 1, x, y)
 
-    def above(self, light: Batch, top: Batch, state: Any, blend: float) -> None:
+    def above(self, light: Batch, top: Batch, state: Football, blend: float) -> None:
         """The ball, which lies over the robots' barrels."""
         ball, since = state.ball, self.particles.clock - self.goal_at
         if since < CHEER:
             self.draw_netted(top, since)
         if not ball.out:
             turn, phase = step(self.direction, sprites.DIRECTIONS), step(self.rolled, sprites.PHASES)
-            put(top, sprites.ball(turn, phase, ball.worth > 1), *on_canvas(*self.ball_at(blend)))
+            put(top, sprites.ball(turn, phase, ball.worth > 1), *self.on_canvas(*self.ball_at(blend)))
         elif ball.out < waiting(state) - 25:
-            put(top, sprites.ball(0, 0, ball.worth > 1), *on_canvas(ball.x, ball.y))
+            put(top, sprites.ball(0, 0, ball.worth > 1), *self.on_canvas(ball.x, ball.y))
 
     def ball_at(self, blend: float) -> tuple[float, float]:
         """Where the ball is between the last two ticks, px in the arena."""
         (x, y), (to_x, to_y) = self.was, self.now
         return x + (to_x - x) * blend, y + (to_y - y) * blend
 
-    def draw_charge(self, under: Batch, state: Any, seat: int, x: float, y: float) -> None:
+    def draw_charge(self, under: Batch, state: Football, seat: int, x: float, y: float) -> None:
         """The ring that fills with the charge, and the line of the shot."""
         share = min(1.0, state.ball.charge / state.rules.charge)
         ring = 48 * math.ceil(CHARGES * share) // CHARGES
-        put(under, effects.timer_ring(PLAYERS[seat], max(3, ring), 34), *on_canvas(x, y))
+        put(under, sprites.ring(STYLE.players[seat], max(3, ring)), *self.on_canvas(x, y))
         heading = state.robots[seat].heading + state.ball.grip
         reach = 2 + round(4 * share)
         for i in range(reach):
             far = 52 + 34 * i
-            at = on_canvas(x + far * math.cos(heading), y + far * math.sin(heading))
-            put(under, sprites.aim(max(1, 4 - i), PLAYERS[seat]), *at)
+            at = self.on_canvas(x + far * math.cos(heading), y + far * math.sin(heading))
+            put(under, sprites.aim(max(1, 4 - i), seat), *at)
 
-    def draw_waiting(self, under: Batch, state: Any, gold: bool) -> None:
+    def draw_waiting(self, under: Batch, state: Football, gold: bool) -> None:
         """The ball before it is dropped, in a ring that empties, with the way that it will roll."""
         ball = state.ball
         left = 4 * math.ceil(12 * min(1.0, ball.out / waiting(state)))
-        at = on_canvas(ball.x, ball.y)
-        put(under, effects.timer_ring(FOCUS if gold else ICE, left, 34), *at)
+        at = self.on_canvas(ball.x, ball.y)
+        put(under, sprites.ring(STYLE.focus if gold else STYLE.ice, left), *at)
         if ball.roll:
             right = ball.roll > 0.0
             pulse = 0.5 - 0.5 * math.cos(math.tau * self.particles.clock)
@@ -198,11 +124,11 @@ class FootballView(SimpleView):
         share = 1.0 - (1.0 - min(1.0, since / NETTED)) ** 2
         x, y = self.goal_from
         x += (-1 if x < 800 else 1) * 34 * share
-        put(top, sprites.ball(0, step(share * 3.0, sprites.PHASES), False), *on_canvas(x, y))
+        put(top, sprites.ball(0, step(share * 3.0, sprites.PHASES), False), *self.on_canvas(x, y))
 
     # ---- events
 
-    def events(self, state: Any) -> list[SoundCue]:
+    def events(self, state: Football) -> list[SoundCue]:
         ball, cues = state.ball, super().events(state)
         cues = [cue for cue in cues if cue[0] != "pickup"]
         self.follow_ball(state)
@@ -210,7 +136,7 @@ class FootballView(SimpleView):
             cues += self.cheer(state)
         elif self.out and not ball.out:
             cues.append(("drop", None, ball.x))
-            self.particles.shock(*on_canvas(ball.x, ball.y), FOCUS if ball.worth > 1 else ICE)
+            self.particles.shock(*self.on_canvas(ball.x, ball.y), STYLE.focus if ball.worth > 1 else STYLE.ice)
         elif ball.holder and not self.holder:
             cues.append(("lift", ball.holder - 1, ball.x))
         elif self.holder and not ball.holder and not ball.out:
@@ -219,24 +145,24 @@ class FootballView(SimpleView):
             change = math.hypot(ball.vx - self.velocity[0], ball.vy - self.velocity[1])
             if change > KICK:
                 cues.append(("set_down", None, ball.x))
-                x, y = on_canvas(ball.x, ball.y)
-                self.particles.burst(x, y, ICE, min(10, round(change / 80)), 22, 30)
+                x, y = self.on_canvas(ball.x, ball.y)
+                self.particles.burst(x, y, STYLE.ice, min(10, round(change / 80)), 22, 30)
         self.goals, self.holder, self.out = state.goals, ball.holder, ball.out
         self.velocity = (ball.vx, ball.vy)
         return cues
 
-    def kicked(self, state: Any, seat: int) -> SoundCue:
+    def kicked(self, state: Football, seat: int) -> SoundCue:
         """Sparks and sound of a shot, or of a ball that was lost."""
         ball = state.ball
-        x, y = on_canvas(ball.x, ball.y)
+        x, y = self.on_canvas(ball.x, ball.y)
         speed = math.hypot(ball.vx, ball.vy)
         if speed > 300.0:
             way = math.atan2(ball.vy, ball.vx)
-            self.particles.burst(x, y, PLAYERS[seat], round(speed / 50), 24, 60, (way + math.pi, 0.6))
+            self.particles.burst(x, y, STYLE.players[seat], round(speed / 50), 24, 60, (way + math.pi, 0.6))
             return "fire", seat, ball.x
         return "hit", None, ball.x
 
-    def follow_ball(self, state: Any) -> None:
+    def follow_ball(self, state: Football) -> None:
         """Record where the ball is, how far it has rolled, and its trail."""
         ball = state.ball
         self.was, self.now = self.now, (ball.x, ball.y)
@@ -253,15 +179,16 @@ class FootballView(SimpleView):
             self.tail.append((ball.x, ball.y, now))
         self.tail = [spot for spot in self.tail if now - spot[2] < 0.22]
 
-    def cheer(self, state: Any) -> list[SoundCue]:
+    def cheer(self, state: Football) -> list[SoundCue]:
         """Light, sparks and sounds of a goal."""
         self.scorer = 1 - state.goal_side
         self.goal_at = self.particles.clock
+        self.announce(self.word("football.goal"), STYLE.teams[self.scorer])
         self.goal_from = (0.0 if state.goal_side == 0 else 1600.0, state.goal_y)
-        x, y = on_canvas(*self.goal_from)
-        color, inwards = TEAMS[self.scorer], 0.0 if state.goal_side == 0 else math.pi
+        x, y = self.on_canvas(*self.goal_from)
+        color, inwards = STYLE.teams[self.scorer], 0.0 if state.goal_side == 0 else math.pi
         self.particles.burst(x, y, color, 70, 20, 320, (inwards, 1.3))
-        self.particles.burst(x, y, FOCUS, 24, 20, 200, (inwards, 1.0))
+        self.particles.burst(x, y, STYLE.focus, 24, 20, 200, (inwards, 1.0))
         if self.options.flashes != "off":
             self.particles.shock(x, y, color)
         if self.options.flashes == "full":
@@ -270,10 +197,10 @@ class FootballView(SimpleView):
             self.particles.shake()
         for seat in self.seats:
             if side_of(state.robots[seat]) == self.scorer:
-                self.rumbles[seat] = GIVEN
+                self.rumble(seat)
         return [(JINGLES[self.scorer], None, self.goal_from[0]), ("rush", None, self.goal_from[0])]
 
 
-def waiting(state: Any) -> int:
+def waiting(state: Football) -> int:
     """Ticks for which the ball is out before it is dropped."""
     return int(state.rules.celebration if state.ball.roll else state.rules.warning)

@@ -9,8 +9,10 @@ import pytest
 import pigaming_football
 from pigaming_app.games.arenas import load
 from pigaming_app.scenes.bench.frame_times import AllEffects
+from pigaming_app.scenes.views.hud.parts import CLOCK, word_bits
 from pigaming_app.scenes.views.preview import fitted
 from pigaming_app.scenes.views.registry import SCREENS
+from pigaming_app.scenes.views.style import STYLE
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from tests.football.pitch import ARENAS, match, put_ball, put_robot
 
@@ -89,9 +91,12 @@ def test_overtime_and_goals_have_words_that_fit(screen, language):
     view = view_of(football, language)
     football.state.golden_goal = 1
     view.draw(screen, football.state, 1.0, 0.02)
-    assert len(view.hud.lines) == 2
-    assert view.hud.size >= 24
-    assert view.announcement(0).image.get_width() < 1200
+    words = view.hud.clock_words
+    assert words.count("|") == 1
+    bits = word_bits(words)
+    assert max(image.get_width() for image, _, _ in bits) - 64 <= CLOCK.w - 24
+    assert min(image.get_height() for image, _, _ in bits) >= 2 * 24 + 64, "legible"
+    assert view.announcement(view.word("football.goal"), STYLE.teams[0]).image.get_width() < 1200
 
 
 def test_the_lines_of_the_pitch_reach_the_walls(screen):
@@ -108,7 +113,7 @@ def test_the_lines_of_the_pitch_reach_the_walls(screen):
 @pytest.mark.parametrize("arena", ARENAS)
 def test_the_preview_of_a_pitch_shows_how_wide_its_goals_are(screen, arena):
     """Two of them differ in nothing else."""
-    pitch, steps = load("football", arena), SCREENS["football"].preview(load("football", arena), 1144, 648, False)
+    pitch, steps = load("football", arena), SCREENS["football"].picture(load("football", arena), 1144, 648, False)
     try:
         while True:
             next(steps)

@@ -40,6 +40,19 @@ class Part:
         value = self.get(key, default)
         return min(max(float(value), least), most) if isinstance(value, int | float) and isfinite(value) else default
 
+    def stepped(self, key: str, values: Sequence[float], default: float) -> "Part":
+        """This part with a number changed to the next larger of some values, after the largest to the smallest."""
+        value = self.number(key, default)
+        return self.changed(key, next((other for other in values if other > value + 1e-6), values[0]))
+
+    def in_whole_px(self) -> "Part":
+        """This part with all its points in whole px within the arena."""
+        points = {key: found for key, value in self.entries if (found := point(value))}
+        rounded = {
+            key: (round(min(max(x, 0.0), WIDTH)), round(min(max(y, 0.0), HEIGHT))) for key, (x, y) in points.items()
+        }
+        return replace(self, entries=tuple((key, rounded.get(key, value)) for key, value in self.entries))
+
     def point(self, key: str) -> Point:
         """A point among its entries, px, not far from the arena; the middle of the arena if there is none."""
         return point(self.get(key)) or (WIDTH / 2, HEIGHT / 2)

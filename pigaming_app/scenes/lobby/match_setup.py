@@ -306,7 +306,7 @@ def picture(game: str, name: str, allies: bool, version: str) -> Steps[LitImage]
 
     `version`: of its file, which the user may have changed.
     """
-    image = yield from SCREENS[game].preview(load_cached(game, name), *PICTURE.size, allies)
+    image = yield from SCREENS[game].picture(load_cached(game, name), *PICTURE.size, allies)
     return LitImage(image, PICTURE.topleft)
 
 

@@ -7,10 +7,10 @@ from typing import Any
 import pygame
 
 from pigaming_app.scenes.views.lesson import Lesson
-from pigaming_app.scenes.views.preview import walls
+from pigaming_app.scenes.views.preview import fitted, walls
 from pigaming_app.scenes.views.view import MatchView, ViewOptions
 from pigaming_app.sim.arena import Arena
-from pigaming_app.ui.draw import Color, GlowCanvas, Point, shape_points
+from pigaming_app.ui.draw import ADD, Color, GlowCanvas, Point, shape_points
 from pigaming_app.ui.draw.frame_budget import Steps
 from pigaming_app.ui.i18n import Words
 
@@ -34,6 +34,8 @@ class GameScreens:
     - `tile(canvas, x, y)`: its picture, in 560 x 284 px below and right of (x, y); the title shows it smaller.
     - `fire`: text key (table `howto`) of what FIRE does; empty: nothing.
     - `preview(arena, w, h, allies)`: an arena as additive light in w x h px.
+    - `plan(canvas, arena, left, top, scale)`: what a preview shows besides, such as the lines of a pitch; (left, top)
+      is the corner of the arena on the canvas.
     - `confetti(canvas, placed, size, shape, color)`: a piece of it at the celebration.
     - `team_colors`: winners have the colour of their team, not their own.
     - `lessons`: by text key of their captions (table `howto.lessons`), in pages of four.
@@ -50,8 +52,19 @@ class GameScreens:
     lessons: Mapping[str, Lesson] = field(default_factory=dict)
     lesson_pages: tuple[str, ...] = ()
     signs: Mapping[str, str] = field(default_factory=dict)
+    plan: Callable[[GlowCanvas, Arena, float, float, float], object] | None = None
 
     @property
     def page_count(self) -> int:
         """Pages of lessons."""
         return -(-len(self.lessons) // LESSONS_PER_PAGE)
+
+    def picture(self, arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:
+        """The preview of an arena in w x h px, with its plan."""
+        out = yield from self.preview(arena, w, h, allies)
+        if self.plan:
+            ink = GlowCanvas(w, h, 3)
+            self.plan(ink, arena, *fitted(w, h))
+            yield
+            out.blit((yield from ink.lit_steps(0.5)), (0, 0), special_flags=ADD)
+        return out

@@ -1,6 +1,6 @@
 """View of a game with walls, robots and points, for other games to extend."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import Any
 
@@ -12,41 +12,71 @@ from pigaming_app.scenes.views.hud.score import ScoreHud, pulse
 from pigaming_app.scenes.views.particles import reel
 from pigaming_app.scenes.views.rumble import GIVEN
 from pigaming_app.scenes.views.sprites import robot as tank
+from pigaming_app.scenes.views.sprites.effects import LIGHT_LEVELS, WAVE_STEPS, light, wave
 from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.scenes.views.walled_background import Starts, WalledBackground, walled_floor
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import ROBOTS
-from pigaming_app.ui.draw import PLAYERS
+from pigaming_app.ui.draw import HERO, ICE, PLAYERS, Color
 from pigaming_app.ui.draw.frame_budget import Job
+from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
+from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.numbers import signed
 
+SAID, SAID_Y = 1.7, 190.0  # s for which a word is announced, and px from the top of the arena
 ABOVE = 66  # px from a robot up to the points that it has just made
 
 
 class SimpleView(MatchView):
-    """Walls, robots, points. Subclasses override what differs: `starts`, `floor`, `make_hud`, called once; `marks`,
-    `draw_robot` and `above`, called for every picture; `sprites` and `events`.
+    """Walls, robots, points. A game overrides what differs: `begin`, `start_order`, `floor_marks` and `samples`, called
+    once; `events`, called after every tick; `clock_words`, `marks`, `draw_robot` and `above`, called for every picture.
+
+    Of use to these: `pose`, `on_canvas`, `announce`, `rumble`, `word`; `particles` (`burst`, `shock`, `glow`, `shake`);
+    `seats`, those that play; `options`, the effects that people want to see.
     """
+
+    shocks: Sequence[Color] = ()  # colours of `particles.shock`
+    glows: Sequence[Color] = ()  # colours of `particles.glow`
 
     def __init__(
         self, arena: Arena, state: Any, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
-        self.walls = WalledBackground(len(arena.walls), self.floor(self.starts(arena, state), state))
+        self.words = words
+        floor = partial(walled_floor, self.starts(arena, state), *self.floor_marks(state))
+        self.walls = WalledBackground(len(arena.walls), floor)
         super().__init__(state, players, options, words, self.walls, arena.things)
         self.hud = self.make_hud(state)
+        self.said: tuple[str, Color, float] = "", ICE, 0.0  # announcement, its colour, and when it began
+        self.begin(state)
         self.scores = [robot.score for robot in state.robots]
         self.add_prewarm_jobs(self.hud.jobs())
-        self.add_prewarm_jobs(self.sprites())
+        self.add_prewarm_jobs(partial(wave, color, stage) for color in self.shocks for stage in range(WAVE_STEPS))
+        self.add_prewarm_jobs(
+            partial(light, color, level) for color in self.glows for level in range(LIGHT_LEVELS, 0, -1)
+        )
+        self.add_prewarm_jobs(self.samples())
+
+    def begin(self, state: Any) -> None:
+        """Set up what the view remembers of a match that begins, or goes on."""
+
+    def start_order(self, state: Any) -> Sequence[int]:
+        """The start, 0 to 3, on which each seat begins."""
+        return range(ROBOTS)
 
     def starts(self, arena: Arena, state: Any) -> Starts:
-        """Where the robots start."""
-        return tuple((i, arena.starts[i].x, arena.starts[i].y) for i in range(ROBOTS) if state.robots[i].present)
+        """Where the robots of the seats that play begin."""
+        poses = [arena.starts[k] for k in self.start_order(state)]
+        return tuple((i, poses[i].x, poses[i].y) for i in range(ROBOTS) if state.robots[i].present)
 
-    def floor(self, starts: Starts, state: Any) -> Callable[[], pygame.Surface]:
-        """The renderer of all that lies under the walls, opaque: here grid, frame, and a mark at each start."""
-        return partial(walled_floor, starts)
+    def floor_marks(self, state: Any) -> tuple[Any, ...]:
+        """A function that draws on the floor, in px of the arena, and its arguments after the canvas, all hashable."""
+        return ()
+
+    def clock_words(self, state: Any) -> str:
+        """Words that stand in place of the clock, lines parted by |; empty: the clock."""
+        return ""
 
     def make_hud(self, state: Any) -> ScoreHud:
         """The HUD, on `background` for `players`."""
@@ -55,9 +85,25 @@ class SimpleView(MatchView):
     def show_names(self, names: Sequence[str]) -> None:
         self.hud.names = names
 
-    def sprites(self) -> Iterator[Job]:
-        """Prewarm jobs for sprites of its own."""
+    def samples(self) -> Iterator[Job]:
+        """Functions that make its sprites, which are called before the match, a few in a frame."""
         return iter(())
+
+    def word(self, key: str) -> str:
+        """A text in the language of the screen; empty where there is none, as in a benchmark."""
+        return self.words(key) if self.words else ""
+
+    def announce(self, word: str, color: Color) -> None:
+        """Show a word in the middle for 1.7 s. It is made at once; `announcement` makes it before the match."""
+        self.said = word, color, self.particles.clock
+
+    def announcement(self, word: str, color: Color) -> LitImage:
+        """The picture of an announced word."""
+        return text(word, fit_size(word, HERO, 1000), color, "head")
+
+    def rumble(self, seat: int) -> None:
+        """Rumble the pad of a seat a little, after this tick."""
+        self.rumbles[seat] = GIVEN
 
     def marks(self, under: Batch, over: Batch, state: Any, blend: float) -> None:
         """Append what lies on the floor, as light (`under` robots) or opaque sprites (`over` the light)."""
@@ -80,7 +126,7 @@ class SimpleView(MatchView):
                 x, y, _ = self.current_poses[seat]
                 self.particles.score(x, y - self.reach(seat, ABOVE), signed(robot.score - self.scores[seat]), seat)
                 self.particles.burst(x, y, PLAYERS[seat], 16, 46, 60)
-                self.rumbles[seat] = GIVEN
+                self.rumble(seat)
                 cues.append(("pickup", seat, robot.x))
             self.scores[seat] = robot.score
         return cues
@@ -92,6 +138,7 @@ class SimpleView(MatchView):
     def draw(self, screen: pygame.Surface, state: Any, blend: float, seconds: float) -> None:
         self.particles.advance(seconds)
         self.walls.show_walls(state)
+        self.hud.clock_words = self.clock_words(state)
         for slot in self.hud.show(state):
             if self.options.flashes != "off":
                 self.particles.bloom(slot.x, TOP_OF_PANELS, 0.4, reel(pulse, slot.seat, slot.w))
@@ -106,8 +153,13 @@ class SimpleView(MatchView):
         self.particles.draw_light(light)
         self.particles.draw_scores(top)
         self.paint(screen, under, over, light, top)
+        word, color, begin = self.said
+        since = self.particles.clock - begin
+        if word and since < SAID:
+            rise = 1.0 - (1.0 - min(1.0, since / 0.25)) ** 3
+            self.announcement(word, color).draw(screen, 960, TOP + SAID_Y + 40 * (1.0 - rise))
 
-
-def on_canvas(x: float, y: float) -> tuple[float, float]:
-    """Canvas px of a point in arena px."""
-    return LEFT + x, TOP + y
+    @staticmethod
+    def on_canvas(x: float, y: float) -> tuple[float, float]:
+        """Canvas px of a point in arena px."""
+        return LEFT + x, TOP + y

@@ -9,11 +9,12 @@ import pygame
 from pigaming_app.scenes.views.background import LEFT, TOP, Background
 from pigaming_app.scenes.views.sprites.wall import wall
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import LINE, PLAYERS, PRE, WALL, LayeredCanvas, cut_box, dim, shape_points
+from pigaming_app.ui.draw import ADD, LINE, PLAYERS, PRE, WALL, GlowCanvas, LayeredCanvas, cut_box, dim, shape_points
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.sprites import Sprite
 from pigaming_app.ui.draw.surface_cache import cached
 
+MARGIN = 96  # px left and right of the arena that marks may reach
 Starts = tuple[tuple[int, float, float], ...]  # seat, px, px
 
 
@@ -64,8 +65,8 @@ def _box(part: Any, sprite: Sprite) -> pygame.Rect:
 
 @cached
 @resumable
-def walled_floor(starts: Starts) -> Steps[pygame.Surface]:
-    """Grid, frame and start position markers."""
+def walled_floor(starts: Starts, *marks: Any) -> Steps[pygame.Surface]:
+    """Grid, frame and start position markers. `marks`: see `SimpleView.floor_marks`."""
     canvas = LayeredCanvas()
     glow, crisp = canvas.glow, canvas.crisp
     _grid(canvas)
@@ -76,7 +77,14 @@ def walled_floor(starts: Starts) -> Steps[pygame.Surface]:
     glow.neon(cut_box(LEFT - 3, TOP - 3, WIDTH + 6, HEIGHT + 6, 28), WALL, LINE, True)
     crisp.line(cut_box(LEFT + 14, TOP + 14, WIDTH - 28, HEIGHT - 28, 24), (38, 53, 78), 2, True)
     yield
-    return (yield from canvas.render_steps())
+    out = yield from canvas.render_steps()
+    if marks:
+        draw, *arguments = marks
+        ink = GlowCanvas(int(WIDTH) + 2 * MARGIN, int(HEIGHT)).set_transform(MARGIN, 0)
+        draw(ink, *arguments)
+        yield
+        out.blit((yield from ink.lit_steps(0.7)), (LEFT - MARGIN, TOP), special_flags=ADD)
+    return out
 
 
 def _grid(canvas: LayeredCanvas) -> None:

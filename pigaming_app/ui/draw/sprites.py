@@ -6,13 +6,15 @@ arguments is finite, so the cache is bounded.
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from functools import wraps
+from typing import Concatenate, NamedTuple, ParamSpec
 
 import pygame
 
 from pigaming_app.ui.draw import MULT, GlowCanvas
 from pigaming_app.ui.draw.surface_cache import cached
 
+Args = ParamSpec("Args")
 HEADINGS = 96  # fine rotation steps: 3.75 degrees each, two pixels at the end of a barrel
 
 
@@ -66,6 +68,52 @@ def faded(sprite: Sprite, share: float) -> Sprite:
     flags = pygame.BLEND_RGBA_MULT if image.get_flags() & pygame.SRCALPHA else MULT
     image.fill((part, part, part, part), special_flags=flags)
     return Sprite(image, sprite.dx, sprite.dy)
+
+
+def light_sprite(
+    half: int, glow: float = 0.8
+) -> Callable[[Callable[Concatenate[GlowCanvas, Args], object]], Callable[Args, Sprite]]:
+    """Decorate a function that draws a sprite of light about (0, 0), up to `half` px to each side; `glow`: its halo.
+
+    The result takes the other arguments, which must be hashable, and is cached.
+    """
+
+    def decorated(draw: Callable[Concatenate[GlowCanvas, Args], object]) -> Callable[Args, Sprite]:
+        @cached
+        @wraps(draw)
+        def sprite(*args: Args.args, **named: Args.kwargs) -> Sprite:
+            ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)
+            draw(ink, *args, **named)
+            return trim(ink.lit(glow), half, half)
+
+        return sprite
+
+    return decorated
+
+
+def turning_sprite(
+    half: int, steps: int, glow: float = 0.8
+) -> Callable[[Callable[Concatenate[GlowCanvas, Args], object]], Callable[Concatenate[int, Args], Sprite]]:
+    """Decorate a function that draws an opaque sprite heading right about (0, 0), up to `half` px to each side.
+
+    The result takes its heading, in `steps` parts of a circle (see `step`), before the other arguments; it is cached.
+    """
+
+    def decorated(draw: Callable[Concatenate[GlowCanvas, Args], object]) -> Callable[Concatenate[int, Args], Sprite]:
+        @cached
+        def upright(*args: Args.args, **named: Args.kwargs) -> pygame.Surface:
+            ink = master(half)
+            draw(ink, *args, **named)
+            return ink.sprite(glow)
+
+        @cached
+        @wraps(draw)
+        def sprite(turn: int, /, *args: Args.args, **named: Args.kwargs) -> Sprite:
+            return turned(upright(*args, **named), turn, steps)
+
+        return sprite
+
+    return decorated
 
 
 Paint = Callable[..., pygame.Surface]

@@ -117,7 +117,7 @@ def test_a_block_that_glides_needs_no_new_sprite():
 def test_a_preview_shows_things(screen, game):
     match, _ = begun(game, square(half=60.0))
     bare, furnished = (
-        run_to_end(SCREENS[game].preview(arena, 400, 230, False))
+        run_to_end(SCREENS[game].picture(arena, 400, 230, False))
         for arena in (load(game, arenas(game)[0]), match.arena)
     )
     middle = pygame.Rect(0, 0, 16, 16)

@@ -28,12 +28,10 @@ from pigaming_app.games.factory.state import (
     A,
     B,
 )
-from pigaming_app.scenes.editor.model.routes import legs
 from pigaming_app.scenes.editor.model.shapes import (
     Dial,
     Outline,
     Paper,
-    Routes,
     Shape,
     Tool,
     Tools,
@@ -220,7 +218,7 @@ class FactoryTools(Tools):
     palette = (SOLID_WALL, Tool("shared", "shared", lambda a, b: Part.of("shared", at=whole(*a)), MAX_SHARED), MUD)
     template = "hall"
 
-    def routes(self, arena: Arena) -> Routes:
+    def ways(self, arena: Arena) -> list[tuple[Point, Point]]:
         """Of each team: from its entry through the nearest machines to its exit."""
         slots, ends = arena.plan.slots, list[tuple[Point, Point]]()
         places = [(slot.x, slot.y) for slot in slots]
@@ -231,7 +229,7 @@ class FactoryTools(Tools):
             second = _nearest(places, kinds, B, places[MACHINE_SLOTS + 2 * first + 1])
             a, b = MACHINE_SLOTS + 2 * first, MACHINE_SLOTS + 2 * second
             ends += [(entry, places[a]), (places[a + 1], places[b]), (places[b + 1], leave)]
-        return legs(arena, ends)
+        return ends
 
 
 def _nearest(places: Sequence[Point], kinds: Sequence[int], kind: int, at: Point) -> int:

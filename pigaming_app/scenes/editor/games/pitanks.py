@@ -4,13 +4,11 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 from pigaming_app.games.drawing.values import Drawing
-from pigaming_app.scenes.editor.model.routes import legs
-from pigaming_app.scenes.editor.model.shapes import Routes, Shape, Tools
+from pigaming_app.scenes.editor.model.shapes import Shape, Tools
 from pigaming_app.scenes.editor.parts.starts import Start, starts_of
 from pigaming_app.scenes.editor.parts.things import MUD, Thing
 from pigaming_app.scenes.editor.parts.walls import ROCK_TOOL, WALL, Wall
 from pigaming_app.scenes.views.things.styles import NEON
-from pigaming_app.sim.arena import Arena
 
 EMPTY = Drawing(starts_of((100, 100, 45), (1500, 800, 225), (100, 800, 315), (1500, 100, 135)))
 
@@ -22,8 +20,3 @@ class PiTanksTools(Tools):
     shapes: ClassVar[Mapping[str, Shape]] = {"thing": Thing(NEON), "wall": Wall(), "start": Start()}
     palette = (WALL, ROCK_TOOL, MUD)
     empty = EMPTY
-
-    def routes(self, arena: Arena) -> Routes:
-        """From each start to the next one."""
-        spots = [(start.x, start.y) for start in arena.starts]
-        return legs(arena, list(zip(spots, (*spots[1:], spots[0]), strict=True)))

@@ -12,7 +12,7 @@ Changed = tuple[Drawing, list[Item]]  # a drawing, and the parts that were chang
 
 def placed(tools: Tools, drawing: Drawing, tool: Tool, a: Point, b: Point, symmetry: Symmetry) -> Changed:
     """With another part, drawn from a to b, as far as there is room for more of them."""
-    return with_copies(tools, drawing, tool.part(a, b), tool.most, symmetry)
+    return with_copies(tools, drawing, tool.part(a, b).in_whole_px(), tool.most, symmetry)
 
 
 def with_copies(tools: Tools, drawing: Drawing, part: Part, most: int, symmetry: Symmetry) -> Changed:

@@ -4,7 +4,7 @@ Coordinates are px of the arena. Parts are tables of its file; a game may show f
 such as the lines of a track.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import hypot
 from typing import ClassVar, NamedTuple
@@ -12,11 +12,11 @@ from typing import ClassVar, NamedTuple
 import pygame
 
 from pigaming_app.games.drawing.values import Drawing, Part
+from pigaming_app.scenes.editor.model.routes import legs
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.sim.arena import BUILT, Arena
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import GlowCanvas, Point
-from pigaming_app.ui.draw.frame_budget import Steps
+from pigaming_app.ui.draw import GlowCanvas, Point, regular_polygon
 from pigaming_app.ui.draw.icons import Pen
 
 MOST = 60  # parts of a kind that are shown; no arena that can be played has more
@@ -63,9 +63,15 @@ class Dial:
 
 
 class Shape:
-    """A kind of part. `fixed`: all arenas have the same number of it."""
+    """A kind of part, at the point `at` unless `grips` differs. A part without one stays where it is.
+
+    `fixed`: all arenas have the same number of it; `first`: the first of them that can be pointed at; `least`: an arena
+    needs so many; `radius`: px round its point.
+    """
 
     fixed = True
+    first = least = 0
+    radius = 0.0
     has_ends = False  # its first grip is an end, not its middle
     is_handle = False  # it is not in pictures of the arena
     hollow = False  # it is pointed at by its outline only
@@ -75,8 +81,8 @@ class Shape:
         return (part.point("at"),)
 
     def outlines(self, part: Part, k: int) -> Sequence[Outline]:
-        """Closed outlines, for pointing at it and while it is dragged."""
-        raise NotImplementedError
+        """Closed outlines, for pointing at it and while it is dragged; by default a circle."""
+        return (regular_polygon(20, self.radius, 0.0, *part.point("at")),)
 
     def draw(self, paper: Paper, part: Part, k: int) -> None:
         """Draw the k-th of its kind."""
@@ -84,10 +90,12 @@ class Shape:
 
     def reach(self, part: Part) -> Sequence[Point]:
         """Points that stay within the arena wherever the part is moved."""
-        return (part.point("at"),)
+        return square(*part.point("at"), self.radius)
 
     def moved(self, part: Part, dx: float, dy: float) -> Part:
         """The part elsewhere, but within the arena."""
+        if not part.get("at"):
+            return part
         x, y = part.point("at")
         dx, dy = inside(self.reach(part), dx, dy)
         return part.changed("at", whole(x + dx, y + dy))
@@ -99,7 +107,7 @@ class Shape:
 
     def image(self, part: Part, image: Image) -> Part:
         """The reflected part."""
-        return part.changed("at", whole(*image.point(*part.point("at"))))
+        return part if not part.get("at") else part.changed("at", whole(*image.point(*part.point("at"))))
 
     def same(self, part: Part, other: Part) -> bool:
         """True if both are the same to look at, so that one can be the image of the other."""
@@ -137,7 +145,11 @@ class Tools:
 
     def items(self, drawing: Drawing) -> list[Item]:
         """All parts that can be pointed at, those below others first."""
-        return [Item(kind, k) for kind in self.shapes for k in range(min(MOST, len(drawing.of(kind))))]
+        return [
+            Item(kind, k)
+            for kind, shape in self.shapes.items()
+            for k in range(shape.first, min(MOST, len(drawing.of(kind))))
+        ]
 
     def part(self, drawing: Drawing, item: Item) -> Part:
         return drawing.of(item.kind)[item.k]
@@ -156,9 +168,10 @@ class Tools:
 
     def removable(self, drawing: Drawing, item: Item) -> bool:
         """True if an arena can do without this part."""
-        return not self.shapes[item.kind].fixed
+        shape = self.shapes[item.kind]
+        return not shape.fixed and len(drawing.of(item.kind)) > shape.least
 
-    def draw_ground(self, paper: Paper, drawing: Drawing) -> Steps[None]:
+    def draw_ground(self, paper: Paper, drawing: Drawing) -> Iterator[None]:
         """Draw what lies below all parts."""
         yield from ()
 
@@ -175,7 +188,12 @@ class Tools:
 
     def routes(self, arena: Arena) -> Routes:
         """How AIs will drive, as lines. It may take a second and runs in a thread. Raises FieldError."""
-        return ()
+        return legs(arena, self.ways(arena))
+
+    def ways(self, arena: Arena) -> Sequence[tuple[Point, Point]]:
+        """The ends of the ways that AIs will drive; by default from each start to the next one."""
+        spots = [(start.x, start.y) for start in arena.starts]
+        return list(zip(spots, (*spots[1:], spots[0]), strict=True))
 
 
 def whole(x: float, y: float) -> tuple[int, int]:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import atan2, cos, degrees, radians, sin
 
 from pigaming_app.games.drawing.values import Part
-from pigaming_app.scenes.editor.model.shapes import Dial, Outline, Paper, Shape, square
+from pigaming_app.scenes.editor.model.shapes import Dial, Outline, Paper, Shape
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.scenes.views.sprites.robot import robot
 from pigaming_app.sim.robot import RADIUS
@@ -22,6 +22,8 @@ def starts_of(*poses: tuple[int, int, int]) -> tuple[Part, ...]:
 class Start(Shape):
     """The start of a seat."""
 
+    radius = RADIUS
+
     def grips(self, part: Part) -> tuple[Point, ...]:
         x, y = part.point("at")
         a = radians(part.number("heading", 0.0))
@@ -36,9 +38,6 @@ class Start(Shape):
     def draw(self, paper: Paper, part: Part, k: int) -> None:
         (x, y), _ = self.grips(part)
         robot(paper.ink, k % len(PLAYERS), *paper.at(x, y), radians(part.number("heading", 0.0)), paper.scale)
-
-    def reach(self, part: Part) -> Sequence[Point]:
-        return square(*part.point("at"), RADIUS)
 
     def pulled(self, part: Part, grip: int, x: float, y: float) -> Part:
         ax, ay = part.point("at")

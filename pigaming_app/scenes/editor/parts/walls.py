@@ -1,7 +1,8 @@
 """Walls: dragged at their ends, in any direction, of any thickness; they take bullets, or all of them."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import atan2, cos, hypot, pi, sin
+from typing import ClassVar
 
 from pigaming_app.games.drawing.values import Part
 from pigaming_app.scenes.editor.model.shapes import (
@@ -10,13 +11,16 @@ from pigaming_app.scenes.editor.model.shapes import (
     Paper,
     Shape,
     Tool,
+    Tools,
     apart,
-    following,
     inside,
     whole,
 )
 from pigaming_app.scenes.editor.model.symmetry import Image
+from pigaming_app.scenes.editor.parts.starts import Start
+from pigaming_app.scenes.editor.parts.things import Thing
 from pigaming_app.scenes.views.sprites.wall import SOLID, draw_wall
+from pigaming_app.scenes.views.things.styles import NEON
 from pigaming_app.sim.arena import BUILT, HEALTH
 from pigaming_app.ui.draw import Point
 
@@ -119,7 +123,7 @@ SOLID_WALL = Tool("wall", "wall", solid_wall, BUILT, tap=False)
 
 
 def _thicker(part: Part) -> Part:
-    return part.changed("thick", int(following(THICKNESSES, _thick(part))))
+    return part.stepped("thick", THICKNESSES, THICK)
 
 
 def _thick(part: Part) -> float:
@@ -132,3 +136,14 @@ def _weaker(part: Part) -> Part:
         return part.changed("solid", None).changed("health", HEALTH)
     health = int(part.number("health", HEALTH, 1, HEALTH))
     return part.changed("health", health - 1) if health > 1 else part.changed("health", None).changed("solid", True)
+
+
+class WalledTools(Tools):
+    """The editor of a game with walls that nothing breaks and a start for each seat.
+
+    A game gives its name and an arena to begin with, as `template` or as `empty`, and adds kinds of parts to `shapes`
+    and tools to `palette`.
+    """
+
+    shapes: ClassVar[Mapping[str, Shape]] = {"thing": Thing(NEON), "wall": Wall(healthy=False), "start": Start()}
+    palette: Sequence[Tool] = (SOLID_WALL, ROCK_TOOL)

@@ -7,8 +7,8 @@ import pygame
 
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
 from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw import ALARM, ICE, TITLE, Color, readable
-from pigaming_app.ui.draw.text import glyph, number_width
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, TITLE, Color, readable
+from pigaming_app.ui.draw.text import fit_size, glyph, number_width, text
 
 Y, H, EDGE = 34, 92, 24  # px: top and height of the panels, margin around their sprites
 PANEL_W = 316  # px, width of a panel
@@ -61,3 +61,12 @@ def number_bits(text: str, size: int, x: float, y: float, color: Color) -> list[
         bits.append((image, (round(x + dx), round(y + dy)), None))
         x += advance
     return bits
+
+
+def word_bits(words: str) -> list[Bit]:
+    """Words in place of the clock; | parts lines, of which all have one size."""
+    lines = words.split("|")
+    size = min(fit_size(line, readable(LABEL), CLOCK.w - 24) for line in lines)
+    lit = [text(line, size, FOCUS, "head", room=CLOCK.w - 24) for line in lines]
+    top = 84 - 25 * (len(lit) - 1)
+    return [(part.image, (CLOCK.centerx + part.at[0], top + 50 * i + part.at[1]), None) for i, part in enumerate(lit)]

@@ -13,7 +13,18 @@ import pygame
 
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
 from pigaming_app.scenes.views.hud.ai_sign import ai_of, driver_tab, name_of
-from pigaming_app.scenes.views.hud.parts import EDGE, PANEL_W, XS, H, HudParts, Y, number_bits, number_size
+from pigaming_app.scenes.views.hud.parts import (
+    CLOCK,
+    EDGE,
+    PANEL_W,
+    XS,
+    H,
+    HudParts,
+    Y,
+    number_bits,
+    number_size,
+    word_bits,
+)
 from pigaming_app.ui.draw import (
     ICE,
     LABEL,
@@ -94,6 +105,7 @@ class ScoreHud:
         self.slots, self.sums = layout(state.robots)
         self.parts = HudParts(background)
         self.points: dict[int, int] = {}
+        self.clock_words = ""  # in place of the clock; | parts lines
         self.names: Sequence[str] = ()  # of the first seats, in an event
 
     def show(self, state: Any) -> list[SeatPanel]:
@@ -140,7 +152,10 @@ class ScoreHud:
 
     def show_clock(self, state: Any) -> None:
         """Bake the clock if it has changed."""
-        self.parts.countdown(state, 84)
+        if self.clock_words:
+            self.parts.show("clock", self.clock_words, CLOCK.x, CLOCK.w, partial(word_bits, self.clock_words))
+        else:
+            self.parts.countdown(state, 84)
 
     def _driver(self, seat: int) -> tuple[str, str]:
         """The AI on a seat, and the name of an entrant; either may be empty."""
