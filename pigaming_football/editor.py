@@ -7,7 +7,7 @@ from typing import ClassVar
 import pygame
 
 from pigaming_app.api.arenas import Drawing, Part
-from pigaming_app.api.editor import Dial, Paper, Pen, Shape, Tool, WalledTools
+from pigaming_app.api.editor import Paper, Pen, Shape, Tool, WalledTools
 from pigaming_app.api.look import STYLE, regular_polygon
 from pigaming_app.api.rules import HEIGHT, WIDTH, Arena
 
@@ -42,6 +42,7 @@ class Goal(Shape):
     """Both goals, which are equally wide: dragged at a post. They stay in the middle."""
 
     has_ends = True
+    sizes = "width", WIDTHS, USUAL
 
     def grips(self, part: Part) -> tuple[Point, ...]:
         half = _width(part) / 2
@@ -58,9 +59,6 @@ class Goal(Shape):
 
     def pulled(self, part: Part, grip: int, x: float, y: float) -> Part:
         return part.changed("width", round(min(max(2 * abs(y - MIDDLE), NARROWEST), WIDEST)))
-
-    def dials(self, part: Part) -> Sequence[Dial]:
-        return (Dial("size", lambda part: part.stepped("width", WIDTHS, USUAL)),)
 
 
 class Drop(Shape):

@@ -9,21 +9,12 @@ from math import cos, sin, sqrt
 from typing import Any
 
 from pigaming_app.api.brains import set_action
-from pigaming_app.api.networks import (
-    Encoding,
-    NetworkSenses,
-    Sight,
-    Subject,
-    distance_of,
-    encode_room,
-    nearest_robot,
-    whole,
-)
-from pigaming_app.api.rules import DT, HEIGHT, HZ, RADIUS, ROBOTS, WIDTH, kernel, record
+from pigaming_app.api.networks import Encoding, NetworkSenses, Sight, Subject, encode_room, nearest_robot, whole
+from pigaming_app.api.rules import HEIGHT, HZ, RADIUS, ROBOTS, WIDTH, kernel, record
 
 from .physics import can_catch
 from .rules import lead_of, side_of
-from .state import LEFT, MIDDLE
+from .state import DT, LEFT, MIDDLE
 
 GROUPS = (
     ("motion", 5),
@@ -245,7 +236,7 @@ ENCODING = Encoding("football", GROUPS, HEADS, encode, act, FootballSenses)
 
 def percepts(match: Any, inputs: Sequence[float]) -> Iterator[Sight]:
     """Ball, mate and opponents."""
-    yield Sight("ball", "prize", distance_of(inputs[BALL + 2], NEAR), inputs[BALL], inputs[BALL + 1])
+    yield Sight("ball", "prize", NEAR / max(inputs[BALL + 2], 1.0 / 256) - NEAR, inputs[BALL], inputs[BALL + 1])
     for k, topic, kind in (
         (OTHERS, "mate", "mate"),
         (OTHERS + OTHER, "near", "opponent"),

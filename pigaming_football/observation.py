@@ -3,13 +3,13 @@
 The right team's frame is turned by half a circle, so that one brain plays for either side.
 """
 
-from math import atan2, pi, sqrt
+from math import atan2, pi, sqrt, tau
 from typing import Annotated, Any
 
-from pigaming_app.api.rules import DT, HEIGHT, ROBOTS, WIDTH, kernel, record, turn_to, wrap
+from pigaming_app.api.rules import HEIGHT, ROBOTS, WIDTH, kernel, record, turn_to
 
 from .rules import lead_of, side_of
-from .state import LEFT, MIDDLE
+from .state import DT, LEFT, MIDDLE
 
 FREE, OWN, MATE, OPPONENT = range(4)  # `Observation.held`
 OTHERS = ROBOTS - 1
@@ -69,7 +69,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
     sign = 1.0 if side == LEFT else -1.0
     turn = 0.0 if side == LEFT else pi
     obs.x, obs.y = from_left(robot.x, WIDTH, sign), from_left(robot.y, HEIGHT, sign)
-    obs.heading, obs.linear, obs.angular = wrap(robot.heading + turn), robot.linear, robot.angular
+    obs.heading, obs.linear, obs.angular = turned(robot.heading, turn), robot.linear, robot.angular
     obs.turbo, obs.turn_rate = robot.turbo, match.rules.turn_rate
     obs.ball_x, obs.ball_y = from_left(ball.x, WIDTH, sign), from_left(ball.y, HEIGHT, sign)
     obs.ball_vx, obs.ball_vy = sign * ball.vx, sign * ball.vy
@@ -94,7 +94,7 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
         seen, other = match.robots[j], obs.others[i]
         other.present, other.mate = seen.present, 1 if side_of(seen) == side else 0
         other.x, other.y = from_left(seen.x, WIDTH, sign), from_left(seen.y, HEIGHT, sign)
-        other.heading = wrap(seen.heading + turn)
+        other.heading = turned(seen.heading, turn)
         other.vx, other.vy = sign * match.players[j].dx / DT, sign * match.players[j].dy / DT
         other.distance, other.bearing = polar(obs, other.x, other.y)
 
@@ -103,6 +103,12 @@ def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
 def from_left(value: float, size: float, sign: float) -> float:
     """A coordinate in the frame of the left team (sign 1) or the right one (-1); its own inverse."""
     return value if sign > 0.0 else size - value
+
+
+@kernel
+def turned(heading: float, turn: float) -> float:
+    """A heading in [0, 2 pi) turned by `turn`, 0 or half a circle."""
+    return heading + turn - tau if heading + turn >= tau else heading + turn
 
 
 @kernel

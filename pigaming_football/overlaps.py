@@ -7,10 +7,10 @@ place that no wall separates from it (`nearest_free`).
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.api.rules import DT, HEIGHT, RADIUS, ROBOTS, WIDTH, is_clear, kernel, offset_from_wall
+from pigaming_app.api.rules import HEIGHT, RADIUS, ROBOTS, WIDTH, is_clear, kernel, offset_from_wall
 
 from .contacts import SLOP, reflect, touch
-from .state import LEFT, MIDDLE, RIGHT
+from .state import DT, LEFT, MIDDLE, RIGHT
 
 ROUNDS = 8  # in which a ball gives way
 RING, RINGS, ANGLES = 10.0, 24, 24  # px between, and number of, the circles on which a free place is sought

@@ -15,11 +15,11 @@ Where there is no room for it, `settle` finds some, or the ball is dropped anew.
 from math import atan2, cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.api.rules import DT, RADIUS, ROBOTS, WIDTH, kernel, turn_to
+from pigaming_app.api.rules import RADIUS, ROBOTS, WIDTH, kernel, turn_to
 
 from .contacts import LINE, ROBOT, bounce_off, first_contact, reflect, touch
 from .overlaps import give_way, is_free, nearest_free
-from .state import MIDDLE, NOBODY
+from .state import DT, MIDDLE, NOBODY
 
 CONTACTS = 12  # in a tick, after which the ball stays where it is for the rest of it
 CARRIED = 26.0  # px in a tick: a robot that moved further was carried by hand

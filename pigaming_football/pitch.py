@@ -9,12 +9,12 @@ width = 260              # px, of both goals, in the middle of the left and righ
 at = [800, 450]
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import dist, hypot
 
-from pigaming_app.api.arenas import FieldError, Flaw, Layout, TomlTable, built_walls, layout_faults, read_layout
-from pigaming_app.api.rules import HEIGHT, RADIUS, ROBOTS, WIDTH, Wall, offset_from_wall
+from pigaming_app.api.arenas import FieldError, Layout, TomlTable, layout_faults, read_layout
+from pigaming_app.api.rules import HEIGHT, RADIUS, ROBOTS, WIDTH, offset_from_wall
 
 from .space import Place, Space, traps
 from .state import MAX_DROPS, MIDDLE, Rules
@@ -39,17 +39,11 @@ class Pitch:
     drops: tuple[Point, ...]
 
 
-class BallTrap(Flaw):
-    """A place where a ball is out of every robot's reach; it is dropped anew, so the pitch can be played."""
-
-    kind = "ball"
-
-
 class Ways:
     """Where ball and robots get on a layout, with its things or without."""
 
     def __init__(self, layout: Layout) -> None:
-        walls: Sequence[Wall] = built_walls(layout)
+        walls = layout.built_walls()
         self.walls, self.mouth = walls, layout.plan.mouth
         self.ball, self.robots = Space(walls, BALL, layout.plan.mouth), Space(walls, RADIUS)
         areas = (self.ball.area(*point) for point in layout.plan.drops)
@@ -98,7 +92,8 @@ def faults(table: TomlTable) -> Iterator[FieldError]:
         yield from _faults(table, layout, ways)
         yield from layout_faults(layout)
         if ways.pitch >= 0 and ways.room >= 0:
-            yield from (BallTrap("ball", "no robot gets a ball out of there", place) for place in ways.traps())
+            reason = "no robot gets a ball out of there"  # it is dropped anew, so the pitch can be played
+            yield from (FieldError("ball", reason, place, "ball") for place in ways.traps())
     except FieldError as fault:
         yield fault
 

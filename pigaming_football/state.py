@@ -7,6 +7,7 @@ from pigaming_app.api.rules import Rules as SimpleRules
 
 LEFT, RIGHT = 0, 1  # sides, which are also the numbers of the teams that defend them
 MIDDLE = HEIGHT / 2  # px, height of both goals' centres
+DT = 1.0 / HZ  # s
 MAX_DROPS = 12
 NOBODY = 0  # `Ball.holder` and `Ball.touched` are 1 + the seat
 

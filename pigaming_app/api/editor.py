@@ -1,7 +1,7 @@
 """Drawing of a game's arenas."""
 
-from pigaming_app.scenes.editor.model.shapes import Dial, Paper, Shape, Tool
+from pigaming_app.scenes.editor.model.shapes import Paper, Shape, Tool
 from pigaming_app.scenes.editor.parts.walls import WalledTools
 from pigaming_app.ui.draw.icons import Pen
 
-__all__ = ["Dial", "Paper", "Pen", "Shape", "Tool", "WalledTools"]
+__all__ = ["Paper", "Pen", "Shape", "Tool", "WalledTools"]

@@ -2,19 +2,18 @@
 
 from pigaming_app.games.game import Setup
 from pigaming_app.games.simple import Rules, SimpleMatch, seat_robots, steer
-from pigaming_app.sim.angles import turn_to, wrap
+from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.contact import first_wall
 from pigaming_app.sim.flow_field import random_place
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import bell, seeded, uniform
+from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.robot import RADIUS, put_back, stop_all
 from pigaming_app.sim.sweep import disc_contact, is_clear, offset_from_wall
-from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH, Wall
+from pigaming_app.sim.world import HEIGHT, HZ, ROBOTS, WIDTH, Wall
 
 __all__ = [
-    "DT",
     "HEIGHT",
     "HZ",
     "RADIUS",
@@ -25,7 +24,6 @@ __all__ = [
     "Setup",
     "SimpleMatch",
     "Wall",
-    "bell",
     "disc_contact",
     "first_wall",
     "is_clear",
@@ -35,10 +33,8 @@ __all__ = [
     "random_place",
     "record",
     "seat_robots",
-    "seeded",
     "steer",
     "stop_all",
     "turn_to",
     "uniform",
-    "wrap",
 ]

@@ -76,6 +76,12 @@ class Layout:
     plan: Any = None
     things: tuple[ThingSpec, ...] = ()
 
+    def built_walls(self) -> list[Wall]:
+        """The walls as a match has them, those of things included. Raises FieldError if they do not fit."""
+        world = World()
+        build(world, Arena("", {}, self.walls, self.starts, "", things=self.things))
+        return world.walls[: world.wall_count]
+
 
 @dataclass(frozen=True)
 class Arena:
@@ -123,13 +129,6 @@ def build(world: World, arena: Arena) -> None:
     for robot, start in zip(world.robots, arena.starts, strict=False):
         robot.x, robot.y, robot.heading = start.x, start.y, start.heading
         robot.gain, robot.turbo = GAIN, 1.0
-
-
-def built_walls(layout: Layout) -> list[Wall]:
-    """The walls of a layout as a match has them, those of its things included. Raises FieldError if they do not fit."""
-    world = World()
-    build(world, Arena("", {}, layout.walls, layout.starts, "", things=layout.things))
-    return world.walls[: world.wall_count]
 
 
 def add_things(world: World, things: Sequence[ThingSpec]) -> None:

@@ -34,11 +34,12 @@ def quote(value: object) -> str:
 class FieldError(Exception):
     """An entry of a file is invalid: the key, such as `wall[2].thick`, and the reason.
 
-    `place`: where in the arena, x, y and extent in px, if the key alone does not tell.
+    `place`: where in the arena, x, y and extent in px, if the key alone does not tell. `flaw`: the kind of something
+    bad in an arena that can be played all the same; it is shown, and not raised.
     """
 
-    def __init__(self, key: str, reason: str, place: tuple[float, float, float] | None = None) -> None:
-        self.key, self.reason, self.place = printable(key), reason, place
+    def __init__(self, key: str, reason: str, place: tuple[float, float, float] | None = None, flaw: str = "") -> None:
+        self.key, self.reason, self.place, self.flaw = printable(key), reason, place, flaw
         super().__init__(f"{self.key}: {reason}")
 
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from pigaming_app.api.brains import BrainKind, GameAI, levels
-from pigaming_app.api.networks import Handicap, shipped_brain
-from pigaming_app.api.rules import seeded, uniform
+from pigaming_app.api.networks import shipped_brain
+from pigaming_app.api.rules import uniform
 
 from .footballer import think
 from .mind import PERIOD, Mind
@@ -42,7 +42,6 @@ def _footballer(name: str, strength: Strength) -> BrainKind:
     """A footballer of a strength."""
 
     def reset(mind: Mind, seed: int) -> None:
-        mind.random = seeded(seed)
         mind.phase = mind.random % PERIOD
         mind.speed = strength.speed * (1.0 - strength.form * uniform(mind)) if strength.form else strength.speed
         mind.reaction, mind.error = strength.reaction, strength.error
@@ -51,7 +50,7 @@ def _footballer(name: str, strength: Strength) -> BrainKind:
     return BrainKind(name, Mind, think, reset, explain=explain)
 
 
-NET = shipped_brain("net", "football", "football", Handicap(sharpness=2.0), Path(__file__).parents[1] / "brains")
+NET = shipped_brain("net", "football", "football", Path(__file__).parents[1] / "brains", {"sharpness": 2.0})
 
 AI = GameAI(
     {

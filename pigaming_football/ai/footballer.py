@@ -15,16 +15,8 @@ Every robot decides for itself, from its team's frame; a human mate is assigned 
 from math import atan2, pi, sqrt
 from typing import Any
 
-from pigaming_app.api.brains import (
-    choose_escape,
-    corner_after,
-    escape,
-    set_action,
-    ticks_stuck,
-    turn_stick,
-    update_route,
-)
-from pigaming_app.api.rules import HEIGHT, WIDTH, is_clear, kernel, turn_to
+from pigaming_app.api.brains import corner_after, escape, set_action, ticks_stuck, turn_stick, update_route
+from pigaming_app.api.rules import HEIGHT, WIDTH, is_clear, kernel, turn_to, uniform
 
 from ..observation import FREE, MATE, OPPONENT, OWN, from_left, observe, polar
 from ..rules import side_of
@@ -76,7 +68,9 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
     idle = abs(action.linear) < 0.3 * mind.speed
     if ticks_stuck(mind, obs.x, obs.y, idle, STUCK_DISTANCE, PERIOD) > STUCK_TICKS:
         mind.freeing, mind.since = 1, 0
-        choose_escape(mind, -1.0 if action.linear > 0.0 else 1.0, 0.8)
+        back = -1.0 if action.linear > 0.0 else 1.0
+        mind.escape = back if uniform(mind) < 0.8 else -back
+        mind.escape_turn = 2.0 * uniform(mind) - 1.0
 
 
 # -------------------------------------------------------------------------------------------------------------- roles

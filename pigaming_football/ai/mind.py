@@ -4,7 +4,7 @@ from math import sqrt
 from typing import Any
 
 from pigaming_app.api.brains import Route
-from pigaming_app.api.rules import HEIGHT, RADIUS, WIDTH, bell, kernel, record
+from pigaming_app.api.rules import HEIGHT, RADIUS, WIDTH, kernel, record, uniform
 
 from ..observation import Observation
 from ..state import Rules
@@ -66,7 +66,7 @@ def notice(mind: Any) -> None:
     mind.bias_left -= PERIOD
     if mind.bias_left <= 0:
         mind.bias_left = NEW_ERROR
-        mind.bias = 2.0 * mind.error * bell(mind)
+        mind.bias = 2.0 * mind.error * (uniform(mind) + uniform(mind) + uniform(mind) - 1.5)
     mind.held = mind.held + PERIOD if obs.held == 1 else 0
 
 

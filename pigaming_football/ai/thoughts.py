@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from pigaming_app.api.brains import Percept, Thoughts, towards
+from pigaming_app.api.brains import Percept, Thoughts
 from pigaming_app.api.rules import HEIGHT, WIDTH
 
 from ..observation import OWN, from_left, polar
@@ -38,7 +38,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
             "stuck_ticks": mind.stuck_ticks,
         },
         percepts=tuple(_percepts(match, seat, mind)),
-        rose=towards(obs.goal_bearing if obs.held == OWN else polar(obs, mind.meet_x, mind.meet_y)[1]),
+        bearing=obs.goal_bearing if obs.held == OWN else polar(obs, mind.meet_x, mind.meet_y)[1],
         utilities={
             "football_chase": max(0.0, 1.0 - obs.ball_distance / FAR) if mind.role != CHASER else 1.0,
             "football_keep": max(0.0, 1.0 - mind.seen_x / WIDTH) if mind.role != KEEPER else 1.0,

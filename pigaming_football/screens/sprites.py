@@ -5,15 +5,22 @@ from functools import cache
 
 import pygame
 
-from pigaming_app.api.look import STYLE, GlowCanvas, Sprite, dim, light_sprite, mix, regular_polygon, turning_sprite
+from pigaming_app.api.look import STYLE, GlowCanvas, Sprite, dim, light_sprite, regular_polygon, turning_sprite
 from pigaming_app.api.rules import HEIGHT, WIDTH
 
+Color = tuple[int, int, int]
 RADIUS = 22  # px, of the ball
 DIRECTIONS, PHASES = 24, 20  # of the rolling ball
 TRAIL = 7  # brightnesses of the trail
 DEEP = 62.0  # px, of a goal
 CIRCLE, SPOT = 150.0, 9.0  # px, radii
 PATCH = 0.36  # rad, angular radius of a patch
+
+
+def blend(one: Color, other: Color, share: float) -> Color:
+    """A colour between two, `share` (0..1) of the way to the other."""
+    r, g, b = (round(x + (y - x) * share) for x, y in zip(one, other, strict=True))
+    return r, g, b
 
 
 def _patches() -> tuple[tuple[float, float, float], ...]:
@@ -49,7 +56,7 @@ def draw_ball(ink: GlowCanvas, phase: float, gold: bool, r: float = RADIUS) -> G
             far = max(1.0, math.hypot(px, py))
             patch.append((0.93 * r * px / far, 0.93 * r * py / far))
         ink.fill(patch, dim(STYLE.steel, 0.35))
-    return ink.ring(0.0, 0.0, r - 2.0, mix(color, STYLE.white, 0.3), STYLE.thin)
+    return ink.ring(0.0, 0.0, r - 2.0, blend(color, STYLE.white, 0.3), STYLE.thin)
 
 
 @turning_sprite(RADIUS + 22, DIRECTIONS)
@@ -78,7 +85,7 @@ def aim(ink: GlowCanvas, level: int, seat: int) -> None:
 
 
 @light_sprite(56)
-def ring(ink: GlowCanvas, color: tuple[int, int, int], left: int) -> None:
+def ring(ink: GlowCanvas, color: Color, left: int) -> None:
     """A ring round the ball, `left` of 48, which empties clockwise from the top."""
     if left:
         ink.arc(0, 0, 34, math.tau * (0.75 - left / 48), math.tau * 0.75, color, STYLE.line)
@@ -126,7 +133,7 @@ def draw_goal(
 
 def draw_lines(ink: GlowCanvas, x: float, y: float, w: float, h: float, half: float, k: float = 1.0) -> None:
     """Halfway line, centre circle and goal areas of a pitch of w x h px at (x, y), drawn `k` times as thick."""
-    cx, cy, color = x + w / 2, y + h / 2, dim(mix(STYLE.steel, STYLE.mist, 0.25), 0.75)
+    cx, cy, color = x + w / 2, y + h / 2, dim(blend(STYLE.steel, STYLE.mist, 0.25), 0.75)
     circle, deep, area = CIRCLE * w / 1600, 165 * w / 1600, half + 75 * w / 1600
     for a, b in ((y + 16 * k, cy - circle), (cy + circle, y + h - 16 * k)):
         ink.line([(cx, a), (cx, b)], color, STYLE.thin * k)
@@ -135,7 +142,7 @@ def draw_lines(ink: GlowCanvas, x: float, y: float, w: float, h: float, half: fl
     for side, sign in ((0, 1.0), (1, -1.0)):
         at = x if side == 0 else x + w
         box = [(at, cy - area), (at + sign * deep, cy - area), (at + sign * deep, cy + area), (at, cy + area)]
-        ink.line(box, dim(mix(STYLE.teams[side], STYLE.steel, 0.55), 0.7), STYLE.thin * k)
+        ink.line(box, dim(blend(STYLE.teams[side], STYLE.steel, 0.55), 0.7), STYLE.thin * k)
         spot = at + sign * deep
         ink.arc(
             spot,
@@ -152,3 +159,8 @@ def draw_pitch(ink: GlowCanvas, half: float) -> None:
     draw_lines(ink, 0, 0, WIDTH, HEIGHT, half)
     draw_goal(ink, 0, -2, HEIGHT / 2, half)
     draw_goal(ink, 1, WIDTH + 2, HEIGHT / 2, half)
+
+
+def phase_of(rolled: float) -> int:
+    """The position, of PHASES, of a ball that has rolled by an angle, rad."""
+    return round(rolled / math.tau * PHASES) % PHASES

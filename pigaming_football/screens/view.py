@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
-from pigaming_app.api.look import STYLE, Batch, SimpleView, SoundCue, put, step
+from pigaming_app.api.look import STYLE, Batch, SimpleView, put
 
 from ..rules import side_of
 from ..start import start_indices
@@ -18,6 +18,7 @@ KICK = 140.0  # px/s: a change of velocity that is heard
 CHEER, NETTED = 1.7, 0.5  # s for which a goal is cheered, and in which the ball comes to rest in the net
 CHARGES = 16  # steps of the ring of the charge
 JINGLES = ("delivered_ice", "delivered_fire")
+Cue = tuple[str, int | None, float]  # sound, player for the pitch, x in the arena, px
 
 
 class FootballView(SimpleView):
@@ -54,7 +55,7 @@ class FootballView(SimpleView):
             yield partial(sprites.kick_off_arrow, right)
         for turn in range(sprites.DIRECTIONS):
             for phase in range(sprites.PHASES):
-                yield partial(sprites.ball, turn, phase, False)
+                yield partial(sprites.ball, turn * math.tau / sprites.DIRECTIONS, phase, False)
         for seat in self.seats:
             for charge in range(1, CHARGES + 1):
                 yield partial(sprites.ring, STYLE.players[seat], 48 * charge // CHARGES)
@@ -85,8 +86,8 @@ class FootballView(SimpleView):
         if since < CHEER:
             self.draw_netted(top, since)
         if not ball.out:
-            turn, phase = step(self.direction, sprites.DIRECTIONS), step(self.rolled, sprites.PHASES)
-            put(top, sprites.ball(turn, phase, ball.worth > 1), *self.on_canvas(*self.ball_at(blend)))
+            phase = sprites.phase_of(self.rolled)
+            put(top, sprites.ball(self.direction, phase, ball.worth > 1), *self.on_canvas(*self.ball_at(blend)))
         elif ball.out < waiting(state) - 25:
             put(top, sprites.ball(0, 0, ball.worth > 1), *self.on_canvas(ball.x, ball.y))
 
@@ -124,11 +125,11 @@ class FootballView(SimpleView):
         share = 1.0 - (1.0 - min(1.0, since / NETTED)) ** 2
         x, y = self.goal_from
         x += (-1 if x < 800 else 1) * 34 * share
-        put(top, sprites.ball(0, step(share * 3.0, sprites.PHASES), False), *self.on_canvas(x, y))
+        put(top, sprites.ball(0, sprites.phase_of(share * 3.0), False), *self.on_canvas(x, y))
 
     # ---- events
 
-    def events(self, state: Football) -> list[SoundCue]:
+    def events(self, state: Football) -> list[Cue]:
         ball, cues = state.ball, super().events(state)
         cues = [cue for cue in cues if cue[0] != "pickup"]
         self.follow_ball(state)
@@ -151,7 +152,7 @@ class FootballView(SimpleView):
         self.velocity = (ball.vx, ball.vy)
         return cues
 
-    def kicked(self, state: Football, seat: int) -> SoundCue:
+    def kicked(self, state: Football, seat: int) -> Cue:
         """Sparks and sound of a shot, or of a ball that was lost."""
         ball = state.ball
         x, y = self.on_canvas(ball.x, ball.y)
@@ -179,7 +180,7 @@ class FootballView(SimpleView):
             self.tail.append((ball.x, ball.y, now))
         self.tail = [spot for spot in self.tail if now - spot[2] < 0.22]
 
-    def cheer(self, state: Football) -> list[SoundCue]:
+    def cheer(self, state: Football) -> list[Cue]:
         """Light, sparks and sounds of a goal."""
         self.scorer = 1 - state.goal_side
         self.goal_at = self.particles.clock

@@ -14,6 +14,7 @@ from pigaming_app.ai.brain.thoughts import Thoughts
 from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import packed, record
+from pigaming_app.sim.rng import seeded
 
 
 @record
@@ -38,7 +39,7 @@ class BrainKind:
     """A brain as data and functions.
 
     - `think(match, seat, mind, weights)` sets the seat's action for this tick.
-    - `reset(mind, seed)` initialises a fresh mind.
+    - `reset(mind, seed)` initialises a fresh mind; its field `random`, if it has one, is the seeded generator already.
     - `weights(fast)` returns a row of one record with the learned parameters, a NumPy record (`fast`) or a plain one.
       Every call returns the same row; the first call may read a file.
     - `explain`, with the arguments of `think`, returns the brain's present reasoning for display. Read-only. Those of
@@ -54,6 +55,12 @@ class BrainKind:
     explain: Callable[[Any, int, Any, Any], Thoughts] | None = None
     plain: bool = False
 
+    def begin(self, mind: Any, seed: int) -> None:
+        """Initialise a fresh mind: its generator `random`, if it has one, and what `reset` adds."""
+        if hasattr(mind, "random"):
+            mind.random = seeded(seed)
+        self.reset(mind, seed)
+
 
 class BrainPlayer:
     """A brain playing one seat of a plain match."""
@@ -62,7 +69,7 @@ class BrainPlayer:
         self.kind = kind
         self.mind = kind.mind()
         self.weights = kind.weights(False)[0]
-        kind.reset(self.mind, seed)
+        kind.begin(self.mind, seed)
 
     def think(self, state: MatchState, seat: int) -> None:
         """Set the seat's action for this tick."""

@@ -41,12 +41,18 @@ class Thoughts:
     names: Mapping[str, int | str] = field(default_factory=dict)
     facts: Mapping[str, float] = field(default_factory=dict)  # the variables behind the decision, by name
     percepts: Sequence[Percept] = ()
-    rose: Sequence[float] = (0.0,) * PETALS  # utility of each direction, -1..1, relative to the robot's heading
+    rose: Sequence[float] = ()  # utility of each of PETALS directions, -1..1, relative to the robot's heading
+    bearing: float | None = None  # rad, clockwise from the heading, of where it goes: in place of a rose
     utilities: Mapping[str, float] = field(default_factory=dict)  # utility of each behaviour, 0..1
     moves: Mapping[MoveKey, float] = field(default_factory=dict)  # utility of each move, for brains that choose moves
     chosen: str | MoveKey = ""  # a key of `utilities` or of `moves`
     heads: Mapping[str, Sequence[float]] = field(default_factory=dict)  # probabilities of choices, for networks
     choices: Mapping[str, int] = field(default_factory=dict)  # of each head
+
+    @property
+    def petals(self) -> Sequence[float]:
+        """The rose, or one towards the bearing, or an empty one."""
+        return self.rose or ((0.0,) * PETALS if self.bearing is None else towards(self.bearing))
 
 
 def behaviour_of(linear: int, angular: int, fire: int) -> str:

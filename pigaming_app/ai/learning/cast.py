@@ -45,7 +45,7 @@ class Cast:
         """A plain mind that makes a seat play by `kind`, freshly reset."""
         mind = self.mind()
         mind.family, mind.row = self._place[kind]
-        kind.reset(getattr(mind, f"mind{mind.family}"), seed)
+        kind.begin(getattr(mind, f"mind{mind.family}"), seed)
         return mind
 
     def minds(self, line_ups: Sequence[Sequence[tuple[BrainKind, int]]]) -> Any:
@@ -60,7 +60,7 @@ class Cast:
             places = [i for i, (seated, _) in enumerate(flat) if seated is kind]
             own = [kind.mind() for _ in places]
             for mind, i in zip(own, places, strict=True):
-                kind.reset(mind, flat[i][1])
+                kind.begin(mind, flat[i][1])
             family, row = self._place[kind]
             minds["family"][places], minds["row"][places], minds[f"mind{family}"][places] = family, row, packed(own)
         return minds.reshape(-1, ROBOTS)

@@ -10,6 +10,7 @@ from functools import cache
 from itertools import pairwise
 from math import isfinite
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from pigaming_app import ASSETS
@@ -125,15 +126,20 @@ def shipped(name: str, folder: Path = BRAINS) -> TrainedNetwork:
 
 
 def shipped_brain(
-    name: str, game: str, file: str, handicap: Handicap = NO_HANDICAP, folder: Path = BRAINS
+    name: str, game: str, file: str, folder: Path = BRAINS, handicap: Mapping[str, float] = MappingProxyType({})
 ) -> BrainKind:
-    """A brain `name` by a network that ships as `file`.npz, which is read on first use."""
+    """A brain `name` by a network that ships as `file`.npz in a folder, read on first use.
+
+    `handicap`: what makes it weaker, by name: `delay` (s, age of the poses of others), `error` (rad, of their bearing),
+    `sharpness` (below 1 it chooses less surely), `thrift` (points that a shot costs), `speed` (share of full speed),
+    `form` (share of that which it lacks on a bad day), `turns` (s for which it goes for one opponent).
+    """
 
     @cache
     def policy() -> Policy:
         return policy_of(shipped(file, folder))
 
-    return network_brain(name, ENCODINGS[game], lambda fast: policy()(fast), handicap)
+    return network_brain(name, ENCODINGS[game], lambda fast: policy()(fast), Handicap(**handicap))
 
 
 def _trained(head: Mapping[str, Any], arrays: Mapping[str, Any]) -> TrainedNetwork:

@@ -6,18 +6,18 @@ which would look like a machine that hangs. The network alone is `net`: no perso
 """
 
 from pigaming_app.ai.networks.files import shipped_brain
-from pigaming_app.ai.networks.policy import Handicap
 
 NETWORK = "pitanks"  # file in assets/brains
 TURNS = 6.0  # s
 HANDICAPS = (
-    Handicap(delay=0.4, error=0.3, thrift=0.586, speed=0.4, turns=TURNS),
-    Handicap(delay=0.4, error=0.3, thrift=0.535, speed=0.528, turns=TURNS),
-    Handicap(delay=0.4, error=0.3, thrift=0.508, speed=0.668),
-    Handicap(delay=0.39, error=0.3, thrift=0.489, speed=0.832),
-    Handicap(delay=0.38, error=0.3, thrift=0.476, speed=0.995),
+    {"delay": 0.4, "error": 0.3, "thrift": 0.586, "speed": 0.4, "turns": TURNS},
+    {"delay": 0.4, "error": 0.3, "thrift": 0.535, "speed": 0.528, "turns": TURNS},
+    {"delay": 0.4, "error": 0.3, "thrift": 0.508, "speed": 0.668},
+    {"delay": 0.39, "error": 0.3, "thrift": 0.489, "speed": 0.832},
+    {"delay": 0.38, "error": 0.3, "thrift": 0.476, "speed": 0.995},
 )
 LEVELS = tuple(
-    shipped_brain(f"level{number}", "pitanks", NETWORK, handicap) for number, handicap in enumerate(HANDICAPS, start=1)
+    shipped_brain(f"level{number}", "pitanks", NETWORK, handicap=handicap)
+    for number, handicap in enumerate(HANDICAPS, start=1)
 )
 NET = shipped_brain("net", "pitanks", NETWORK)

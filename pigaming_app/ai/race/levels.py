@@ -6,7 +6,6 @@ lower levels also drive wider lines, start later, miss braking points, and see p
 """
 
 from pigaming_app.ai.networks.files import shipped_brain
-from pigaming_app.ai.networks.policy import Handicap
 from pigaming_app.ai.race.racer import Driver, racer
 
 NETWORK = "race"  # in assets/brains
@@ -62,5 +61,5 @@ HAND_WRITTEN = (
 )
 LEVELS = (
     *(racer(f"level{n}", driver) for n, driver in enumerate(HAND_WRITTEN, start=1)),
-    shipped_brain("level5", "race", NETWORK, Handicap(sharpness=4.0, form=0.052, delay=0.35, error=0.2)),
+    shipped_brain("level5", "race", NETWORK, handicap={"sharpness": 4.0, "form": 0.052, "delay": 0.35, "error": 0.2}),
 )

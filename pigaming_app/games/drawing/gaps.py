@@ -13,12 +13,6 @@ TOUCHING = 1.0  # px between two walls that count as one
 Gap = tuple[float, float, float]  # px between two walls, and the middle of that gap
 
 
-class Flaw(FieldError):
-    """Something bad of an arena that can be played nevertheless. `kind`: of the sentence about it on the screen."""
-
-    kind = "gap"
-
-
 def layout_faults(layout: Layout) -> Iterator[FieldError]:
     """What makes walls and starts of an arena unplayable, then gaps that are too narrow for a robot, which are flaws.
 
@@ -28,11 +22,7 @@ def layout_faults(layout: Layout) -> Iterator[FieldError]:
     yield from narrow_gaps(layout.walls)
 
 
-class NarrowGap(Flaw):
-    """A gap through which no robot fits; bullets may."""
-
-
-def narrow_gaps(walls: Sequence[WallSpec], names: Sequence[str] = ()) -> Iterator[NarrowGap]:
+def narrow_gaps(walls: Sequence[WallSpec], names: Sequence[str] = ()) -> Iterator[FieldError]:
     """The gaps through which no robot fits. Pockets of walls that touch, or touch a third one, are not gaps.
 
     `names`: of the walls in messages, if they are not all of the file in its order.
@@ -46,12 +36,16 @@ def narrow_gaps(walls: Sequence[WallSpec], names: Sequence[str] = ()) -> Iterato
             joined[j].add(i)
     for (i, j), (gap, x, y) in between.items():
         if TOUCHING < gap < 2 * RADIUS and not joined[i] & joined[j]:
-            yield NarrowGap(names[j], f"{gap:.0f} px to {names[i]}, too narrow for a robot", (x, y, gap))
+            yield _narrow(names[j], names[i], (x, y, gap))
     for i, wall in enumerate(walls):
         for gap, x, y in _to_rim(wall):
             if TOUCHING < gap < 2 * RADIUS:
-                reason = f"{gap:.0f} px to the rim of the arena, too narrow for a robot"
-                yield NarrowGap(names[i], reason, (x, y, gap))
+                yield _narrow(names[i], "the rim of the arena", (x, y, gap))
+
+
+def _narrow(name: str, other: str, place: tuple[float, float, float]) -> FieldError:
+    """A gap through which no robot fits; bullets may."""
+    return FieldError(name, f"{place[2]:.0f} px to {other}, too narrow for a robot", place, "gap")
 
 
 def _gap(one: WallSpec, other: WallSpec) -> Gap:

@@ -73,7 +73,7 @@ class BrainOverlay:
         """Smooth the displayed values towards the current thoughts."""
         self.clock += seconds
         part, thoughts = 1.0 - math.exp(-EASE * seconds), self.thoughts
-        self.rose = [old + part * (new - old) for old, new in zip(self.rose, thoughts.rose, strict=True)]
+        self.rose = [old + part * (new - old) for old, new in zip(self.rose, thoughts.petals, strict=True)]
         current: Mapping[str, float] = self.wishes
         self.wishes = {
             name: (old := current.get(name, 0.0)) + part * (new - old) for name, new in thoughts.utilities.items()

@@ -93,13 +93,13 @@ def light_sprite(
 
 def turning_sprite(
     half: int, steps: int, glow: float = 0.8
-) -> Callable[[Callable[Concatenate[GlowCanvas, Args], object]], Callable[Concatenate[int, Args], Sprite]]:
+) -> Callable[[Callable[Concatenate[GlowCanvas, Args], object]], Callable[Concatenate[float, Args], Sprite]]:
     """Decorate a function that draws an opaque sprite heading right about (0, 0), up to `half` px to each side.
 
-    The result takes its heading, in `steps` parts of a circle (see `step`), before the other arguments; it is cached.
+    The result takes its heading in rad, rounded to one of `steps`, before the other arguments, and is cached.
     """
 
-    def decorated(draw: Callable[Concatenate[GlowCanvas, Args], object]) -> Callable[Concatenate[int, Args], Sprite]:
+    def decorated(draw: Callable[Concatenate[GlowCanvas, Args], object]) -> Callable[Concatenate[float, Args], Sprite]:
         @cached
         def upright(*args: Args.args, **named: Args.kwargs) -> pygame.Surface:
             ink = master(half)
@@ -107,9 +107,12 @@ def turning_sprite(
             return ink.sprite(glow)
 
         @cached
-        @wraps(draw)
-        def sprite(turn: int, /, *args: Args.args, **named: Args.kwargs) -> Sprite:
+        def at(turn: int, /, *args: Args.args, **named: Args.kwargs) -> Sprite:
             return turned(upright(*args, **named), turn, steps)
+
+        @wraps(draw)
+        def sprite(heading: float, /, *args: Args.args, **named: Args.kwargs) -> Sprite:
+            return at(step(heading, steps), *args, **named)
 
         return sprite
 

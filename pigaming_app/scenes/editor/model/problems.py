@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from pigaming_app.games.drawing.gaps import Flaw, layout_faults
+from pigaming_app.games.drawing.gaps import layout_faults
 from pigaming_app.games.drawing.values import Drawing, Part, Value
 from pigaming_app.games.game import Game
 from pigaming_app.sim.arena import read_title
@@ -47,8 +47,8 @@ def problems(game: Game, drawing: Drawing) -> list[Problem]:
 
 def _problem(drawing: Drawing, fault: FieldError) -> Problem:
     place, kind = fault.place or _place(drawing, fault.key), re.split(r"[\[.]", fault.key)[0]
-    if isinstance(fault, Flaw):
-        return Problem(fault.key, *place, fault.reason, False, fault.kind)
+    if fault.flaw:
+        return Problem(fault.key, *place, fault.reason, False, fault.flaw)
     return Problem(fault.key, *place, fault.reason, True, kind)
 
 

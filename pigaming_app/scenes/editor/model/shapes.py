@@ -6,6 +6,7 @@ such as the lines of a track.
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from math import hypot
 from typing import ClassVar, NamedTuple
 
@@ -66,12 +67,13 @@ class Shape:
     """A kind of part, at the point `at` unless `grips` differs. A part without one stays where it is.
 
     `fixed`: all arenas have the same number of it; `first`: the first of them that can be pointed at; `least`: an arena
-    needs so many; `radius`: px round its point.
+    needs so many; `radius`: px round its point; `sizes`: a key, its values that a press steps through, its default.
     """
 
     fixed = True
     first = least = 0
     radius = 0.0
+    sizes: ClassVar[tuple[str, Sequence[float], float] | None] = None
     has_ends = False  # its first grip is an end, not its middle
     is_handle = False  # it is not in pictures of the arena
     hollow = False  # it is pointed at by its outline only
@@ -119,7 +121,7 @@ class Shape:
 
     def dials(self, part: Part) -> Sequence[Dial]:
         """Its properties, at most four."""
-        return ()
+        return (Dial("size", partial(_stepped, self.sizes)),) if self.sizes else ()
 
 
 @dataclass(frozen=True)
@@ -194,6 +196,10 @@ class Tools:
         """The ends of the ways that AIs will drive; by default from each start to the next one."""
         spots = [(start.x, start.y) for start in arena.starts]
         return list(zip(spots, (*spots[1:], spots[0]), strict=True))
+
+
+def _stepped(sizes: tuple[str, Sequence[float], float], part: Part) -> Part:
+    return part.stepped(*sizes)
 
 
 def whole(x: float, y: float) -> tuple[int, int]:
