@@ -5,6 +5,7 @@ import os
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from math import inf
 from pathlib import Path
 from time import perf_counter, sleep
@@ -278,12 +279,12 @@ def _on_screen(
     width: float | None,
 ) -> int:
     """Play in a window; with --headless and emulated robots without one, as fast as possible."""
+    from pigaming_app.ai.registry import new_match
     from pigaming_app.scenes.flow.context import Context
     from pigaming_app.scenes.flow.stack import Scene
     from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.lobby.scene import game_choice
-    from pigaming_app.scenes.play.scene import MatchScene
-    from pigaming_app.scenes.play.start_match import match_of
+    from pigaming_app.scenes.play.scene import MatchScene, match_of
     from pigaming_app.ui.input.events import Device
 
     scenes: list[MatchScene] = []
@@ -300,7 +301,7 @@ def _on_screen(
         if real:
             first = match_of(context, setup, seats, real, speed, game_choice, rounds)
         else:
-            first = MatchScene(context, setup, seats, speed, plant, game_choice, rounds)
+            first = MatchScene(context, setup, seats, speed, game_choice, rounds, make=partial(new_match, plant=plant))
         if isinstance(first, MatchScene):
             scenes.append(first)
         return first
@@ -308,7 +309,7 @@ def _on_screen(
     def due() -> bool:
         """True when the picture is due, or when missing real robots have delayed it too long."""
         nonlocal shot
-        if scenes and not scenes[0].blocked:
+        if scenes and not scenes[0].robots.blocked:
             shot = bool(scenes[0].match.over or scenes[0].match.seconds >= options.at)
         else:
             shot = perf_counter() - began > options.at + PICTURE_TIMEOUT

@@ -57,8 +57,8 @@ def warmed(arcade: Arcade, game: str) -> None:
     """Push a match, and wait until all its sprites are built and it has started."""
     scene = match(arcade, game)
     arcade.stack.apply(Push(scene))
-    arcade.until(lambda: scene.prewarmed, 60.0)
-    arcade.until(lambda: not scene.countdown.locked, 10.0)
+    arcade.until(lambda: scene.opening.prewarmed, 60.0)
+    arcade.until(lambda: not scene.opening.countdown.locked, 10.0)
     arcade.wait(0.2, draw=True)
 
 

@@ -20,8 +20,8 @@ from pigaming_app.scenes.features.feature import Show
 from pigaming_app.scenes.features.registry import features
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
+from pigaming_app.scenes.play.drivers import new_seed
 from pigaming_app.scenes.play.runner import MatchRunner
-from pigaming_app.scenes.play.scene import new_seed
 from pigaming_app.scenes.recordings.highlights import highlights
 from pigaming_app.scenes.results.high_score_tables import contests
 from pigaming_app.scenes.results.high_scores import HighScores

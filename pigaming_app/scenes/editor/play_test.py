@@ -1,10 +1,15 @@
 """A match on a drawing: one person against AIs, without results; START, a click or the end leads back."""
 
+from functools import partial
+
+from pigaming_app.ai.registry import new_match
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
-from pigaming_app.scenes.play.scene import NOTICE_AT, MatchScene, new_seed
+from pigaming_app.scenes.play.drivers import new_seed
+from pigaming_app.scenes.play.runner import NOTICE_AT
+from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.sim.arena import Arena
 from pigaming_app.ui.draw import ICE
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -21,18 +26,20 @@ class PlayTest(MatchScene):
 
     def __init__(self, context: Context, game: str, arena: Arena, device: Device) -> None:
         device = context.controls.driver(device)
-        super().__init__(context, setup_of(game, arena.name), [device], arena=arena)
-        self.noted = True
+        make = partial(new_match, arena=arena)
+        super().__init__(context, setup_of(game, arena.name), [device], make=make, records=False)
+        self.sequel.noted = True
         self.restart_allowed = False
         label = context.words.key_name(context.controls.label(device, Button.START))
-        self.notice, self.notice_left = caption(f"{label}: {context.words('editor.hint_draw')}", ICE), NOTICE
+        back = caption(f"{label}: {context.words('editor.hint_draw')}", ICE)
         covered = [box.inflate(APART, APART) for box in self.runner.occupied(self.devices)]
-        places = [place for place in PLACES if self.notice.box(place).collidelist(covered) < 0]
-        self.notice_at = (places or PLACES)[0]
+        places = [place for place in PLACES if back.box(place).collidelist(covered) < 0]
+        self.runner.notice.at = (places or PLACES)[0]
+        self.runner.notice.show(back, NOTICE)
 
     def handle(self, event: InputEvent) -> StackOperation:
         """START, Escape and a click lead back."""
-        escapes = event.button is Button.BACK and self._escapes(event.device)
+        escapes = event.button is Button.BACK and self.drivers.escapes(event.device)
         if escapes or event.button in (Button.START, Button.CLICK):
             self.context.sounds.play("back")
             return Pop()

@@ -28,8 +28,7 @@ from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
-from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.play.start_match import match_of
+from pigaming_app.scenes.play.scene import MatchScene, match_of
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import ALARM, FOCUS, LABEL
@@ -377,14 +376,14 @@ class EventMatch:
         words, running = scene.context.words, self.running
         if not scene.match.over:
             return NextMatch(scene.context, running, words("events.unplayed"))
-        scene.stood_in = stood_in(running, self.fixture)
+        scene.sequel.stood_in = stood_in(running, self.fixture)
         outcome = outcome_of(self.fixture, scene.match.outcome().rows)
         try:
             notice = "" if running.change(lambda event: event.record(outcome)) else words("app.unsaved")
         except ValueError as reason:  # another process has played this match
             log.warning("%s", reason)
-            return NextMatch(scene.context, running, words("events.elsewhere"), show=not scene.humans)
+            return NextMatch(scene.context, running, words("events.elsewhere"), show=not scene.drivers.people)
         follows = running.event.open[0] if running.event.open else None
         again = follows is not None and (follows.number, follows.extra) == (self.fixture.number, self.fixture.extra + 1)
         notice = notice or lots_line(words, running.event, outcome) or (words("events.tied") if again else "")
-        return NextMatch(scene.context, running, notice, not scene.humans, again)
+        return NextMatch(scene.context, running, notice, not scene.drivers.people, again)

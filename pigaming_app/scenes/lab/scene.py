@@ -27,7 +27,7 @@ from pigaming_app.scenes.lab.progress import Progress
 from pigaming_app.scenes.lab.saved_robots import RobotFileError
 from pigaming_app.scenes.lab.trainer import Trainer
 from pigaming_app.scenes.lab.view import SPEEDS, LabPage, LabState, speed_at, warming
-from pigaming_app.scenes.play.scene import new_seed
+from pigaming_app.scenes.play.drivers import new_seed
 from pigaming_app.ui.draw import ALARM, FOCUS
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import caption

@@ -19,7 +19,8 @@ from pigaming_app.scenes.ladder.climber import Climber, begun, device_of
 from pigaming_app.scenes.ladder.climbers import game_name
 from pigaming_app.scenes.ladder.summit import Summit
 from pigaming_app.scenes.pages.page import Page
-from pigaming_app.scenes.play.scene import MatchScene, new_seed
+from pigaming_app.scenes.play.drivers import new_seed
+from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.views.sprites.robot import seat_robot
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, SUB
@@ -179,7 +180,7 @@ def after_match(climber: Climber, scene: MatchScene) -> AfterMatch:
     one that was ended by hand counts as lost.
     """
     before = climber.climb
-    if 0 in scene.ai_assisted:
+    if 0 in scene.drivers.assisted:
         climb, said = before, "assisted"
     elif not scene.match.over:
         climb, said = before.after_loss(clear=False), "ended"

@@ -148,8 +148,8 @@ class MatchSetupPage(Page):
 
     def _begin(self) -> StackOperation:
         """Push the match, or return None while the preloader is busy."""
-        from pigaming_app.scenes.play.scene import new_seed
-        from pigaming_app.scenes.play.start_match import match_of
+        from pigaming_app.scenes.play.drivers import new_seed
+        from pigaming_app.scenes.play.scene import match_of
 
         if not self.context.preloader.ready(self.game.name, self.chosen.arena):
             return None

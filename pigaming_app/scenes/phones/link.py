@@ -9,6 +9,7 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.phones.host import phone_host
+from pigaming_app.scenes.play.drivers import Drivers
 from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.snapshot import match_of, snapshot
 from pigaming_app.ui.draw import MIST, PLAYERS
@@ -34,8 +35,7 @@ class Seated(Protocol):
 class Driven(Protocol):
     """A scene in which devices drive robots."""
 
-    def is_free(self, device: Device) -> bool:
-        """True if this device drives no seat."""
+    drivers: Drivers
 
 
 @runtime_checkable

@@ -28,6 +28,10 @@ class Countdown:
     """Blocks motion while it runs. `step`: seconds per number; `lead`: seconds before the first."""
 
     def __init__(self, step: float = 1.0, lead: float = 0.0) -> None:
+        self.restart(step, lead)
+
+    def restart(self, step: float, lead: float = 0.0) -> None:
+        """Begin anew."""
         self.step, self.seconds_left, self.since = step, 3 * step + lead, 0.0
         self.number = 4
 

@@ -6,7 +6,7 @@ press within a few seconds.
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import pygame
@@ -16,6 +16,8 @@ from pigaming_app.scenes.flow.access import OWNER_SECONDS, Access, PauseAccess
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, Scene, StackOperation
 from pigaming_app.scenes.play.device_table import DeviceTable
+from pigaming_app.scenes.play.drivers import Drivers
+from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.views.hud.ai_sign import name_of
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.sim.things.spec import ThingSpec
@@ -53,26 +55,63 @@ NAME_ROOM = 460  # px, of a name at LABEL size
 RING = X + W - 112, Y + 116
 
 
-class PausedMatch(Protocol):
-    """The match below a page."""
+class Robots(Protocol):
+    """The robots of a match, as the pages above need them."""
 
-    context: Context
-    devices: list[Device | None]
-    names: Sequence[str]
-    restart_allowed: bool
+    @property
+    def kind(self) -> str:
+        """What drives: simulated, emulated or real robots."""
 
     @property
     def things(self) -> Sequence[ThingSpec]:
         """The things on the mat that are in play."""
 
-    def picture(self) -> pygame.Surface:
-        """The match as drawn behind a page."""
+    @property
+    def items(self) -> Mapping[str, Callable[[Access], Scene]]:
+        """Additional menu items: page factories by name, given the access of the pause."""
 
-    def style_of(self, device: Device) -> str:
-        """The driving style of a device in this match."""
+    @property
+    def blocked(self) -> bool:
+        """True if the match waits for an event that may never come."""
 
-    def next_brain(self) -> None:
-        """Show the thoughts of the next AI."""
+    def note(self) -> None:
+        """Note in the day log what belongs to the match that was noted."""
+
+    def advance_paused(self, seconds: float) -> None:
+        """Advance by `seconds` while a page is open."""
+
+    def draw_overlay(self, screen: pygame.Surface) -> None:
+        """Draw what must not be hidden by a page."""
+
+
+@dataclass(frozen=True)
+class SimulatedRobots:
+    """Those on the screen alone, which need nothing."""
+
+    kind: str = "simulated"
+    things: Sequence[ThingSpec] = ()
+    items: Mapping[str, Callable[[Access], Scene]] = field(default_factory=dict)
+    blocked: bool = False
+
+    def note(self) -> None:
+        pass
+
+    def advance_paused(self, seconds: float) -> None:
+        pass
+
+    def draw_overlay(self, screen: pygame.Surface) -> None:
+        pass
+
+
+class PausedMatch(Protocol):
+    """The match below a page."""
+
+    context: Context
+    names: Sequence[str]
+    restart_allowed: bool
+    runner: MatchRunner
+    drivers: Drivers
+    robots: Robots
 
     def restart(self) -> None:
         """Restart the match."""
@@ -80,37 +119,20 @@ class PausedMatch(Protocol):
     def stop(self) -> None:
         """End the match now."""
 
-    @property
-    def extra_items(self) -> Mapping[str, Callable[[Access], Scene]]:
-        """Additional menu items: page factories by name, given the access of the pause."""
-
-    @property
-    def access(self) -> Access:
-        """Access control of the match."""
-
-    def return_seat(self, event: InputEvent) -> bool:
-        """Return its seat to an idle device; true if done."""
-
-    def advance_paused(self, seconds: float) -> None:
-        """Advance by `seconds` while a page is open."""
-
-    def draw_overlay(self, screen: pygame.Surface) -> None:
-        """Draw overlays that must not be hidden by a page."""
-
 
 class Pause:
     """A pause requested by `device`."""
 
     def __init__(self, match: PausedMatch, device: Device) -> None:
         self.match, self.context = match, match.context
-        self.player = match.devices.index(device) if device in match.devices else None
-        self.access = PauseAccess(match.context, lambda: match.devices, device)
+        self.player = match.drivers.devices.index(device) if device in match.drivers.devices else None
+        self.access = PauseAccess(match.context, lambda: match.drivers.devices, device)
         self.picture: pygame.Surface | None = None
         self.confirm_left = self.explain_left = 0.0
         items = [item for item in ITEMS[1:] if item != "restart" or match.restart_allowed]
         self.offer = join_offer(match.context)
         phones = ["phones"] if self.offer and self.offer.on else []
-        self.focus = Focus(menu_spots((ITEMS[0], *match.extra_items, *phones, *items)))
+        self.focus = Focus(menu_spots((ITEMS[0], *match.robots.items, *phones, *items)))
         hints = [
             (Button.FIRE, "pause.hint_ok"),
             (Button.BACK, "pause.hint_continue"),
@@ -133,7 +155,7 @@ class Pause:
             return None
         event = admitted
         if event.button is Button.BRAIN:
-            self.match.next_brain()
+            self.match.runner.next_brain()
         if event.button in (Button.START, Button.BACK, Button.BRAIN):
             return self._do("continue")
         if self.focus.handle(event):
@@ -148,7 +170,7 @@ class Pause:
 
     def update(self, seconds: float) -> StackOperation:
         """Animate the focus; expire the confirmation and the ownership."""
-        self.match.advance_paused(seconds)
+        self.match.robots.advance_paused(seconds)
         self.access.update(seconds)
         self.focus.update(seconds)
         self.confirm_left -= seconds
@@ -158,7 +180,7 @@ class Pause:
     def draw(self, screen: pygame.Surface) -> None:
         if self.picture is None:
             color = ICE if self.player is None else PLAYERS[self.player]
-            self.picture = overlay(self.match.picture(), color, self._paint)
+            self.picture = overlay(self.match.runner.picture(), color, self._paint)
         screen.blit(self.picture, (0, 0))
         color, box = (ALARM if self.confirm_left > 0.0 else FOCUS), self.focus.spot.rect
         self.focus.draw(screen, color)
@@ -174,7 +196,7 @@ class Pause:
             caption(self._rejection(), FOCUS).draw(screen, 960, PROMPTS)
         else:
             self.prompts.draw(screen)
-        self.match.draw_overlay(screen)
+        self.match.robots.draw_overlay(screen)
 
     def _button(self) -> str:
         """The label of the button that activates the focused item."""
@@ -202,19 +224,20 @@ class Pause:
             case "end":
                 self.match.stop()
             case "phones" if self.offer:
-                return Push(self.offer.page(lambda: self.match.devices))
+                return Push(self.offer.page(lambda: self.match.drivers.devices))
             case "controls":
-                return Push(DeviceTable(self.context, self.match.devices, self.access, self.match.style_of))
-            case extra if extra in self.match.extra_items:
-                return Push(self.match.extra_items[extra](self.access))
+                drivers = self.match.drivers
+                return Push(DeviceTable(self.context, drivers.devices, self.access, drivers.style_of))
+            case extra if extra in self.match.robots.items:
+                return Push(self.match.robots.items[extra](self.access))
         return Pop()
 
     def _paint(self, layer: Layer) -> None:
         words = self.context.words
         text = words("pause.paused") if self.player is None else player_line(self.match, "pause.by", self.player)
         sheet_title(layer, self.player, text, ICE, RING[0] - 80)
-        if self.match.things:
-            layer.canvas.body(things_line(words, len(self.match.things)), X + 72, HEAD - 24, MIST, "l", 34)
+        if self.match.robots.things:
+            layer.canvas.body(things_line(words, len(self.match.robots.things)), X + 72, HEAD - 24, MIST, "l", 34)
         for spot in self.focus.spots:
             layer.canvas.text(words(f"pause.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
 

@@ -4,7 +4,6 @@ A ring shows the time left.
 """
 
 import math
-from typing import Protocol
 
 import pygame
 
@@ -25,33 +24,19 @@ PAD = X + 184, Y + 376
 TEXT_X, TEXT_W = X + 352, W - 352 - 56
 
 
-class OpenMatch(PausedMatch, Protocol):
-    """A match whose seats can be reassigned."""
-
-    @property
-    def unplugged_seats(self) -> list[int]:
-        """Seats whose device is unplugged."""
-
-    def is_free(self, device: Device) -> bool:
-        """True if this device drives no seat."""
-
-    def assign_seat(self, seat: int, device: Device | None) -> None:
-        """Assign a seat to a device, or to an AI."""
-
-
 class Reconnect:
     """The device of `seat` is unplugged: a free one takes over with FIRE, or the same phone when it is back, and an AI
     after the timeout.
     """
 
-    def __init__(self, match: OpenMatch, seat: int) -> None:
+    def __init__(self, match: PausedMatch, seat: int) -> None:
         self.match, self.context, self.seat = match, match.context, seat
-        self.device = match.devices[seat]
+        self.device = match.drivers.devices[seat]
         self.phone = self.device is not None and self.device.kind == "phone"
         self.age, self.replugged = 0.0, False
         self.pictures: dict[bool, pygame.Surface] = {}
         hints = [(Button.X, "pause.hint_ai"), (Button.BACK, "pause.hint_menu")]
-        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: match.access.hint_device)
+        self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: match.drivers.access.hint_device)
 
     def on_enter(self) -> None:
         """Play the error sound."""
@@ -61,7 +46,7 @@ class Reconnect:
     def handle(self, event: InputEvent) -> StackOperation:
         """FIRE on a free device takes the seat; X gives it to an AI; BACK opens the menu."""
         event = self.prompts.as_button(event)
-        admitted = self.match.access.admit(event)
+        admitted = self.match.drivers.access.admit(event)
         if event.button is Button.FOUND:
             self.replugged = True
             self.context.sounds.play("move")
@@ -79,23 +64,23 @@ class Reconnect:
 
     def update(self, seconds: float) -> StackOperation:
         """Hand the seat to an AI after the timeout."""
-        self.match.advance_paused(seconds)
+        self.match.robots.advance_paused(seconds)
         self.age += seconds
-        if held := self.match.access.update(seconds):
+        if held := self.match.drivers.access.update(seconds):
             return Swap(Pause(self.match, held.device))
         return self._hand(None) if self.age >= TIMEOUT else None
 
     def draw(self, screen: pygame.Surface) -> None:
         if self.replugged not in self.pictures:
             self.pictures[self.replugged] = overlay(
-                self.match.picture(), PLAYERS[self.seat], self._paint, self.replugged
+                self.match.runner.picture(), PLAYERS[self.seat], self._paint, self.replugged
             )
         screen.blit(self.pictures[self.replugged], (0, 0))
         if not self.phone:
             self._draw_plug(screen)
         ring(screen, TIMEOUT - self.age, TIMEOUT)
         self.prompts.draw(screen)
-        self.match.draw_overlay(screen)
+        self.match.robots.draw_overlay(screen)
 
     def _draw_plug(self, screen: pygame.Surface) -> None:
         gap = 0 if self.replugged else round(4 + 4 * math.sin(self.age * math.tau / 1.4))
@@ -105,10 +90,10 @@ class Reconnect:
 
     def _may_take(self, device: Device) -> bool:
         """True for a free device, and for the phone of this seat, which keeps its number."""
-        return device == self.device or self.match.is_free(device)
+        return device == self.device or self.match.drivers.is_free(device)
 
     def _hand(self, device: Device | None) -> StackOperation:
-        self.match.assign_seat(self.seat, device)
+        self.match.drivers.assign(self.seat, device)
         return Pop()
 
     def _paint(self, layer: Layer) -> None:
@@ -144,21 +129,21 @@ class StillThere:
         """Any button continues; an idle device gets its seat back."""
         if event.button in (Button.LOST, Button.FOUND, Button.POINT):
             return None
-        return Pop() if self.match.return_seat(event) or self.match.access.admit(event) else None
+        return Pop() if self.match.drivers.give_back(event) or self.match.drivers.access.admit(event) else None
 
     def update(self, seconds: float) -> StackOperation:
         """Return to the title after the timeout."""
-        self.match.advance_paused(seconds)
+        self.match.robots.advance_paused(seconds)
         self.age += seconds
         return Home() if self.age >= TIMEOUT else None
 
     def draw(self, screen: pygame.Surface) -> None:
         if self.picture is None:
-            self.picture = overlay(self.match.picture(), FOCUS, self._paint)
+            self.picture = overlay(self.match.runner.picture(), FOCUS, self._paint)
         screen.blit(self.picture, (0, 0))
         ring(screen, TIMEOUT - self.age, TIMEOUT)
         self.prompts.draw(screen)
-        self.match.draw_overlay(screen)
+        self.match.robots.draw_overlay(screen)
 
     def _paint(self, layer: Layer) -> None:
         words = self.context.words

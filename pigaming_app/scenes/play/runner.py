@@ -30,10 +30,11 @@ from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.draw.text import fit_text
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.input.keyboard import NUM
-from pigaming_app.ui.widgets.caption import Caption, caption
+from pigaming_app.ui.widgets.caption import Caption, Notice, caption
 
 PAUSED_BRIGHTNESS = 72  # of 255: brightness of a match behind a page
 TICK_SOUNDS = 10  # seconds at the end with a tick sound each
+NOTICE_AT = (960, 206)  # centre of a notice, on the canvas
 NAME_ROOM = 300  # px, of a name in a caption
 CAPTION_GAP = 104  # px from a robot to its caption
 HINT_ROOM = 140.0  # px below a robot that a hint needs
@@ -61,6 +62,7 @@ class MatchRunner:
             self.view = kind(match.arena, match.state, self.players, ShownEffects(context.settings), context.words)
         if names:
             self.view.show_names(names)
+        self.notice = Notice(NOTICE_AT)
         self.brain = match_overlay(match, self.view, context.words)
         self.timestep = FixedTimestep()
         self.things: Sequence[ThingSpec] = match.arena.things  # in the view
@@ -117,6 +119,13 @@ class MatchRunner:
         self.draw(canvas)
         canvas.fill((PAUSED_BRIGHTNESS, PAUSED_BRIGHTNESS, PAUSED_BRIGHTNESS), special_flags=pygame.BLEND_RGB_MULT)
         return canvas
+
+    def next_brain(self) -> None:
+        """Show the thoughts of the next AI, after the last none; show a notice if there is no AI."""
+        if self.brain and not self.brain.seats:
+            self.notice.show(caption(self.context.words("brain.nobody"), sign="ai"))
+        elif self.brain:
+            self.brain.next()
 
     def robots(self) -> list[tuple[float, float]]:
         """Positions of the robots on the canvas."""

@@ -46,6 +46,30 @@ class Caption:
         screen.blit(self.image, corner, special_flags=pygame.BLEND_PREMULTIPLIED)
 
 
+class Notice:
+    """A caption shown for a while, centred at `at` on the canvas."""
+
+    def __init__(self, at: tuple[int, int]) -> None:
+        self.at, self.left = at, 0.0  # s
+        self._caption: Caption | None = None
+
+    @property
+    def box(self) -> pygame.Rect | None:
+        """The box of what is shown."""
+        return self._caption.box(self.at) if self._caption and self.left > 0.0 else None
+
+    def show(self, caption: Caption, seconds: float = 3.0) -> None:
+        """Show another one from now on."""
+        self._caption, self.left = caption, seconds
+
+    def update(self, seconds: float) -> None:
+        self.left -= seconds
+
+    def draw(self, screen: pygame.Surface) -> None:
+        if self._caption and self.left > 0.0:
+            self._caption.draw(screen, *self.at)
+
+
 RING_STEPS = 12  # images of a ring that fills
 
 

@@ -134,7 +134,8 @@ class Visit:
 
     def match(self) -> None:
         stage, scene = self.stage, self.stage.top
-        if scene.match.over or scene.countdown.locked or not scene.humans:  # a show of AIs: any turbo would halt it
+        show = not scene.drivers.people  # of AIs: any turbo would halt it
+        if scene.match.over or scene.opening.countdown.locked or show:
             return
         self._mishap(scene)
         if stage.now < self.resting:
@@ -163,7 +164,7 @@ class Visit:
         observe(state, seat, mind.senses, mind.obs)
         act(mind.obs, mind, action)
         x, y = float(action.angular), -float(action.linear)
-        if scene.style_of(scene.devices[seat]) in (POINT, HELPED_POINT):
+        if scene.drivers.style_of(scene.devices[seat]) in (POINT, HELPED_POINT):
             x, y = where_to_go(action, state.robots[seat], state.rules.turn_rate)
         return x, y, bool(action.fire), bool(action.turbo)
 

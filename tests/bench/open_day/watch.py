@@ -103,14 +103,14 @@ class Watch:
             visitors = [one.number for one in group.visitors if one.initials in fixture.entrants] if group else []
             event = {"event": str(running.path), "fixture": fixture.number, "scores": scores}
         earlier = scene.rounds.outcomes if scene.rounds else []
-        people = len(scene.humans)
+        people = len(scene.drivers.people)
         if group:
             self.played[group.number] += 1
         self.ledger.note(
             "over",
             match=self.name,
             game=scene.setup.game,
-            began=scene.began.isoformat(timespec="seconds"),
+            began=scene.sequel.began.isoformat(timespec="seconds"),
             seconds=round(sum(outcome.seconds for outcome in earlier) + scene.match.seconds, 2),
             people=people,
             ais=sum(robot.present for robot in state.robots) - people,

@@ -172,7 +172,7 @@ def arcade(pipe, beats):
             if name == "NextMatch":
                 top.clock = max(top.clock, next_page.SHOW_AFTER)
             if name == "MatchScene":  # without its countdown, a second long
-                top.countdown.seconds_left = min(top.countdown.seconds_left, 0.05)
+                top.opening.countdown.seconds_left = min(top.opening.countdown.seconds_left, 0.05)
                 top.match.state.rules.ticks = min(top.match.state.rules.ticks, 15)
 
 engine_hash()  # what every arcade needs is loaded once

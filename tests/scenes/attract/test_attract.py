@@ -199,7 +199,7 @@ def test_saved_replays_are_shown_too_and_files_may_vanish(
 def test_a_match_just_played_is_kept_for_attract_mode(arcade: Arcade) -> None:
     scene = MatchScene(arcade.context, setup("human idle off off", 0.02), KEYS[:1])
     arcade.open(scene)
-    scene.countdown.seconds_left = 0.05
+    scene.opening.countdown.seconds_left = 0.05
     scene.match.series[0].append((0.5, 1))
     arcade.until(lambda: scene.match.over)
     arcade.frame()

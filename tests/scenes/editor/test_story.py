@@ -170,9 +170,9 @@ def test_the_way_back_from_a_match_hides_no_robot_and_no_rules(arcade: Arcade, g
     test = PlayTest(arcade.context, game, load(game, name), KEYS[0])
     arcade.open(test)
     arcade.frame(draw=True)
-    assert test.notice
-    assert test.rule_card
-    box = test.notice.box(test.notice_at)
+    box, shown = test.runner.notice.box, test.opening.card
+    assert box
+    assert shown
     assert box.collidelist(test.runner.occupied(test.devices)) < 0
-    card, centre = test.rule_card
+    card, centre = shown
     assert not box.colliderect(card.box(centre))

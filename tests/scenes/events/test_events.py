@@ -70,8 +70,8 @@ def at_next(arcade: Arcade, run: RunningEvent) -> NextMatch:
 def finish(arcade: Arcade, scores: tuple[int, ...]) -> None:
     """Play the match on top to its end with these scores."""
     scene = arcade.shown(MatchScene)
-    scene.countdown.seconds_left = 0.05
-    arcade.until(lambda: not scene.countdown.locked)
+    scene.opening.countdown.seconds_left = 0.05
+    arcade.until(lambda: not scene.opening.countdown.locked)
     state = scene.match.state
     for robot, score in zip(state.robots, scores, strict=False):
         robot.score = score
@@ -377,7 +377,7 @@ def test_a_match_ended_by_hand_is_still_to_be_played(arcade: Arcade) -> None:
     for device in KEYS[:2]:
         arcade.press(Button.FIRE, device)
     arcade.press(Button.START)
-    arcade.shown(MatchScene).countdown.seconds_left = 0.05
+    arcade.shown(MatchScene).opening.countdown.seconds_left = 0.05
     arcade.wait(0.3)
     arcade.press(Button.START)
     pause = arcade.shown(Pause)

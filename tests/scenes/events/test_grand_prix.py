@@ -54,8 +54,8 @@ def play(arcade: Arcade, scores: tuple[int, ...]) -> MatchScene:
     arcade.press(Button.START)
     arcade.until(lambda: isinstance(arcade.stack.top, MatchScene))
     scene = arcade.shown(MatchScene)
-    scene.countdown.seconds_left = 0.05
-    arcade.until(lambda: not scene.countdown.locked)
+    scene.opening.countdown.seconds_left = 0.05
+    arcade.until(lambda: not scene.opening.countdown.locked)
     for robot, score in zip(scene.match.state.robots, scores, strict=False):
         robot.score = score
     scene.match.state.rules.ticks = scene.match.state.tick + 1

@@ -42,8 +42,8 @@ def begun(arcade: Arcade, run: RunningEvent) -> MatchScene:
 
 def end_level(arcade: Arcade, scene: MatchScene) -> None:
     """End a match without any point; the winner's moment is skipped."""
-    scene.countdown.seconds_left = 0.05
-    arcade.until(lambda: not scene.countdown.locked)
+    scene.opening.countdown.seconds_left = 0.05
+    arcade.until(lambda: not scene.opening.countdown.locked)
     scene.match.state.rules.ticks = scene.match.state.tick + 1
     arcade.until(lambda: isinstance(arcade.stack.top, WinnersMoment))
     arcade.wait(1.2)
@@ -61,8 +61,8 @@ def test_a_tie_leads_to_an_extra_match_of_the_same_people_that_the_next_point_en
     arcade.until(lambda: isinstance(arcade.stack.top, MatchScene))
     extra = arcade.shown(MatchScene)
     assert (extra.setup.sudden_death, extra.names, extra.devices[:2]) == (True, names, KEYS[:2])
-    extra.countdown.seconds_left = 0.05
-    arcade.until(lambda: not extra.countdown.locked)
+    extra.opening.countdown.seconds_left = 0.05
+    arcade.until(lambda: not extra.opening.countdown.locked)
     arcade.wait(1.0)
     assert not extra.match.over
     extra.match.state.robots[1].score = 1

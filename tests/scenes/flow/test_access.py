@@ -16,7 +16,7 @@ from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import HUMAN
 from pigaming_app.scenes.play.device_table import DeviceTable
-from pigaming_app.scenes.play.idle_seats import ANSWER_LIMIT, IDLE_LIMIT
+from pigaming_app.scenes.play.drivers import ANSWER_LIMIT, IDLE_LIMIT
 from pigaming_app.scenes.play.pause import CONFIRM_SECONDS, Pause
 from pigaming_app.scenes.play.reconnect import StillThere
 from pigaming_app.scenes.play.scene import MatchScene
@@ -364,12 +364,12 @@ def test_an_idle_seat_is_asked_then_an_ai_drives_until_a_button_is_pressed(arcad
     match = running(arcade, "human human off off", [first, second])
     one.stick(0.0, -1.0)
     arcade.wait(IDLE_LIMIT - 1.0, fps=20)
-    assert not match.idle_seats.prompted()
-    arcade.until(lambda: bool(match.idle_seats.prompted()))
-    assert list(match.idle_seats.prompted()) == [1]
+    assert not match.drivers.idle.prompted()
+    arcade.until(lambda: bool(match.drivers.idle.prompted()))
+    assert list(match.drivers.idle.prompted()) == [1]
     arcade.stack.top.draw(arcade.screen)
     tap(arcade, two, "x")
-    assert not match.idle_seats.prompted(), "any button answers"
+    assert not match.drivers.idle.prompted(), "any button answers"
     arcade.wait(IDLE_LIMIT + 1.0, fps=20)
     before = match.match.state.tick
     arcade.until(lambda: isinstance(match.match.brains[1], BrainPlayer))
@@ -416,7 +416,7 @@ def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(ar
     guest.release("a")
     assert match.devices == [first, None, device, None]
     assert isinstance(match.match.brains[2], HumanPlayer)
-    assert 2 in match.ai_assisted, "what the AI scored is no record of the newcomer"
+    assert 2 in match.drivers.assisted, "what the AI scored is no record of the newcomer"
     tap(arcade, guest, "start")
     arcade.shown(Pause)
     match.restart()

@@ -53,8 +53,8 @@ def begin(arcade: Arcade, device: Device = KEYS[0]) -> MatchScene:
 def play(arcade: Arcade, own: int, other: int, device: Device = KEYS[0]) -> None:
     """A match of PiTanks with this score, and the winner's moment."""
     scene = begin(arcade, device)
-    scene.countdown.seconds_left = 0.05
-    arcade.until(lambda: not scene.countdown.locked)
+    scene.opening.countdown.seconds_left = 0.05
+    arcade.until(lambda: not scene.opening.countdown.locked)
     state = scene.match.state
     state.robots[0].score, state.robots[1].score = own, other
     state.rules.ticks = state.tick + 1
@@ -141,7 +141,7 @@ def test_weaker_robots_are_offered_between_matches_and_shown_on_the_ladder(arcad
 def test_a_match_ended_by_hand_is_lost_and_cannot_be_restarted(arcade: Arcade) -> None:
     arcade.press(Button.FIRE)
     scene = begin(arcade)
-    scene.countdown.seconds_left = 0.05
+    scene.opening.countdown.seconds_left = 0.05
     arcade.wait(1.0)
     arcade.press(Button.START)
     assert "restart" not in [spot.name for spot in arcade.shown(Pause).focus.spots]
@@ -155,10 +155,10 @@ def test_a_match_ended_by_hand_is_lost_and_cannot_be_restarted(arcade: Arcade) -
 def test_a_match_in_which_an_ai_drove_counts_for_nothing(arcade: Arcade) -> None:
     arcade.press(Button.FIRE)
     scene = begin(arcade)
-    scene.countdown.seconds_left = 0.05
-    arcade.until(lambda: not scene.countdown.locked)
-    scene.assign_seat(0, None)
-    scene.assign_seat(0, KEYS[2])
+    scene.opening.countdown.seconds_left = 0.05
+    arcade.until(lambda: not scene.opening.countdown.locked)
+    scene.drivers.assign(0, None)
+    scene.drivers.assign(0, KEYS[2])
     scene.match.state.robots[0].score = 5
     scene.match.state.rules.ticks = scene.match.state.tick + 1
     arcade.until(lambda: isinstance(arcade.stack.top, LadderPage))

@@ -188,7 +188,7 @@ def test_four_pages_play_a_whole_match(day: OpenDay) -> None:
             await page.until("document.body.classList.contains('playing')")
         await pages[0].until("/^[0-5]:\\d\\d$/.test(document.getElementById('clock').textContent)")
         assert await pages[0].value("document.getElementById('score').textContent") == "0"
-        await day.until(lambda: not match.countdown.locked, "start")
+        await day.until(lambda: not match.opening.countdown.locked, "start")
         robots = match.match.state.robots
         starts = [(robot.x, robot.y, robot.heading) for robot in robots]
         for page, (x, y) in zip(pages, ((0, -1), (0.7, -0.7), (-1, 0), (1, 0.3)), strict=True):

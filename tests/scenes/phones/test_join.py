@@ -158,7 +158,7 @@ def match_with(arcade: Arcade, *devices: Device | None) -> MatchScene:
     one, two, three, four = (Seat(brain, seat) for seat, brain in enumerate(brains))
     match = MatchScene(arcade.context, Setup("pitanks", "classic", (one, two, three, four), 2, 1, "plain"), devices)
     arcade.open(match)
-    while match.countdown.locked:
+    while match.opening.countdown.locked:
         arcade.frame()
     return match
 

@@ -69,7 +69,7 @@ def ended(arcade, hits=(100,), variant="party"):
     scene = MatchScene(arcade.context, replace(party(), variant=variant))
     scene.match.state.rules.overtime = 0
     arcade.open(scene)
-    arcade.until(lambda: not scene.countdown.locked)
+    arcade.until(lambda: not scene.opening.countdown.locked)
     while not scene.match.over:
         if scene.match.state.tick + 1 in hits:
             strike(scene.match, 0, 1)
@@ -129,7 +129,7 @@ def test_without_a_hit_or_by_other_rules_the_results_follow_at_once(arcade: Arca
 def test_a_stopped_match_shows_nothing_again(arcade: Arcade) -> None:
     scene = MatchScene(arcade.context, party(1.0))
     arcade.open(scene)
-    arcade.until(lambda: not scene.countdown.locked)
+    arcade.until(lambda: not scene.opening.countdown.locked)
     strike(scene.match, 0, 1)
     arcade.wait(0.5)
     assert scene.match.state.last_hit

@@ -248,7 +248,7 @@ def test_with_one_button_the_robot_drives_by_itself_and_sets_no_record(arcade: A
     arcade.open(match)
     assert isinstance(match.match.brains[0], OneButtonPlayer)
     assert isinstance(match.match.brains[1], HumanPlayer)
-    assert (match.humans, match.ai_assisted) == ([0, 1], {0})
+    assert (match.drivers.people, match.drivers.assisted) == ([0, 1], {0})
     assert match.runner.view.players[:2] == ["human", "human"]
     arcade.wait(COUNTDOWN + 2.0)
     assert match.match.state.tanks[0].shots == 0
@@ -305,9 +305,9 @@ def test_a_match_of_ais_never_asks(arcade: Arcade) -> None:
 def test_a_seat_without_a_device_is_driven_by_an_ai_that_gives_way(arcade: Arcade) -> None:
     match = MatchScene(arcade.context, setup("human human off off", 1.0), [KEYS[0], None])
     arcade.open(match)
-    assert match.ai_replaced == [1]
+    assert match.drivers.replaced == [1]
     arcade.press(Button.FIRE, KEYS[0])
-    assert match.ai_replaced == [1]
+    assert match.drivers.replaced == [1]
     arcade.press(Button.FIRE, KEYS[3])
     assert match.devices[1] == KEYS[3]
 
@@ -343,8 +343,8 @@ def test_hints_are_drawn_from_go_to_the_end(arcade: Arcade, monkeypatch: pytest.
     monkeypatch.setattr(match.runner, "draw_hints", lambda screen, devices: drawn.append(devices))
     match.draw(arcade.screen)
     assert drawn == []
-    while match.countdown.locked:
-        match.countdown.update(0.1)
+    while match.opening.countdown.locked:
+        match.opening.countdown.update(0.1)
     match.draw(arcade.screen)
     assert drawn == [match.devices]
     match.match.state.over = 1

@@ -41,7 +41,7 @@ def begin(arcade: Arcade, before: int = 0, device: Device = KEYS[0]) -> Rounds:
     for _ in range(before):
         rounds.add(played({0: 5, 1: 3}))
     scene = MatchScene(arcade.context, setup("human idle off off", MINUTES), [device], rounds=rounds)
-    scene.countdown.seconds_left = 0.1
+    scene.opening.countdown.seconds_left = 0.1
     arcade.open(scene)
     return rounds
 
@@ -49,7 +49,7 @@ def begin(arcade: Arcade, before: int = 0, device: Device = KEYS[0]) -> Rounds:
 def win(arcade: Arcade, seat: int = 0) -> MatchScene:
     """Play the round to its end; this seat wins 5 to 0."""
     scene = arcade.shown(MatchScene)
-    scene.countdown.seconds_left = 0.05
+    scene.opening.countdown.seconds_left = 0.05
     scene.match.state.robots[seat].score = 5
     arcade.until(lambda: scene.match.over)
     arcade.wait(FREEZE_SECONDS + 0.2)
@@ -116,7 +116,7 @@ def test_ending_the_match_in_a_break_shows_the_rounds_so_far(arcade: Arcade) -> 
 def test_ending_the_first_round_shows_that_round(arcade: Arcade) -> None:
     begin(arcade)
     scene = arcade.shown(MatchScene)
-    arcade.until(lambda: not scene.countdown.locked)
+    arcade.until(lambda: not scene.opening.countdown.locked)
     arcade.press(Button.START)
     menu(arcade, "end")
     arcade.until(lambda: isinstance(arcade.stack.top, Results), 5.0)
@@ -146,10 +146,10 @@ def test_a_pad_pulled_in_a_break_is_asked_for_and_an_ai_plays_the_next_round(arc
     arcade.until(lambda: arcade.stack.top is not scene, 10.0)
     second = arcade.shown(MatchScene)
     assert second.devices[0] is None
-    assert second.humans == [0]
-    assert second.ai_assisted == {0}
-    second.countdown.seconds_left = 0.05
-    arcade.until(lambda: not second.countdown.locked)
+    assert second.drivers.people == [0]
+    assert second.drivers.assisted == {0}
+    second.opening.countdown.seconds_left = 0.05
+    arcade.until(lambda: not second.opening.countdown.locked)
     arcade.press(Button.FIRE, KEYS[1])
     assert second.devices[0] == KEYS[1], "a free device takes the seat back"
 
@@ -161,7 +161,7 @@ def test_every_round_is_a_record_of_one_minute(arcade: Arcade) -> None:
     win(arcade)
     arcade.until(lambda: arcade.stack.top is not scene, 10.0)
     second = arcade.shown(MatchScene)
-    second.ai_assisted.add(0)
+    second.drivers.assisted.add(0)
     win(arcade)
     outcome = scene.rounds.outcome()
     assert outcome.rows[0].records == {"points": 5}

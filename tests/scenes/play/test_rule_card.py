@@ -9,7 +9,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.games.setup import make_setup
 from pigaming_app.scenes.play.caption_layout import caption_boxes, robot_boxes
 from pigaming_app.scenes.play.countdown import clear_of
-from pigaming_app.scenes.play.rule_card import ARENA, ROOM, SIGN, gap, in_lines, rule_card
+from pigaming_app.scenes.play.opening import ARENA, ROOM, SIGN, gap, in_lines, rule_card
 from pigaming_app.scenes.play.runner import CAPTION_GAP
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.views.background import LEFT, TOP
@@ -85,5 +85,5 @@ def test_the_card_is_there_before_the_match_and_not_after_a_pause(
         assert not shown()
         arcade.press(Button.START)
         arcade.press(Button.BACK)
-        assert scene.countdown.locked
+        assert scene.opening.countdown.locked
         assert not shown()

@@ -33,9 +33,9 @@ def played(arcade: Arcade) -> Iterator[tuple[MatchScene, VirtualPad, VirtualPad]
         arcade.frame()
         devices = [Device("pad", one.number), Device("pad", two.number), KEYS[0]]
         match = MatchScene(arcade.context, setup("human human human off", 1.0), devices)
-        match.countdown.seconds_left = 0.05
+        match.opening.countdown.seconds_left = 0.05
         arcade.open(match)
-        arcade.until(lambda: not match.countdown.locked)
+        arcade.until(lambda: not match.opening.countdown.locked)
         yield match, one, two
 
 
@@ -74,7 +74,7 @@ def test_a_pause_and_a_pulled_pad_stop_the_motors(
     arcade.wait(0.1)
     arcade.shown(Reconnect)
     assert one.rumbles[-1] == QUIET
-    match._rumble(1, TAKEN)
+    match.drivers.rumble(1, TAKEN)
 
 
 def test_the_motors_stand_still_after_the_match(

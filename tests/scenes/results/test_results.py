@@ -55,7 +55,7 @@ def opened(arcade: Arcade, brains: str, ended: Outcome, finished: bool = True, t
         ended,
         match,
         devices,
-        MatchScene(arcade.context, match, devices).rematch,
+        MatchScene(arcade.context, match, devices).sequel.rematch,
         finished,
         game_choice=game_choice,
     )
@@ -254,7 +254,7 @@ def test_eight_better_ones_long_ago_leave_todays_table(arcade: Arcade) -> None:
 def test_a_seat_for_which_an_ai_drove_claims_nothing(arcade: Arcade) -> None:
     match = setup("human human off off", 1.0)
     ended = outcome({0: 4, 1: 9}, (1,))
-    again = MatchScene(arcade.context, match, KEYS[:2]).rematch
+    again = MatchScene(arcade.context, match, KEYS[:2]).sequel.rematch
     results = Results(arcade.context, ended, match, [KEYS[0], KEYS[1], None, None], again, True, {1}, game_choice)
     assert [claim.seat for claim in results.claims] == [0]
 
@@ -331,7 +331,7 @@ def race(arcade: Arcade, lap: int, whole: int) -> Results:
         ended,
         match,
         devices,
-        MatchScene(arcade.context, match, devices).rematch,
+        MatchScene(arcade.context, match, devices).sequel.rematch,
         True,
         game_choice=game_choice,
     )

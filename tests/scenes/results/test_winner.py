@@ -31,7 +31,7 @@ def arcade(controls: Controls) -> Arcade:
 def moment(arcade: Arcade, brains: str, ended: Outcome, teams: tuple[int, ...] = (0, 1, 2, 3)) -> WinnersMoment:
     match = setup(brains, 1.0, teams)
     devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(match.seats)]
-    again = MatchScene(arcade.context, match, devices).rematch
+    again = MatchScene(arcade.context, match, devices).sequel.rematch
     results = Results(arcade.context, ended, match, devices, again, game_choice=game_choice)
     scene = WinnersMoment(arcade.context, results.ended, results)
     arcade.open(scene)

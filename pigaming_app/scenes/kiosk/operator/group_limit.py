@@ -10,6 +10,8 @@ from typing import Protocol, runtime_checkable
 from pigaming_app.scenes.features.registry import without_limit
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
+from pigaming_app.scenes.play.drivers import Drivers
+from pigaming_app.scenes.play.pause import Robots
 
 WARNED = 60.0  # s before the limit, from which the rest is shown
 STEP = 10  # s between two sentences: each new one costs a few milliseconds of a match
@@ -29,8 +31,8 @@ class Untimed(Protocol):
 class InMatch(Protocol):
     """A match that is being played."""
 
-    def advance_paused(self, seconds: float) -> None:
-        """Advance by `seconds` while a page is open."""
+    drivers: Drivers
+    robots: Robots
 
 
 class GroupLimit:

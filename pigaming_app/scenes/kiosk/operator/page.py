@@ -46,7 +46,7 @@ class OperatorPage(SettingsPage):
         """Keep a match below at rest."""
         for scene in self.below:
             if isinstance(scene, InMatch):
-                scene.advance_paused(seconds)
+                scene.robots.advance_paused(seconds)
         return None
 
     def held(self) -> StackOperation:

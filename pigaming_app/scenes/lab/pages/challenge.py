@@ -9,8 +9,9 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
 from pigaming_app.scenes.pages.sheet import Sheet
+from pigaming_app.scenes.play.drivers import new_seed
 from pigaming_app.scenes.play.pause import sheet_title
-from pigaming_app.scenes.play.scene import MatchScene, new_seed
+from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import LATE, LEAVE, hold_bar
 from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, Color, badge
 from pigaming_app.ui.draw.layers import Layer
@@ -33,7 +34,7 @@ class Challenge:
         off = Seat("off", 2), Seat("off", 3)
         setup = Setup(GAME, arena, (Seat("human", 0), Seat("learned", 1), *off), MINUTES, new_seed(), VARIANT)
         self.inner = MatchScene(context, setup, [device])
-        self.inner.join_allowed = False  # the robot's seat cannot be taken over
+        self.inner.drivers.may_join = False  # the robot's seat cannot be taken over
         self.inner.match.sit(ROBOT, BrainPlayer(kind, setup.seed))
         self.inner.runner.players[ROBOT] = kind.name
 

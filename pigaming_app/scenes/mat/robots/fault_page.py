@@ -87,7 +87,7 @@ class FaultPage:
         """Close once the fault is gone, or explained by a moved thing."""
         safety = self.match.plant.safety
         if not self._blocked:
-            self.match.advance_paused(seconds)
+            self.match.robots.advance_paused(seconds)
         elif places := self._examine(seconds):
             for robot in safety.latched:
                 self.match.plant.clear_fault(robot)
@@ -122,7 +122,7 @@ class FaultPage:
             robot = self.faults[0].robot if self.faults else None
             color = ALARM if robot is None else PLAYERS[robot]
             fault_caption = tuple((fault.name, fault.robot) for fault in self.faults)
-            self.picture = overlay(self.match.picture(), color, self._paint, fault_caption)
+            self.picture = overlay(self.match.runner.picture(), color, self._paint, fault_caption)
         screen.blit(self.picture, (0, 0))
         if self.match.plant.safety.stopped:
             image, dx, dy = timer_ring(FOCUS, min(48, round(48 * self.held / HOLD)), 40, LINE)
@@ -131,7 +131,7 @@ class FaultPage:
         if self.match.plant.safety.latched:
             self.repair_prompts.draw(screen)
         self.flood.draw(screen, "")
-        self.match.draw_overlay(screen)
+        self.match.robots.draw_overlay(screen)
         self.match.watch.note(screen)
 
     # ---- inside

@@ -4,10 +4,12 @@ handed over to a simulated robot and back.
 
 import logging
 from collections.abc import Callable, Collection, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import pygame
 
+from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import load, with_things
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
@@ -34,9 +36,9 @@ from pigaming_app.scenes.mat.robots.take_places import TakePlaces
 from pigaming_app.scenes.mat.things.match_watch import MatchWatch
 from pigaming_app.scenes.mat.things.moved_page import MovedPage
 from pigaming_app.scenes.mat.things.outlines import draw_things
-from pigaming_app.scenes.play.countdown import Countdown
+from pigaming_app.scenes.play.opening import LEAD_SECONDS
 from pigaming_app.scenes.play.reconnect import Reconnect
-from pigaming_app.scenes.play.scene import LEAD_SECONDS, NOTICE_SECONDS, MatchScene, fresh_rounds, rematch_setup
+from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.sim.arena import Arena, ArenaError
@@ -48,6 +50,7 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 
 IDLE = 180.0  # s without input while robots take their places, before the return to the title
+FAULT_SECONDS = 6.0  # s for which a minor fault is shown
 REPORTED_ONLY = ("low", "drifts", "deadman")  # faults that are only reported
 
 log = logging.getLogger("pigaming")
@@ -79,12 +82,13 @@ class RealMatch(MatchScene):
             context,
             setup,
             devices,
-            plant=lambda world: MixedPlant(world, rig, chosen),
             game_choice=game_choice,
             rounds=rounds,
             after=after,
-            arena=arena,
+            make=partial(new_match, plant=lambda world: MixedPlant(world, rig, chosen), arena=arena),
+            records=arena is None,
         )
+        self.robots, self.things = self, arena.things if arena else ()
         plant = self.match.plant
         assert isinstance(plant, MixedPlant)
         self.plant = plant
@@ -163,7 +167,7 @@ class RealMatch(MatchScene):
             return Push(FaultPage(self))
         if places := self.watch.places if not self.match.over else []:
             return Push(MovedPage(self, places))
-        if self.countdown.locked or self.match.over:
+        if self.opening.countdown.locked or self.match.over:
             self._stand_still(seconds)
         turn = super().update(seconds)
         self._report_faults()
@@ -187,7 +191,7 @@ class RealMatch(MatchScene):
     # ---- interface for the pages above
 
     @property
-    def extra_items(self) -> Mapping[str, Callable[[Access], Scene]]:
+    def items(self) -> Mapping[str, Callable[[Access], Scene]]:
         """Adds the robot swap page to the pause menu."""
         return {"robots": lambda access: SwapPage(self, access)}
 
@@ -197,7 +201,7 @@ class RealMatch(MatchScene):
         return self.gathering is not None or super().preparing
 
     @property
-    def robots_kind(self) -> str:
+    def kind(self) -> str:
         """What drives: simulated robots only, or emulated or real ones as well."""
         return "simulated" if not self.real else "emulated" if self.session.emulated else "real"
 
@@ -256,7 +260,7 @@ class RealMatch(MatchScene):
         specs = tuple(thing.spec for thing in layout.things)
         try:
             save_layout(self.session, layout)
-            arena = with_things(self.setup.game, load(self.setup.game, self.setup.arena), specs)
+            with_things(self.setup.game, load(self.setup.game, self.setup.arena), specs)
         except ArenaError as error:
             log.warning("%s", error)
             return False
@@ -265,42 +269,32 @@ class RealMatch(MatchScene):
         assert self.plant.things is not None
         if not same_mud(specs, self.things):
             self.restart()
-        self.arena, self.plant.things.wanted = arena, specs
+        self.things, self.plant.things.wanted, self.sequel.records = specs, specs, False
         return True
 
-    def rematch(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
-        """A rematch with a new seed and the same robots, from the first round."""
+    def again(self, setup: Setup, devices: Sequence[Device | None], rounds: Rounds | None) -> Scene:
+        """The same match, for which the robots drive to their places."""
         self.on_leave()
-        rounds = fresh_rounds(self.rounds)
-        return self.match_of(rematch_setup(setup, devices), devices, self.real, rounds=rounds, things=self.things)
+        return self.match_of(setup, devices, self.real, rounds=rounds, things=self.things)
 
-    def next_round(self) -> Scene:
-        """The next round, for which the robots drive to their places."""
-        self.on_leave()
-        setup = rematch_setup(self.setup, self.devices)
-        return self.match_of(setup, self.devices, self.real, rounds=self.rounds, things=self.things)
+    def note(self) -> None:
+        """Note the batteries of the robots."""
+        for robot in sorted(self.real):
+            report = self.plant.rig.telemetry(robot)
+            if report and report.battery:
+                self.context.day_log.add(Battery(now(), robot + 1, round(report.battery, 2)))
 
     # ---- inside
 
-    def _note(self) -> None:
-        """Note the match in the day log, with the batteries of its robots."""
-        before = self.noted
-        super()._note()
-        if self.noted and not before:
-            for robot in sorted(self.real):
-                report = self.plant.rig.telemetry(robot)
-                if report and report.battery:
-                    self.context.day_log.add(Battery(now(), robot + 1, round(report.battery, 2)))
-
     def _take_places(self, gathering: TakePlaces, seconds: float) -> StackOperation:
         """Drive the robots to their start positions."""
-        if lost := self.unplugged_seats:
+        if lost := self.drivers.unplugged:
             return Push(Reconnect(self, lost[0]))
         if self.access.update(seconds):
             self.context.sounds.play("back")
             return Pop()
         gathering.update(seconds)
-        self.signs.work(0.0)
+        self.opening.signs.work(0.0)
         self.runner.prewarm(4.0)
         for _ in range(self.waiting.due(seconds)):
             if self.plant.take_places():
@@ -321,8 +315,8 @@ class RealMatch(MatchScene):
         """Start the match from the robots' current positions."""
         self.gathering = None
         self.watch.resume()
-        self.countdown = Countdown(lead=LEAD_SECONDS)
-        self.idle = 0.0
+        self.opening.countdown.restart(1.0, LEAD_SECONDS)
+        self.drivers.quiet = 0.0
         self.context.sounds.play("ready", 0)
         self._mark_real()
 
@@ -351,13 +345,13 @@ class RealMatch(MatchScene):
             log.warning("%s", " ".join(sentences))
             if now[key].name in REPORTED_ONLY:
                 sentence = fault_sentence(now[key], self.context.words, "")
-                self.notice, self.noticed = caption(sentence, ALARM, player=now[key].robot), 2 * NOTICE_SECONDS
+                self.runner.notice.show(caption(sentence, ALARM, player=now[key].robot), FAULT_SECONDS)
         self.logged = set(now)
 
     def _publish(self) -> None:
         """Hand the state of the match to those who watch it."""
         if self.watchers:
-            waiting = self.gathering is not None or self.blocked or self.countdown.locked
+            waiting = self.gathering is not None or self.blocked or self.opening.countdown.locked
             state = match_state(self.match, self.plant.faults, waiting)
             for watch in self.watchers:
                 watch(state)

@@ -80,7 +80,7 @@ class PairAgain:
         for i, line in enumerate(paragraph(self.sentence, 1300, 3, ALARM, "c") if self.sentence else ()):
             line.draw(screen, 960, SAID_Y + 60 * i)
         self.flood.draw(screen, "")
-        self.match.draw_overlay(screen)
+        self.match.robots.draw_overlay(screen)
 
     @property
     def missing(self) -> list[int]:

@@ -48,12 +48,12 @@ class SwapPage(Sheet):
 
     def advance(self, seconds: float) -> StackOperation:
         """Keep all robots still."""
-        self.match.advance_paused(seconds)
+        self.match.robots.advance_paused(seconds)
         return None
 
     @property
     def behind(self) -> pygame.Surface:
-        return self.match.picture()
+        return self.match.runner.picture()
 
     def paint(self, screen: pygame.Surface) -> None:
         """Draw the state of each robot."""
@@ -67,7 +67,7 @@ class SwapPage(Sheet):
     def draw_foot(self, screen: pygame.Surface) -> None:
         """Draw what lies over every page of the match, too."""
         super().draw_foot(screen)
-        self.match.draw_overlay(screen)
+        self.match.robots.draw_overlay(screen)
 
     def paint_sheet(self, layer: Layer) -> None:
         sheet_title(layer, None, self.context.words("mat.which"), ICE)

@@ -11,6 +11,7 @@ from pigaming_app.hardware.scan.rig_scan import RigScan
 from pigaming_app.hardware.scan.things import Layout, LayoutError
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.hardware.session.things_on_mat import load_layout
+from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.mat.things.match_watch import MatchWatch
 from pigaming_app.scenes.mat.things.sweep_page import SweepPage
@@ -33,6 +34,7 @@ HEAD, BELOW = pygame.Rect(0, 0, 1920, 138), pygame.Rect(0, 138, 1920, 942)
 class MatchAmongThings(PausedMatch, Protocol):
     """A paused match with real robots among things."""
 
+    access: Access
     plant: MixedPlant
     session: RobotSession
     watch: MatchWatch
@@ -80,7 +82,7 @@ class MovedPage:
 
     def update(self, seconds: float) -> StackOperation:
         """Keep all robots still; take over a new scan."""
-        self.match.advance_paused(seconds)
+        self.match.robots.advance_paused(seconds)
         self.clock += seconds
         if self.layout is not None:
             layout, self.layout = self.layout, None
@@ -94,7 +96,7 @@ class MovedPage:
     def draw(self, screen: pygame.Surface) -> None:
         words = self.context.words
         if self.picture is None:
-            self.picture = self.match.picture()
+            self.picture = self.match.runner.picture()
             self.picture.fill("black", HEAD)
         screen.blit(self.picture, (0, 0))
         text(words("things.moved"), LABEL, ICE, "head", "l", 1600).draw(screen, 176, TITLE_Y)
@@ -107,7 +109,7 @@ class MovedPage:
         if self.sentence:
             caption(self.sentence, ALARM, size=BODY).draw(screen, 960, 540)
         text(words("things.put_back"), 34, MIST, "body", "c", 1600).draw(screen, 960, FOOT_Y)
-        self.match.draw_overlay(screen)
+        self.match.robots.draw_overlay(screen)
 
     # ---- inside
 
@@ -119,7 +121,8 @@ class MovedPage:
             before = Layout()
         self.sentence = ""
         self.context.sounds.play("accept")
-        return Push(SweepPage(self.context, session, match.plant.rig, before, match.advance_paused, self._scanned))
+        wait = match.robots.advance_paused
+        return Push(SweepPage(self.context, session, match.plant.rig, before, wait, self._scanned))
 
     def _scanned(self, work: RigScan, layout: Layout | None) -> None:
         self.layout = layout

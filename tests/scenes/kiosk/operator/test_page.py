@@ -111,7 +111,7 @@ def test_holding_fire_on_a_pad_ends_all_matches_and_stops_robots_first(arcade: A
         pad.release("a")
     assert stopped == [4]  # all scenes were still there
     assert arcade.stack.top is arcade.title
-    assert match.noted
+    assert match.sequel.noted
 
 
 def test_a_match_below_stands_still_and_goes_on(arcade: Arcade) -> None:

@@ -19,6 +19,7 @@ from pigaming_app.scenes.mat.radio.page import RadioPage
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.things.arena_page import ArenaPage
 from pigaming_app.scenes.mat.things.unplayable_page import UnplayablePage
+from pigaming_app.scenes.play.pause import SimulatedRobots
 from pigaming_app.storage.messages import OperatorMessage
 from tests.scenes.arcade import KEYS, Arcade, setup
 
@@ -42,9 +43,8 @@ def fault_page(arcade: Arcade, rule: SafetyRule) -> FaultPage:
         plant=SimpleNamespace(faults=faults, safety=safety, rig=SimpleNamespace(camera=cause, link=cause)),
         access=Access(arcade.context, lambda: KEYS),
         real={0, 1, 2, 3},
-        picture=lambda: pygame.Surface((1920, 1080)),
-        draw_overlay=lambda screen: None,
-        advance_paused=lambda seconds: None,
+        runner=SimpleNamespace(picture=lambda: pygame.Surface((1920, 1080))),
+        robots=SimulatedRobots(),
         advance_examined=lambda seconds: None,
         preparing=False,
         watch=SimpleNamespace(note=lambda screen: None, examine=lambda: None, places=[]),

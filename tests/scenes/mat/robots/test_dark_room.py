@@ -11,7 +11,7 @@ from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.robots.flood_light import FADE, LIGHT, UNSEEN
 from pigaming_app.scenes.mat.robots.match_scene import RealMatch
 from pigaming_app.scenes.mat.robots.take_places import TakePlaces
-from pigaming_app.scenes.play.start_match import match_of
+from pigaming_app.scenes.play.scene import match_of
 from tests.cases import one_in
 from tests.scenes.arcade import Arcade
 from tests.scenes.mat.robots.test_real_match import begun, match_for, play

@@ -9,7 +9,7 @@ from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.robots.match_scene import RealMatch
 from pigaming_app.scenes.mat.robots.pair_again import PairAgain
-from pigaming_app.scenes.play.start_match import match_of
+from pigaming_app.scenes.play.scene import match_of
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
 from tests.scenes.mat.robots.test_real_match import begun, match_for, play, until

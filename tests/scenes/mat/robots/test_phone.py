@@ -10,7 +10,7 @@ from pigaming_app.hardware.emulator.firmware import DEADMAN
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.mat.robots.match_scene import RealMatch
 from pigaming_app.scenes.play.reconnect import Reconnect
-from pigaming_app.scenes.play.start_match import match_of
+from pigaming_app.scenes.play.scene import match_of
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.input.phone_messages import BITS, Touches
 from pigaming_app.ui.input.phone_pads import Phones

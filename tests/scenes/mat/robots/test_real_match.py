@@ -22,8 +22,7 @@ from pigaming_app.scenes.mat.robots.swap_page import SwapPage
 from pigaming_app.scenes.mat.robots.unavailable import UnavailablePage
 from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.play.pause import Pause
-from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.scenes.play.start_match import match_of
+from pigaming_app.scenes.play.scene import MatchScene, match_of
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.storage.day_log import Battery, DayLog, PlayedMatch, read_day
@@ -315,7 +314,7 @@ def test_a_robot_whose_deadman_tripped_is_named_on_screen_and_once_in_the_log(
     match = begun(arcade)
     monkeypatch.setattr(mat.arena.firmwares[1], "_obey", lambda packet, now: None)
     play(arcade, 0.6)
-    assert match.notice is not None
+    assert match.runner.notice.box
     until(arcade, FaultPage, 2.0)
     play(arcade, 1.0)
     assert ("deadman", 1) in [(fault.name, fault.robot) for fault in arcade.shown(FaultPage).faults]

@@ -22,7 +22,7 @@ from pigaming_app.scenes.mat.replay_faults import ReplayFaults
 from pigaming_app.scenes.mat.replays import RealReplay
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.robots.match_scene import RealMatch
-from pigaming_app.scenes.play.start_match import match_of
+from pigaming_app.scenes.play.scene import match_of
 from pigaming_app.scenes.replays.watch import ReplayScene
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import Words

@@ -14,7 +14,7 @@ from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.mat.robots.match_scene import RealMatch
 from pigaming_app.scenes.mat.session import session_of
-from pigaming_app.scenes.play.start_match import match_of
+from pigaming_app.scenes.play.scene import match_of
 from pigaming_app.scenes.start import run
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.controls import Controls

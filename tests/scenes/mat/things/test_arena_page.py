@@ -23,7 +23,7 @@ from pigaming_app.scenes.mat.things.arena_page import ArenaPage
 from pigaming_app.scenes.mat.things.moved_page import MovedPage
 from pigaming_app.scenes.mat.things.sweep_page import SweepPage
 from pigaming_app.scenes.mat.things.unplayable_page import UnplayablePage
-from pigaming_app.scenes.play.start_match import match_of
+from pigaming_app.scenes.play.scene import match_of
 from pigaming_app.sim.things.spec import Use
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
@@ -131,9 +131,9 @@ def test_results_among_things_are_no_records_and_a_rematch_keeps_the_things(simu
     keep(simulated, thing(ThingKind.TALL, 700.0, 300.0, 90.0, 60.0))
     match = match_of(simulated.context, match_for("pitanks", "level1 level1 off off", 2.0), [], (0, 1))
     assert isinstance(match, RealMatch)
-    assert match._without_records == range(4)
+    assert match.sequel.without_records == range(4)
     keep(simulated)
-    again = match.rematch(simulated.context, match.setup, [])
+    again = match.sequel.rematch(simulated.context, match.setup, [])
     assert isinstance(again, RealMatch)
     assert again.things == match.things != ()
 
@@ -242,7 +242,7 @@ def test_a_block_that_is_moved_by_hand_is_a_wall_where_it_is_and_in_the_replay(
     frames(arcade, mat, lambda _, at=match.match.seconds: match.match.seconds > at + 1.0, 5.0)  # type: ignore[misc]
     shown = (match.plant.shown_things or ())[0].middle
     assert shown == pytest.approx(tuple(mat.arena.outline(moved).mean(axis=0).tolist()), abs=3.0)
-    assert match._without_records == range(4)
+    assert match.sequel.without_records == range(4)
     replay = replay_of(match.match)
     assert replay is not None
     assert verify(decode(pack(replay), "match"))
