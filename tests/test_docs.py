@@ -35,7 +35,7 @@ from pigaming_app.games.factory import layout as floor
 from pigaming_app.games.factory import pedestrians as walker
 from pigaming_app.games.factory import rules as factory_rules
 from pigaming_app.games.factory import stars, state
-from pigaming_app.games.factory.start import Rules as FactoryRules
+from pigaming_app.games.factory.start import FactoryRules as FactoryRules
 from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks import state as pitanks
 from pigaming_app.games.race import circuit, furniture, party, passages, recovery
@@ -55,7 +55,7 @@ from pigaming_app.ui.i18n import LANGUAGES, Words
 race = import_module("pigaming_app.games.race.start")  # the package's own name `start` is a function
 
 GAME_OF = {"PiTanks": "pitanks", "Robot Factory": "factory", "Robot Race": "race"}
-RULES = {"pitanks": pitanks.Rules, "factory": FactoryRules, "race": race_state.Rules}
+RULES = {"pitanks": pitanks.PiTanksRules, "factory": FactoryRules, "race": race_state.RaceRules}
 CONSTANTS = {  # by section of docs/games.md, the modules in which its constants are looked up
     "Units, arena, robots": (world, robots, drivetrain, action, contact, driving, steering_help),
     "PiTanks": (pitanks, arena),

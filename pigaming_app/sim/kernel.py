@@ -121,11 +121,11 @@ def _loop_cache() -> Any:
         def get_disambiguator(self) -> str:
             return self._module
 
-    class Results(caching.CompileResultCacheImpl):  # type: ignore[misc]
+    class LoopResults(caching.CompileResultCacheImpl):  # type: ignore[misc]
         _locator_classes = (Folder,)
 
     class LoopCache(caching.FunctionCache):  # type: ignore[misc]
-        _impl_class = Results
+        _impl_class = LoopResults
 
         def _index_key(self, signature: Any, codegen: Any) -> str:
             """A key with files of its own, so that processes that compile side by side do not mix theirs up."""

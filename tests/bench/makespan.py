@@ -29,7 +29,7 @@ from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.factory.start import PALLETS, set_rules
-from pigaming_app.games.factory.state import ENTRY, EXIT, INPUT, OUTPUT, A, B, Rules
+from pigaming_app.games.factory.state import ENTRY, EXIT, INPUT, OUTPUT, A, B, FactoryRules
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 from tests.bench.makespan_bound import bound, nearest
@@ -107,7 +107,7 @@ def reference(floor: str, robots: int, pallets: int) -> float:
     """The relaxed lower bound of the makespan for a number of robots and pallets, s."""
     plan, starts = load("factory", floor).plan, load("factory", floor).starts
     nobody = Seat("off", 0)
-    rules = Rules()
+    rules = FactoryRules()
     set_rules(rules, Setup("factory", floor, (nobody,) * 4, MINUTES, 1, "standard", pallets))
     resting = rules.turbo_refill / (rules.turbo_refill + rules.turbo_drain)
     speed = rules.speed * (1.0 + (rules.turbo_factor - 1.0) * resting)

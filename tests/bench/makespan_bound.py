@@ -33,7 +33,7 @@ from typing import Any
 
 from pigaming_app.games.arenas import load
 from pigaming_app.games.factory.pedestrians import ARRIVED_NEAR_ROBOT
-from pigaming_app.games.factory.state import ENTRY, EXIT, INPUT, OUTPUT, A, Rules
+from pigaming_app.games.factory.state import ENTRY, EXIT, INPUT, OUTPUT, A, FactoryRules
 from pigaming_app.sim.world import DT
 
 Point = tuple[float, float]
@@ -43,7 +43,7 @@ class Floor:
     """Shortest times on a floor for one team, s."""
 
     def __init__(self, floor: str, team: int, robots: int, pallets: int) -> None:
-        arena, self.rules = load("factory", floor), Rules()
+        arena, self.rules = load("factory", floor), FactoryRules()
         plan, self.pallets = arena.plan, pallets
         entry, leave = ([(s.x, s.y) for s in plan.slots if s.team == team and s.kind == kind] for kind in (ENTRY, EXIT))
         of = {(s.machine, s.kind): (s.x, s.y) for s in plan.slots if s.machine >= 0}

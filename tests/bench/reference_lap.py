@@ -28,7 +28,7 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.race.course import POINTS, Course
 from pigaming_app.games.race.start import set_rules
-from pigaming_app.games.race.state import MAX_LAPS, Rules
+from pigaming_app.games.race.state import MAX_LAPS, RaceRules
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import compiled, kernel
 from pigaming_app.sim.robot import RADIUS
@@ -55,7 +55,7 @@ STUCK, STUCK_PX = 3 * HZ, 10.0  # ticks with the stick pushed, and px within whi
 
 def reference(course: Course) -> float:
     """Time of the fastest flying lap, s."""
-    rules, nobody = Rules(), Seat("off", 0)
+    rules, nobody = RaceRules(), Seat("off", 0)
     set_rules(rules, Setup("race", "", (nobody, nobody, nobody, nobody), 1.0, 1, "standard"))
     ring = np.zeros((POINTS, 4))  # x, y, way, half
     for i in range(POINTS):

@@ -12,7 +12,7 @@ from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, PERSON, PETALS, WAY, 
 from pigaming_app.ai.factory.driving import LOOK, ROBOT_ROOM, free_distance
 from pigaming_app.ai.factory.mind import STUCK_TICKS
 from pigaming_app.ai.factory.task_allocation import NO, QUEUE, ForemanMind, cheapest_place, cost_of, distance_to
-from pigaming_app.games.factory.observation import Observation, SlotView
+from pigaming_app.games.factory.observation import FactoryObservation, SlotView
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, INPUT, OUTPUT, RAW, B, Factory
 
 DEAR = 2600.0  # cost of a job with utility 0, px
@@ -40,7 +40,7 @@ def explain(match: Factory, seat: int, mind: ForemanMind, weights: NoWeights) ->
     )
 
 
-def _behaviour(obs: Observation, mind: ForemanMind, slot: SlotView) -> tuple[str, str]:
+def _behaviour(obs: FactoryObservation, mind: ForemanMind, slot: SlotView) -> tuple[str, str]:
     """Text keys of the present behaviour and its reason."""
     if obs.frozen:
         return "frozen", "bumped"
@@ -62,7 +62,7 @@ def _behaviour(obs: Observation, mind: ForemanMind, slot: SlotView) -> tuple[str
     return bring, "rush" if obs.rush else "fast" if slot.fast else LOADS[obs.carries - 1]
 
 
-def _chosen(obs: Observation, mind: ForemanMind, slot: SlotView, behaviour: str) -> str:
+def _chosen(obs: FactoryObservation, mind: ForemanMind, slot: SlotView, behaviour: str) -> str:
     if behaviour == "free":
         return "free"
     if mind.near or behaviour in ("frozen", "ponder"):
@@ -70,7 +70,7 @@ def _chosen(obs: Observation, mind: ForemanMind, slot: SlotView, behaviour: str)
     return "put" if obs.carries else LOADS.get(slot.holds - 1, "wait")
 
 
-def _utilities(obs: Observation, mind: ForemanMind) -> dict[str, float]:
+def _utilities(obs: FactoryObservation, mind: ForemanMind) -> dict[str, float]:
     """Utilities: for each state of a pallet that of its best job; for putting down, higher the nearer the place."""
     utilities = dict.fromkeys(JOBS, 0.0)
     for s in range(obs.slot_count):
@@ -86,7 +86,7 @@ def _utilities(obs: Observation, mind: ForemanMind) -> dict[str, float]:
     return utilities
 
 
-def _facts(obs: Observation, mind: ForemanMind) -> dict[str, float]:
+def _facts(obs: FactoryObservation, mind: ForemanMind) -> dict[str, float]:
     return {
         "target": mind.target,
         "carries": obs.carries,
@@ -100,7 +100,7 @@ def _facts(obs: Observation, mind: ForemanMind) -> dict[str, float]:
     }
 
 
-def _percepts(obs: Observation, mind: ForemanMind, behaviour: str) -> Iterator[Percept]:
+def _percepts(obs: FactoryObservation, mind: ForemanMind, behaviour: str) -> Iterator[Percept]:
     """Nearby people and robots, and the route to the slot."""
     for person in obs.people:
         if person.distance < 2.0 * LOOK:
@@ -114,7 +114,7 @@ def _percepts(obs: Observation, mind: ForemanMind, behaviour: str) -> Iterator[P
         yield Percept(GOAL, obs.slots[mind.target].x, obs.slots[mind.target].y)
 
 
-def _rose(obs: Observation, mind: ForemanMind, behaviour: str) -> list[float]:
+def _rose(obs: FactoryObservation, mind: ForemanMind, behaviour: str) -> list[float]:
     """Attraction along the route, repulsion from blocked directions."""
     blocked = [clamp(free_distance(obs, tau * k / PETALS, ROBOT_ROOM) / LOOK) - 1.0 for k in range(PETALS)]
     if behaviour in ("frozen", "ponder"):

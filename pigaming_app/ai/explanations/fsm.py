@@ -9,7 +9,7 @@ from math import cos, pi, sin
 from pigaming_app.ai.brain.kind import NoWeights
 from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PRIZE, WAY, Percept, Thoughts, blend, clamp, towards
 from pigaming_app.ai.pitanks import fsm
-from pigaming_app.games.pitanks.observation import Observation
+from pigaming_app.games.pitanks.observation import PiTanksObservation
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, ROBOTS, Action
@@ -50,7 +50,7 @@ def explain(match: PiTanks, seat: int, mind: fsm.FsmMind, weights: NoWeights) ->
 CHOSEN = {"free": "free", "dodge": "dodge", "duel": "fire", "collect": "collect"}
 
 
-def _behaviour(obs: Observation, mind: fsm.FsmMind) -> str:
+def _behaviour(obs: PiTanksObservation, mind: fsm.FsmMind) -> str:
     """Text key of the present behaviour."""
     if mind.state == fsm.BREAK_FREE:
         return "free"
@@ -69,7 +69,7 @@ def _behaviour(obs: Observation, mind: fsm.FsmMind) -> str:
     return "wait" if waits else "cover"
 
 
-def dodges(obs: Observation) -> bool:
+def dodges(obs: PiTanksObservation) -> bool:
     """True if `fsm.dodge` would override the stick."""
     action = Action()
     action.linear = UNTOUCHED
@@ -77,7 +77,7 @@ def dodges(obs: Observation) -> bool:
     return action.linear != UNTOUCHED
 
 
-def _reason(obs: Observation, mind: fsm.FsmMind, behaviour: str) -> str:
+def _reason(obs: PiTanksObservation, mind: fsm.FsmMind, behaviour: str) -> str:
     if behaviour in ("free", "dodge", "collect", "idle"):
         return {"free": "stuck", "dodge": "bullet", "collect": "near", "idle": ""}[behaviour]
     if behaviour == "duel":
@@ -89,14 +89,14 @@ def _reason(obs: Observation, mind: fsm.FsmMind, behaviour: str) -> str:
     return "no_cover" if not obs.cover else "nobody" if mind.unseen > mind.patience else "level"
 
 
-def _cover(obs: Observation, mind: fsm.FsmMind) -> float:
+def _cover(obs: PiTanksObservation, mind: fsm.FsmMind) -> float:
     """Utility of cover; in a level match it falls while no opponent is in sight."""
     if not obs.cover or obs.lead < 0 or mind.target < 0:
         return 0.0
     return 1.0 if obs.lead > 0 else clamp(1.0 - mind.unseen / max(1, mind.patience))
 
 
-def _fire(obs: Observation, mind: fsm.FsmMind) -> float:
+def _fire(obs: PiTanksObservation, mind: fsm.FsmMind) -> float:
     """Utility of firing: 1 if the gun points within the target, less the farther it is off."""
     if mind.target < 0 or not mind.seen or not obs.loaded:
         return 0.0
@@ -105,7 +105,7 @@ def _fire(obs: Observation, mind: fsm.FsmMind) -> float:
     return clamp(wide / (abs(other.aim + mind.bias) + 1e-9))
 
 
-def _facts(obs: Observation, mind: fsm.FsmMind) -> dict[str, float]:
+def _facts(obs: PiTanksObservation, mind: fsm.FsmMind) -> dict[str, float]:
     return {
         "state": mind.state,
         "lead": obs.lead,
@@ -119,7 +119,7 @@ def _facts(obs: Observation, mind: fsm.FsmMind) -> dict[str, float]:
     }
 
 
-def percepts(match: PiTanks, obs: Observation, mind: fsm.TankMind, behaviour: str) -> Iterator[Percept]:
+def percepts(match: PiTanks, obs: PiTanksObservation, mind: fsm.TankMind, behaviour: str) -> Iterator[Percept]:
     """The target, the most urgent bullet, and the route to its goal."""
     if mind.target >= 0:
         other = obs.others[mind.target]
@@ -135,7 +135,7 @@ def percepts(match: PiTanks, obs: Observation, mind: fsm.TankMind, behaviour: st
             yield Percept(PRIZE if behaviour == "collect" else GOAL, route.goal_x, route.goal_y, bool(obs.straight))
 
 
-def _rose(obs: Observation, mind: fsm.FsmMind, behaviour: str) -> list[float]:
+def _rose(obs: PiTanksObservation, mind: fsm.FsmMind, behaviour: str) -> list[float]:
     """Direction in which it drives or points the gun; repulsion from a bullet."""
     if behaviour == "free":
         wanted = towards(0.0 if mind.escape > 0.0 else pi)

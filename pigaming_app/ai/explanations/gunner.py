@@ -10,7 +10,7 @@ from pigaming_app.ai.brain.thoughts import Thoughts, blend, clamp, towards
 from pigaming_app.ai.explanations.fsm import SOON, dodges, percepts
 from pigaming_app.ai.pitanks import fsm, gunner
 from pigaming_app.ai.pitanks.gunner import GunnerMind
-from pigaming_app.games.pitanks.observation import Observation
+from pigaming_app.games.pitanks.observation import PiTanksObservation
 from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.robot import RADIUS
@@ -38,7 +38,7 @@ def explain(match: PiTanks, seat: int, mind: GunnerMind, weights: NoWeights) -> 
     )
 
 
-def _behaviour(obs: Observation, mind: GunnerMind) -> str:
+def _behaviour(obs: PiTanksObservation, mind: GunnerMind) -> str:
     """Text key of the present behaviour."""
     if obs.knocked_out:
         return "out"
@@ -55,11 +55,11 @@ def _behaviour(obs: Observation, mind: GunnerMind) -> str:
     return "hunt"
 
 
-def _dodges(obs: Observation) -> bool:
+def _dodges(obs: PiTanksObservation) -> bool:
     return bool(obs.threat > obs.protected * DT and dodges(obs))
 
 
-def _reason(obs: Observation, mind: GunnerMind, behaviour: str) -> str:
+def _reason(obs: PiTanksObservation, mind: GunnerMind, behaviour: str) -> str:
     """Text key of the reason."""
     fixed = {"out": "hit", "free": "stuck", "dodge": "bullet", "collect": "near", "watch": "wonders", "idle": ""}
     if behaviour in fixed:
@@ -78,7 +78,7 @@ def _reason(obs: Observation, mind: GunnerMind, behaviour: str) -> str:
     return "sees" if behaviour == "duel" else "nearest"
 
 
-def _utilities(match: PiTanks, obs: Observation, mind: GunnerMind) -> dict[str, float]:
+def _utilities(match: PiTanks, obs: PiTanksObservation, mind: GunnerMind) -> dict[str, float]:
     """Utility of each behaviour; `wait` only for a strength that watches its shots."""
     attack = fire = swing = wait = 0.0
     if mind.target >= 0:
@@ -117,7 +117,7 @@ def _facts(match: PiTanks, seat: int, mind: GunnerMind) -> dict[str, float]:
     }
 
 
-def _rose(obs: Observation, mind: GunnerMind, behaviour: str) -> list[float]:
+def _rose(obs: PiTanksObservation, mind: GunnerMind, behaviour: str) -> list[float]:
     """Direction in which it drives or points the gun; repulsion from a bullet."""
     if behaviour == "free":
         wanted = towards(0.0 if mind.escape > 0.0 else pi)

@@ -11,7 +11,7 @@ from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, Percept, Thoughts, bl
 from pigaming_app.ai.race import overtaking, racer
 from pigaming_app.ai.race.overtaking import CLEAR, EDGE, FAR, lane_cost, leader_speed
 from pigaming_app.ai.race.racer import RacerMind
-from pigaming_app.games.race.observation import OTHERS, Feature, Observation
+from pigaming_app.games.race.observation import OTHERS, CourseFeature, RaceObservation
 from pigaming_app.games.race.state import Race
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.world import ROBOTS, Action
@@ -52,7 +52,7 @@ def explain(match: Race, seat: int, mind: RacerMind, weights: NoWeights) -> Thou
     )
 
 
-def _behaviour(obs: Observation, mind: RacerMind, action: Action) -> str:
+def _behaviour(obs: RaceObservation, mind: RacerMind, action: Action) -> str:
     """Text key of the present behaviour."""
     if obs.finished:  # its actions no longer move the robot
         return "done"
@@ -79,7 +79,7 @@ def _behaviour(obs: Observation, mind: RacerMind, action: Action) -> str:
     return "bend" if obs.pace < SLOW else "race"
 
 
-def _lane_change(obs: Observation, mind: RacerMind) -> str:
+def _lane_change(obs: RaceObservation, mind: RacerMind) -> str:
     """Text key of the reason to leave its own line: oil on it, a pad or a box beside it, else a robot."""
     own = mind.line * obs.ahead.ideal
     if not obs.shield and any(_near(oil, own, mind, overtaking.SLICK_HALF) for oil in obs.oils):
@@ -91,12 +91,12 @@ def _lane_change(obs: Observation, mind: RacerMind) -> str:
     return "pass_left" if mind.lane < own else "pass_right"
 
 
-def _near(feature: Feature, lane: float, mind: RacerMind, half: float) -> bool:
+def _near(feature: CourseFeature, lane: float, mind: RacerMind, half: float) -> bool:
     """True if a feature on this lane is near enough to be considered."""
     return bool(feature.present and feature.ahead < mind.foresight and abs(feature.aside - lane) < half)
 
 
-def _utilities(obs: Observation, mind: RacerMind) -> dict[str, float]:
+def _utilities(obs: RaceObservation, mind: RacerMind) -> dict[str, float]:
     """Utilities of lanes (of another lane, higher the more its own is blocked) and of speed changes."""
     mark = obs.ahead
     room, own = mark.half - EDGE, mind.line * mark.ideal
@@ -115,7 +115,7 @@ def _utilities(obs: Observation, mind: RacerMind) -> dict[str, float]:
     }
 
 
-def _goal(obs: Observation, mind: RacerMind) -> tuple[float, float]:
+def _goal(obs: RaceObservation, mind: RacerMind) -> tuple[float, float]:
     """The point it steers to, arena px."""
     if mind.state == racer.GO_BACK or obs.past > racer.SLACK:
         return obs.return_x, obs.return_y
@@ -126,13 +126,13 @@ def _goal(obs: Observation, mind: RacerMind) -> tuple[float, float]:
     return mark.x + aside * mark.right_x, mark.y + aside * mark.right_y
 
 
-def _ahead(obs: Observation) -> int:
+def _ahead(obs: RaceObservation) -> int:
     """Index of the nearest robot ahead, else alongside; -1 if none is near."""
     near = [i for i in range(OTHERS) if obs.others[i].present and -CLEAR < obs.others[i].ahead < FAR]
     return min(near, key=lambda i: (obs.others[i].ahead <= 0.0, obs.others[i].distance), default=-1)
 
 
-def _facts(obs: Observation, mind: RacerMind) -> dict[str, float]:
+def _facts(obs: RaceObservation, mind: RacerMind) -> dict[str, float]:
     return {
         "state": mind.state,
         "place": obs.rank,
@@ -148,13 +148,13 @@ def _facts(obs: Observation, mind: RacerMind) -> dict[str, float]:
     }
 
 
-def _percepts(obs: Observation, first: int, x: float, y: float) -> Iterator[Percept]:
+def _percepts(obs: RaceObservation, first: int, x: float, y: float) -> Iterator[Percept]:
     if first >= 0:
         yield Percept(OPPONENT, obs.others[first].x, obs.others[first].y)
     yield Percept(GOAL, x, y)
 
 
-def _rose(obs: Observation, mind: RacerMind, x: float, y: float) -> list[float]:
+def _rose(obs: RaceObservation, mind: RacerMind, x: float, y: float) -> list[float]:
     """Attraction to the goal, repulsion from close robots."""
     if mind.state == racer.BREAK_FREE:
         return towards(0.0 if mind.escape > 0.0 else pi)

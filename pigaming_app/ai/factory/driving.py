@@ -1,13 +1,10 @@
-"""Driving of the factory brain: reach a slot round walls, robots and people, and use the fork there.
-
-In every function `obs` is the Observation, `mind` a Mind and `action` the seat's Action to set.
-"""
+"""Driving of the factory brain: reach a slot round walls, robots and people, and use the fork there."""
 
 from math import cos, pi, sin, sqrt
 
 from pigaming_app.ai.brain.steering import turn_stick
 from pigaming_app.ai.factory.mind import FAR, PERIOD, Mind, keep_patience
-from pigaming_app.games.factory.observation import OTHERS, Observation, SlotView
+from pigaming_app.games.factory.observation import OTHERS, FactoryObservation, SlotView
 from pigaming_app.games.factory.state import WORKERS
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.grid import node_at
@@ -28,7 +25,7 @@ PERSON_ROOM = 70.0  # px between the centres of a robot and a person it passes
 
 
 @kernel
-def drive_to(obs: Observation, mind: Mind, action: Action) -> None:
+def drive_to(obs: FactoryObservation, mind: Mind, action: Action) -> None:
     """Drive to the target slot; once there, turn to it and use the fork."""
     slot, route = obs.slots[mind.target], mind.senses.route
     moved = not route.active or route.goal_x != slot.x or route.goal_y != slot.y
@@ -46,7 +43,7 @@ def drive_to(obs: Observation, mind: Mind, action: Action) -> None:
 
 
 @kernel
-def make_way(obs: Observation, mind: Mind, action: Action) -> None:
+def make_way(obs: FactoryObservation, mind: Mind, action: Action) -> None:
     """Wait clear of people and of the slot, driving to and fro in arcs."""
     speed, turn = LOITER if obs.seconds_left % (2.0 * TO_AND_FRO) < TO_AND_FRO else -LOITER, LOITER_TURN
     if obs.goal_distance < STAND_OFF - 40.0:
@@ -64,14 +61,14 @@ def make_way(obs: Observation, mind: Mind, action: Action) -> None:
 
 
 @kernel
-def draw_back(obs: Observation, action: Action) -> None:
+def draw_back(obs: FactoryObservation, action: Action) -> None:
     """Draw back slowly, unless a person or a robot is close behind."""
     behind = free_distance(obs, pi, ROBOT_ROOM)
     set_action(action, -DRAW_BACK if behind > 40.0 else 0.0, 0.3, 0, 0)
 
 
 @kernel
-def handle(obs: Observation, mind: Mind, action: Action, slot: SlotView) -> None:
+def handle(obs: FactoryObservation, mind: Mind, action: Action, slot: SlotView) -> None:
     """Turn to the slot, bring the fork over it and press fire."""
     dx, dy = obs.fork_x - slot.x, obs.fork_y - slot.y
     if dx * dx + dy * dy < AT * AT:
@@ -86,7 +83,7 @@ def handle(obs: Observation, mind: Mind, action: Action, slot: SlotView) -> None
 
 
 @kernel
-def follow_route(obs: Observation, mind: Mind, action: Action) -> None:
+def follow_route(obs: FactoryObservation, mind: Mind, action: Action) -> None:
     """Follow the route, or the free direction nearest to it if people or robots block it."""
     bearing = obs.waypoint_bearing
     free = False
@@ -109,7 +106,7 @@ def follow_route(obs: Observation, mind: Mind, action: Action) -> None:
 
 
 @kernel
-def free_distance(obs: Observation, turn: float, robots: float) -> float:
+def free_distance(obs: FactoryObservation, turn: float, robots: float) -> float:
     """Free distance in direction `turn` (rad, relative to the heading), px; 1000 if nothing is in the way.
 
     It ends PERSON_ROOM px from a person or `robots` px from a robot.
@@ -137,7 +134,7 @@ def free_gap(distance: float, bearing: float, clearance: float) -> float:
 
 
 @kernel
-def update_patience(obs: Observation, mind: Mind) -> None:
+def update_patience(obs: FactoryObservation, mind: Mind) -> None:
     """`keep_patience`, with progress measured along the route."""
     left = obs.goal_distance
     if not obs.straight:
@@ -146,7 +143,7 @@ def update_patience(obs: Observation, mind: Mind) -> None:
 
 
 @kernel
-def make_detour(obs: Observation, mind: Mind, action: Action) -> None:
+def make_detour(obs: FactoryObservation, mind: Mind, action: Action) -> None:
     """Drive towards another slot for a while, so that the route to the target changes."""
     slot, route = obs.slots[mind.via], mind.senses.route
     moved = route.goal_x != slot.x or route.goal_y != slot.y

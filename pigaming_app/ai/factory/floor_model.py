@@ -1,12 +1,12 @@
 """A small model of the floor for the planner: pallets, machines, workers and robots with the times when they are free.
 
-All times are in seconds from now, positions in px. In every function `obs` is the Observation and `model` a Model.
+All times are in seconds from now, positions in px.
 """
 
 from math import sqrt
 from typing import Annotated
 
-from pigaming_app.games.factory.observation import OTHERS, Observation
+from pigaming_app.games.factory.observation import OTHERS, FactoryObservation
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, MACHINE_SLOTS, MACHINES, RAW, WORKERS, A
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -81,7 +81,7 @@ class Model:
 
 
 @kernel
-def survey(obs: Observation, model: Model) -> None:
+def survey(obs: FactoryObservation, model: Model) -> None:
     """Fill in the model from the observation."""
     model.lot_count = 0
     survey_helpers(obs, model)
@@ -106,7 +106,7 @@ def add_lot(model: Model, state: int, lies: int, ready: float, rush: float) -> i
 
 
 @kernel
-def survey_helpers(obs: Observation, model: Model) -> None:
+def survey_helpers(obs: FactoryObservation, model: Model) -> None:
     """Fill in the workers: those at a machine are busy until it is done."""
     for w in range(WORKERS):
         person, helper = obs.people[w], model.helpers[w]
@@ -119,7 +119,7 @@ def survey_helpers(obs: Observation, model: Model) -> None:
 
 
 @kernel
-def survey_machine(obs: Observation, model: Model, m: int) -> None:
+def survey_machine(obs: FactoryObservation, model: Model, m: int) -> None:
     """Fill in machine m, and add the pallets that it holds."""
     bench, s = model.benches[m], MACHINE_SLOTS + 2 * m + 1
     into, out = obs.slots[s - 1], obs.slots[s]
@@ -152,7 +152,7 @@ def survey_machine(obs: Observation, model: Model, m: int) -> None:
 
 
 @kernel
-def survey_hands(obs: Observation, model: Model) -> None:
+def survey_hands(obs: FactoryObservation, model: Model) -> None:
     """Fill in the robots of the team, and add what they carry."""
     hand = model.hands[0]
     hand.x, hand.y, hand.free, hand.lot, hand.first, hand.into = obs.x, obs.y, obs.frozen * DT, 0, 0, 0

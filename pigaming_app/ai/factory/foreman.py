@@ -16,7 +16,7 @@ from pigaming_app.ai.brain.kind import BrainKind, NoWeights
 from pigaming_app.ai.factory.driving import draw_back, drive_to, make_detour, update_patience
 from pigaming_app.ai.factory.mind import PERIOD, PLAN, back_out, detect_stuck, perhaps_slip
 from pigaming_app.ai.factory.task_allocation import ForemanMind, choose_job
-from pigaming_app.games.factory.observation import Observation, observe
+from pigaming_app.games.factory.observation import FactoryObservation, observe
 from pigaming_app.games.factory.state import Factory
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
@@ -38,7 +38,7 @@ def think(match: Factory, seat: int, mind: ForemanMind, weights: NoWeights) -> N
 
 
 @kernel
-def act(obs: Observation, mind: ForemanMind, action: Action) -> None:
+def act(obs: FactoryObservation, mind: ForemanMind, action: Action) -> None:
     """Allocate a job when due, then work on it."""
     if obs.carries != mind.carried:  # a job has just ended
         mind.carried, mind.plan_in, mind.resting = obs.carries, 0, mind.pause

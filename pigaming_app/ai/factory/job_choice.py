@@ -1,7 +1,4 @@
-"""Choice of the next job by schedules: for each one that is possible now, the cheapest schedule that begins with it.
-
-In every function `obs` is the Observation and `mind` a PlannerMind.
-"""
+"""Choice of the next job by schedules: for each one that is possible now, the cheapest schedule that begins with it."""
 
 from pigaming_app.ai.factory.driving import STAND_OFF
 from pigaming_app.ai.factory.floor_model import NEVER
@@ -9,7 +6,7 @@ from pigaming_app.ai.factory.mind import AVOID_TICKS, Mind
 from pigaming_app.ai.factory.navigation import Ways
 from pigaming_app.ai.factory.schedule import Plan, cheapest_schedule, look, promised
 from pigaming_app.ai.factory.task_allocation import cheapest_place, distance_to, waiting_place
-from pigaming_app.games.factory.observation import OTHERS, Observation
+from pigaming_app.games.factory.observation import OTHERS, FactoryObservation
 from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, MACHINE_SLOTS, MACHINES
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -36,7 +33,7 @@ class PlannerMind(Mind):
 
 
 @kernel
-def plan_job(obs: Observation, mind: PlannerMind) -> None:
+def plan_job(obs: FactoryObservation, mind: PlannerMind) -> None:
     """Set `mind.target`, `mind.wait` and `mind.near`."""
     mind.near, mind.wait = 0, 0.0
     best = -1
@@ -59,7 +56,7 @@ def plan_job(obs: Observation, mind: PlannerMind) -> None:
 
 
 @kernel
-def keep_exit(obs: Observation, mind: PlannerMind) -> None:
+def keep_exit(obs: FactoryObservation, mind: PlannerMind) -> None:
     """Stay with the slot of the exit that it drives to, as long as it can be reached and used.
 
     The nearest one may change with every turn round an obstacle, and with it the way round.
@@ -72,7 +69,7 @@ def keep_exit(obs: Observation, mind: PlannerMind) -> None:
 
 
 @kernel
-def parking_place(obs: Observation) -> int:
+def parking_place(obs: FactoryObservation) -> int:
     """Slot to wait at when there is nothing to do: of the own entry, the nearest that is not near a mate."""
     best, least = 0, NEVER
     for s in range(MACHINE_SLOTS):
@@ -91,7 +88,7 @@ def parking_place(obs: Observation) -> int:
 
 
 @kernel
-def cost_of_job(obs: Observation, mind: PlannerMind, s: int) -> float:
+def cost_of_job(obs: FactoryObservation, mind: PlannerMind, s: int) -> float:
     """Cost of the cheapest schedule from `mind.plan.now` on, which begins at slot s, s."""
     cost = cheapest_schedule(obs, mind.plan)
     if mind.target == s:
@@ -104,7 +101,7 @@ def cost_of_job(obs: Observation, mind: PlannerMind, s: int) -> float:
 
 
 @kernel
-def best_lot(obs: Observation, mind: PlannerMind) -> int:
+def best_lot(obs: FactoryObservation, mind: PlannerMind) -> int:
     """Slot of the pallet to lift next; -1 if there is none."""
     model = mind.plan.now
     best, least = -1, NEVER
@@ -123,7 +120,7 @@ def best_lot(obs: Observation, mind: PlannerMind) -> int:
 
 
 @kernel
-def best_place(obs: Observation, mind: PlannerMind) -> int:
+def best_place(obs: FactoryObservation, mind: PlannerMind) -> int:
     """Slot for the carried pallet; -1 if there is none."""
     model, state = mind.plan.now, obs.carries - 1
     if state == DONE:

@@ -10,7 +10,7 @@ from pigaming_app.ai.brain.steering import turn_stick
 from pigaming_app.ai.factory.driving import LEAN, LOOK, LOOKS, ROBOT_ROOM, free_distance
 from pigaming_app.ai.factory.job_choice import PlannerMind
 from pigaming_app.ai.factory.mind import PERIOD
-from pigaming_app.games.factory.observation import Observation
+from pigaming_app.games.factory.observation import FactoryObservation
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
@@ -27,7 +27,7 @@ DASH = 110.0  # px to the waypoint for turbo
 
 
 @kernel
-def reach(obs: Observation, mind: PlannerMind, action: Action, ready: int) -> None:
+def reach(obs: FactoryObservation, mind: PlannerMind, action: Action, ready: int) -> None:
     """Drive to the target slot and use the fork there; `ready`: 1 if it can be used now, else in `mind.wait` s."""
     slot = obs.slots[mind.target]
     dx, dy = obs.fork_x - slot.x, obs.fork_y - slot.y
@@ -43,7 +43,7 @@ def reach(obs: Observation, mind: PlannerMind, action: Action, ready: int) -> No
 
 
 @kernel
-def dock(obs: Observation, mind: PlannerMind, action: Action, ready: int) -> None:
+def dock(obs: FactoryObservation, mind: PlannerMind, action: Action, ready: int) -> None:
     """Steer straight to the slot; slow down only as far as the bearing asks for, or to wait."""
     bearing, distance = obs.goal_bearing, obs.goal_distance
     short = distance - obs.fork - (0.0 if ready else HOLD)
@@ -69,13 +69,13 @@ def dock(obs: Observation, mind: PlannerMind, action: Action, ready: int) -> Non
 
 
 @kernel
-def pace(obs: Observation, wait: float) -> float:
+def pace(obs: FactoryObservation, wait: float) -> float:
     """Share of full speed at which it arrives in `wait` s."""
     return max(0.12, (obs.goal_distance - obs.fork) / (260.0 * max(0.2, wait - 0.4)))
 
 
 @kernel
-def cruise(obs: Observation, mind: PlannerMind, action: Action, ready: int) -> None:
+def cruise(obs: FactoryObservation, mind: PlannerMind, action: Action, ready: int) -> None:
     """Follow the route, or the free direction nearest to it if people or robots block it."""
     bearing, free, widest = obs.waypoint_bearing, False, ESCAPE
     for i in range(FAN):

@@ -1,10 +1,7 @@
-"""What both brains of Robot Factory share: memory, and the rules on it for slips, giving up and backing out.
-
-In every function `obs` is the Observation and `mind` a Mind.
-"""
+"""What both brains of Robot Factory share: memory, and the rules on it for slips, giving up and backing out."""
 
 from pigaming_app.ai.brain.unstick import choose_escape, ticks_stuck
-from pigaming_app.games.factory.observation import Observation, Senses
+from pigaming_app.games.factory.observation import FactoryObservation, FactorySenses
 from pigaming_app.games.factory.state import WORKERS
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
@@ -29,8 +26,8 @@ FAR = 1e9  # px; longer than every way
 class Mind:
     """Memory of a brain."""
 
-    senses: Senses
-    obs: Observation
+    senses: FactorySenses
+    obs: FactoryObservation
     random: int
     speed: float  # share of full speed, at present
     noise: float  # error of the cost of jobs, as a share of the largest
@@ -58,20 +55,20 @@ class Mind:
 
 
 @kernel
-def perhaps_slip(obs: Observation, mind: Mind) -> None:
+def perhaps_slip(obs: FactoryObservation, mind: Mind) -> None:
     """After a job: set out the wrong way, with the probability `mind.slip`."""
     if mind.slip > 0.0 and uniform(mind) < mind.slip:
         start_detour(obs, mind, SLIP)
 
 
 @kernel
-def start_detour(obs: Observation, mind: Mind, ticks: int) -> None:
+def start_detour(obs: FactoryObservation, mind: Mind, ticks: int) -> None:
     """Drive towards a slot at random for some ticks."""
     mind.detour, mind.via = ticks, int(uniform(mind) * obs.slot_count)
 
 
 @kernel
-def keep_patience(obs: Observation, mind: Mind, left: float) -> None:
+def keep_patience(obs: FactoryObservation, mind: Mind, left: float) -> None:
     """Avoid the target for AVOID_TICKS ticks after PATIENCE ticks without progress; `left`: remaining way, px.
 
     If that target fails again while it is avoided, for want of another, make a detour to approach from elsewhere.
@@ -91,7 +88,7 @@ def keep_patience(obs: Observation, mind: Mind, left: float) -> None:
 
 
 @kernel
-def detect_stuck(obs: Observation, mind: Mind, action: Action) -> None:
+def detect_stuck(obs: FactoryObservation, mind: Mind, action: Action) -> None:
     """Start backing out if it has been stuck for STUCK_TICKS."""
     if ticks_stuck(mind, obs.x, obs.y, False, STUCK_DISTANCE, PERIOD) > STUCK_TICKS:
         mind.stuck_ticks, mind.freeing = 0, FREEING
@@ -99,7 +96,7 @@ def detect_stuck(obs: Observation, mind: Mind, action: Action) -> None:
 
 
 @kernel
-def back_out(obs: Observation, mind: Mind, action: Action) -> None:
+def back_out(obs: FactoryObservation, mind: Mind, action: Action) -> None:
     """Back out with a turn, away from any person within STOP px."""
     mind.freeing -= PERIOD
     for w in range(WORKERS):

@@ -7,7 +7,7 @@ count. A side at which a person stands costs DETOUR px more.
 from math import atan2, sqrt
 from typing import Annotated
 
-from pigaming_app.games.factory.observation import OTHERS, Observation
+from pigaming_app.games.factory.observation import OTHERS, FactoryObservation
 from pigaming_app.games.factory.state import MACHINE_SLOTS, MACHINES, WORKERS, Factory
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.contact import in_wall
@@ -45,7 +45,7 @@ class Ways:
 
 
 @kernel
-def build_ways(match: Factory, obs: Observation, ways: Ways) -> None:
+def build_ways(match: Factory, obs: FactoryObservation, ways: Ways) -> None:
     """Build the graph."""
     ways.built, ways.goal_x = 1, -FAR
     for m in range(MACHINES):
@@ -64,7 +64,7 @@ def build_ways(match: Factory, obs: Observation, ways: Ways) -> None:
 
 
 @kernel
-def side_cost(obs: Observation, ways: Ways, i: int, j: int) -> float:
+def side_cost(obs: FactoryObservation, ways: Ways, i: int, j: int) -> float:
     """DETOUR if a person stands at the side of a machine between two neighbouring corners, else 0."""
     x, y = 0.5 * (ways.x[i] + ways.x[j]), 0.5 * (ways.y[i] + ways.y[j])
     for w in range(WORKERS):
@@ -82,7 +82,7 @@ def side_cost(obs: Observation, ways: Ways, i: int, j: int) -> float:
 
 
 @kernel
-def measure_ways(match: Factory, obs: Observation, ways: Ways, x: float, y: float) -> None:
+def measure_ways(match: Factory, obs: FactoryObservation, ways: Ways, x: float, y: float) -> None:
     """Update the ways from all corners to the goal (x, y)."""
     if ways.goal_x != x or ways.goal_y != y:
         ways.goal_x, ways.goal_y = x, y
@@ -115,7 +115,7 @@ def leads_on(ways: Ways, i: int, j: int) -> bool:
 
 
 @kernel
-def choose_waypoint(match: Factory, robot: Robot, obs: Observation, ways: Ways, x: float, y: float) -> None:
+def choose_waypoint(match: Factory, robot: Robot, obs: FactoryObservation, ways: Ways, x: float, y: float) -> None:
     """Set the position of the waypoint on the shortest way to (x, y).
 
     A way on another side than before must be KEEP px shorter.
@@ -153,7 +153,7 @@ def choose_waypoint(match: Factory, robot: Robot, obs: Observation, ways: Ways, 
 
 
 @kernel
-def find_way(match: Factory, robot: Robot, obs: Observation, ways: Ways, x: float, y: float) -> None:
+def find_way(match: Factory, robot: Robot, obs: FactoryObservation, ways: Ways, x: float, y: float) -> None:
     """Set goal and waypoint of the observation for the shortest way to (x, y)."""
     if not ways.built:
         build_ways(match, obs, ways)

@@ -13,7 +13,7 @@ from pigaming_app.ai.factory.job_choice import PlannerMind, plan_job
 from pigaming_app.ai.factory.maneuvers import cruise, reach
 from pigaming_app.ai.factory.mind import PERIOD, PLAN, back_out, detect_stuck, keep_patience, perhaps_slip
 from pigaming_app.ai.factory.navigation import find_way
-from pigaming_app.games.factory.observation import Observation, observe
+from pigaming_app.games.factory.observation import FactoryObservation, observe
 from pigaming_app.games.factory.state import Factory
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
@@ -44,7 +44,7 @@ def think(match: Factory, seat: int, mind: PlannerMind, weights: NoWeights) -> N
 
 
 @kernel
-def choose_job(obs: Observation, mind: PlannerMind, elapsed: int) -> None:
+def choose_job(obs: FactoryObservation, mind: PlannerMind, elapsed: int) -> None:
     """Plan when a job has ended, and every PLAN ticks."""
     if obs.carries != mind.carried:
         mind.carried, mind.plan_in, mind.waiting = obs.carries, 0, 0
@@ -60,7 +60,7 @@ def choose_job(obs: Observation, mind: PlannerMind, elapsed: int) -> None:
 
 
 @kernel
-def act(obs: Observation, mind: PlannerMind, action: Action) -> None:
+def act(obs: FactoryObservation, mind: PlannerMind, action: Action) -> None:
     """Work on the job."""
     if obs.frozen:
         mind.stuck_ticks = 0

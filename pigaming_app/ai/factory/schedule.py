@@ -4,14 +4,14 @@ A transport is one pallet's way from where it lies to the next machine, or to th
 takes the transport with the lowest score, and so on until everything is delivered. The score is the time of lifting,
 less bonuses; a dispatch rule shifts the bonus of one state of pallets, so that several schedules can be compared.
 
-In every function `obs` is the Observation and `plan` a Plan; all times are in seconds from now.
+All times are in seconds from now.
 """
 
 from math import sqrt
 from typing import Annotated
 
 from pigaming_app.ai.factory.floor_model import CLEARED, NEVER, PROCESS, Bench, Hand, Model, copy_model, survey, work
-from pigaming_app.games.factory.observation import Observation, SlotView
+from pigaming_app.games.factory.observation import FactoryObservation, SlotView
 from pigaming_app.games.factory.state import DONE, EXIT, INPUT, MACHINE_SLOTS, MACHINES, OUTPUT
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -47,7 +47,7 @@ class Plan:
 
 
 @kernel
-def look(obs: Observation, plan: Plan) -> None:
+def look(obs: FactoryObservation, plan: Plan) -> None:
     """Fill in the present, with the announced transports of laden mates carried out."""
     now = plan.now
     survey(obs, now)
@@ -59,7 +59,7 @@ def look(obs: Observation, plan: Plan) -> None:
 
 
 @kernel
-def nearest_exit(obs: Observation) -> int:
+def nearest_exit(obs: FactoryObservation) -> int:
     """The nearest free slot of the own exit; a taken one if there is no other."""
     best, least = 0, 1e18
     for s in range(MACHINE_SLOTS):
@@ -80,7 +80,9 @@ def way(plan: Plan, x: float, y: float, slot: SlotView) -> float:
 
 
 @kernel
-def best_machine(obs: Observation, plan: Plan, model: Model, state: int, x: float, y: float, leave: float) -> int:
+def best_machine(
+    obs: FactoryObservation, plan: Plan, model: Model, state: int, x: float, y: float, leave: float
+) -> int:
     """The machine that could start soonest on a pallet in `state` that leaves (x, y) at `leave`; -1 if all are full."""
     best, least = -1, NEVER
     for m in range(MACHINES):
@@ -96,7 +98,7 @@ def best_machine(obs: Observation, plan: Plan, model: Model, state: int, x: floa
 
 
 @kernel
-def lift(obs: Observation, plan: Plan, model: Model, hand: Hand, k: int) -> None:
+def lift(obs: FactoryObservation, plan: Plan, model: Model, hand: Hand, k: int) -> None:
     """Let a hand drive to lot k and lift it; a machine whose output this empties goes on."""
     lot = model.lots[k]
     slot = obs.slots[lot.lies]
@@ -121,7 +123,7 @@ def begin_work(model: Model, bench: Bench, k: int, at: float) -> None:
 
 
 @kernel
-def set_down(obs: Observation, plan: Plan, model: Model, hand: Hand) -> bool:
+def set_down(obs: FactoryObservation, plan: Plan, model: Model, hand: Hand) -> bool:
     """Let a hand put down its lot, in the announced slot if it can; False if there is no place."""
     k, wish = hand.lot - 1, hand.into - 1
     lot = model.lots[k]
@@ -158,7 +160,7 @@ def promised(model: Model, k: int, i: int) -> bool:
 
 
 @kernel
-def next_lot(obs: Observation, plan: Plan, i: int) -> int:
+def next_lot(obs: FactoryObservation, plan: Plan, i: int) -> int:
     """The lot with the lowest score for hand i; -1 if there is none."""
     model = plan.then
     hand = model.hands[i]
@@ -188,7 +190,7 @@ def next_lot(obs: Observation, plan: Plan, i: int) -> int:
 
 
 @kernel
-def cheapest_schedule(obs: Observation, plan: Plan) -> float:
+def cheapest_schedule(obs: FactoryObservation, plan: Plan) -> float:
     """The lowest cost of the schedules by all dispatch rules that are compared, from the present on."""
     least = NEVER
     for rule in range(plan.rules):
@@ -203,7 +205,7 @@ def cheapest_schedule(obs: Observation, plan: Plan) -> float:
 
 
 @kernel
-def play_out(obs: Observation, plan: Plan) -> None:
+def play_out(obs: FactoryObservation, plan: Plan) -> None:
     """Play the schedule out, until all lots are delivered or all hands have nothing more to do."""
     model = plan.then
     for _ in range(3 * model.lot_count + 4):

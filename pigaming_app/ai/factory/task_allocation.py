@@ -3,13 +3,12 @@
 Among three or four allies, a slot that any of them has announced is left to them.
 
 A job is a slot at which to lift a pallet, or to put one down. Costs are in px of driving; times count as px at SPEED.
-In every function `obs` is the Observation and `mind` a ForemanMind.
 """
 
 from math import sqrt
 
 from pigaming_app.ai.factory.mind import Mind
-from pigaming_app.games.factory.observation import OTHERS, Observation, Other, SlotView
+from pigaming_app.games.factory.observation import OTHERS, FactoryObservation, FactoryOther, SlotView
 from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, HALF, INPUT, OUTPUT, RAW, A, B
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
@@ -41,7 +40,7 @@ class ForemanMind(Mind):
 
 
 @kernel
-def choose_job(obs: Observation, mind: ForemanMind) -> None:
+def choose_job(obs: FactoryObservation, mind: ForemanMind) -> None:
     """Set `mind.target`, and `mind.near` if it is only a place to wait at."""
     mind.near = 0
     best = cheapest_place(obs, mind) if obs.carries else share_out(obs, mind)
@@ -56,7 +55,7 @@ def choose_job(obs: Observation, mind: ForemanMind) -> None:
 
 
 @kernel
-def is_taken(obs: Observation, s: int) -> bool:
+def is_taken(obs: FactoryObservation, s: int) -> bool:
     """True if a mate has announced slot s as its target."""
     taken = False
     for i in range(OTHERS):
@@ -67,14 +66,14 @@ def is_taken(obs: Observation, s: int) -> bool:
 
 
 @kernel
-def distance_to(obs: Observation, s: int) -> float:
+def distance_to(obs: FactoryObservation, s: int) -> float:
     """Distance from the robot to slot s, px."""
     dx, dy = obs.slots[s].x - obs.x, obs.slots[s].y - obs.y
     return sqrt(dx * dx + dy * dy)
 
 
 @kernel
-def distance_between(obs: Observation, s: int, t: int) -> float:
+def distance_between(obs: FactoryObservation, s: int, t: int) -> float:
     """Distance from slot s to slot t, px."""
     dx, dy = obs.slots[s].x - obs.slots[t].x, obs.slots[s].y - obs.slots[t].y
     return sqrt(dx * dx + dy * dy)
@@ -109,7 +108,7 @@ def may_take(slot: SlotView, state: int) -> bool:
 
 
 @kernel
-def cheapest_place(obs: Observation, mind: Mind) -> int:
+def cheapest_place(obs: FactoryObservation, mind: Mind) -> int:
     """Cheapest slot for the carried pallet; -1 if none is free."""
     state = obs.carries - 1
     best, least = -1, NO
@@ -134,7 +133,7 @@ def cheapest_place(obs: Observation, mind: Mind) -> int:
 
 
 @kernel
-def onward_cost(obs: Observation, s: int, state: int) -> float:
+def onward_cost(obs: FactoryObservation, s: int, state: int) -> float:
     """Cost from slot s to the best free place for a pallet in `state`, px; NO if there is none."""
     least = NO
     for t in range(obs.slot_count):
@@ -147,7 +146,7 @@ def onward_cost(obs: Observation, s: int, state: int) -> float:
 
 
 @kernel
-def cost_of(obs: Observation, s: int, queue: float) -> float:
+def cost_of(obs: FactoryObservation, s: int, queue: float) -> float:
     """Cost of the job at slot s without the way there, px; NO if impossible.
 
     `queue`: cost of clearing an output while no place for its pallet is free.
@@ -169,7 +168,7 @@ def cost_of(obs: Observation, s: int, queue: float) -> float:
 
 
 @kernel
-def share_out(obs: Observation, mind: ForemanMind) -> int:
+def share_out(obs: FactoryObservation, mind: ForemanMind) -> int:
     """Slot to lift from next, minimising the joint cost of this job and the mate's best other one; -1 if none."""
     mate, mates = -1, 0
     for i in range(OTHERS):
@@ -193,7 +192,7 @@ def share_out(obs: Observation, mind: ForemanMind) -> int:
 
 
 @kernel
-def best_other(obs: Observation, mate: Other, without: int, queue: float) -> float:
+def best_other(obs: FactoryObservation, mate: FactoryOther, without: int, queue: float) -> float:
     """Cost of the mate's best job without slot `without`, px; 3000 if there is none."""
     least = 3000.0
     for s in range(obs.slot_count):
@@ -209,7 +208,7 @@ def best_other(obs: Observation, mate: Other, without: int, queue: float) -> flo
 
 
 @kernel
-def waiting_place(obs: Observation, mind: Mind) -> int:
+def waiting_place(obs: FactoryObservation, mind: Mind) -> int:
     """Slot to wait at: a future place for the load, an output about to be ready, or home."""
     best, least = -1, NO
     state = obs.carries - 1

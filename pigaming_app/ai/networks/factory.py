@@ -8,7 +8,13 @@ are pallets to lift, else places for the load. A warehouse counts once, by its b
 from math import cos, sin, sqrt
 
 from pigaming_app.ai.networks.encoding import ANYWHERE, Encoding, Inputs, encode_room, nearest_robot, saturating, whole
-from pigaming_app.ai.networks.factory_targets import CHOSEN, STALLED, FactorySenses, find_targets, is_left_to_mate
+from pigaming_app.ai.networks.factory_targets import (
+    CHOSEN,
+    STALLED,
+    FactoryNetworkSenses,
+    find_targets,
+    is_left_to_mate,
+)
 from pigaming_app.games.factory.rules import slot_for
 from pigaming_app.games.factory.state import INPUT, MACHINE_SLOTS, MACHINES, WORKERS, WORKING, A, B, Factory
 from pigaming_app.games.factory.workers import fits
@@ -47,7 +53,7 @@ DIAGONAL = 0.7071067811865476
 
 
 @kernel
-def encode(match: Factory, seat: int, senses: FactorySenses, inputs: Inputs) -> None:
+def encode(match: Factory, seat: int, senses: FactoryNetworkSenses, inputs: Inputs) -> None:
     """Fill in the inputs of one seat."""
     for i in range(SIZE):
         inputs[i] = 0.0
@@ -68,7 +74,7 @@ def encode(match: Factory, seat: int, senses: FactorySenses, inputs: Inputs) -> 
 
 @kernel
 def encode_self(
-    match: Factory, seat: int, senses: FactorySenses, ahead_x: float, ahead_y: float, inputs: Inputs
+    match: Factory, seat: int, senses: FactoryNetworkSenses, ahead_x: float, ahead_y: float, inputs: Inputs
 ) -> None:
     """The own robot, its load, and what its fork would do now."""
     me, load, rules = match.robots[seat], match.loads[seat], match.rules
@@ -139,7 +145,7 @@ def encode_target(match: Factory, seat: int, s: int, ahead_x: float, ahead_y: fl
 
 @kernel
 def encode_way(
-    match: Factory, me: Robot, senses: FactorySenses, ahead_x: float, ahead_y: float, inputs: Inputs
+    match: Factory, me: Robot, senses: FactoryNetworkSenses, ahead_x: float, ahead_y: float, inputs: Inputs
 ) -> None:
     """The way to the first target."""
     if senses.slots[0] < 0:
@@ -203,7 +209,7 @@ def encode_machine(match: Factory, me: Robot, m: int, ahead_x: float, ahead_y: f
 
 @kernel
 def encode_others(
-    match: Factory, seat: int, senses: FactorySenses, ahead_x: float, ahead_y: float, inputs: Inputs
+    match: Factory, seat: int, senses: FactoryNetworkSenses, ahead_x: float, ahead_y: float, inputs: Inputs
 ) -> None:
     """The other robots, the nearest first."""
     told = 0
@@ -220,7 +226,7 @@ def encode_other(
     match: Factory,
     me: Robot,
     j: int,
-    senses: FactorySenses,
+    senses: FactoryNetworkSenses,
     ahead_x: float,
     ahead_y: float,
     k: int,
@@ -269,4 +275,4 @@ def act(match: Factory, seat: int, choices: list[int]) -> None:
     set_action(match.actions[seat], choices[0] - 1.0, TURNS[choices[1]], choices[2], choices[3])
 
 
-ENCODING = Encoding("factory", GROUPS, HEADS, encode, act, FactorySenses)
+ENCODING = Encoding("factory", GROUPS, HEADS, encode, act, FactoryNetworkSenses)

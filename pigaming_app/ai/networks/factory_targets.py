@@ -41,7 +41,7 @@ STALLED = 12.0  # s without a worker after which a machine counts as out of orde
 
 
 @record
-class FactorySenses(NetworkSenses):
+class FactoryNetworkSenses(NetworkSenses):
     """Parameters of the observation, the targets of the moment, and the route to the first of them."""
 
     slots: Annotated[list[int], CHOSEN]  # the targets, -1: none
@@ -50,7 +50,7 @@ class FactorySenses(NetworkSenses):
 
 
 @kernel
-def find_targets(match: Factory, seat: int, senses: FactorySenses) -> None:
+def find_targets(match: Factory, seat: int, senses: FactoryNetworkSenses) -> None:
     """Choose the targets of a seat."""
     for i in range(CHOSEN):
         senses.slots[i], senses.costs[i] = -1, NONE
@@ -61,7 +61,7 @@ def find_targets(match: Factory, seat: int, senses: FactorySenses) -> None:
 
 
 @kernel
-def find_pallets(match: Factory, seat: int, senses: FactorySenses) -> None:
+def find_pallets(match: Factory, seat: int, senses: FactoryNetworkSenses) -> None:
     """Choose targets for an empty fork: pallets that it may lift, and those about to leave a machine."""
     after_raw, after_half = FULL, FULL  # px, if a raw or a half-done pallet has no free place
     for m in range(MACHINES):
@@ -93,7 +93,7 @@ def find_pallets(match: Factory, seat: int, senses: FactorySenses) -> None:
 
 
 @kernel
-def find_places(match: Factory, seat: int, senses: FactorySenses) -> None:
+def find_places(match: Factory, seat: int, senses: FactoryNetworkSenses) -> None:
     """Choose targets for a loaded fork: where its pallet belongs."""
     state, team = match.pallets[match.loads[seat].pallet - 1].state, match.robots[seat].team
     if state in (RAW, HALF):
@@ -165,7 +165,7 @@ def stall(match: Factory, m: int) -> float:
 
 
 @kernel
-def consider(senses: FactorySenses, s: int, cost: float) -> None:
+def consider(senses: FactoryNetworkSenses, s: int, cost: float) -> None:
     """Sort slot s among the targets, if it is one of the cheapest."""
     if cost >= senses.costs[CHOSEN - 1]:
         return

@@ -62,7 +62,7 @@ COS30, SIN30 = 0.8660254037844386, 0.5
 
 
 @record
-class PiTanksSenses(NetworkSenses):
+class PiTanksNetworkSenses(NetworkSenses):
     """Parameters of the observation, the poses at the last look, and the route to the nearest opponent."""
 
     clears: int  # bit j: robot j is in the line of fire
@@ -79,7 +79,7 @@ class PiTanksSenses(NetworkSenses):
 
 
 @kernel
-def encode(match: PiTanks, seat: int, senses: PiTanksSenses, inputs: Inputs) -> None:
+def encode(match: PiTanks, seat: int, senses: PiTanksNetworkSenses, inputs: Inputs) -> None:
     """Fill in the inputs of one seat."""
     for i in range(SIZE):
         inputs[i] = 0.0
@@ -129,7 +129,7 @@ def encode_self(match: PiTanks, seat: int, inputs: Inputs) -> None:
 
 
 @kernel
-def track(match: PiTanks, senses: PiTanksSenses) -> None:
+def track(match: PiTanks, senses: PiTanksNetworkSenses) -> None:
     """The velocities of all robots, from their displacement since the last look, as a camera measures them.
 
     The speed of a robot's motors says nothing about one that pushes against a wall.
@@ -151,7 +151,7 @@ def track(match: PiTanks, senses: PiTanksSenses) -> None:
 
 @kernel
 def encode_others(
-    match: PiTanks, seat: int, senses: PiTanksSenses, ahead_x: float, ahead_y: float, inputs: Inputs
+    match: PiTanks, seat: int, senses: PiTanksNetworkSenses, ahead_x: float, ahead_y: float, inputs: Inputs
 ) -> None:
     """The other robots, the most pressing first, and the way to the nearest opponent."""
     me, radius = match.robots[seat], match.rules.bullet_radius
@@ -216,7 +216,7 @@ def encode_others(
 
 
 @kernel
-def take_turns(match: PiTanks, seat: int, senses: PiTanksSenses) -> int:
+def take_turns(match: PiTanks, seat: int, senses: PiTanksNetworkSenses) -> int:
     """The opponent whose turn it is. Its turn ends when it is hit, or when the time of the turn is over.
 
     The next is the opponent that has had the fewest turns, never the same again while there are others; of several one
@@ -261,7 +261,7 @@ def encode_other(
     match: PiTanks,
     seat: int,
     j: int,
-    senses: PiTanksSenses,
+    senses: PiTanksNetworkSenses,
     ahead_x: float,
     ahead_y: float,
     k: int,
@@ -311,4 +311,4 @@ def act(match: PiTanks, seat: int, choices: list[int]) -> None:
     set_action(match.actions[seat], choices[0] - 1.0, TURNS[choices[1]], choices[2], choices[3])
 
 
-ENCODING = Encoding("pitanks", GROUPS, HEADS, encode, act, PiTanksSenses)
+ENCODING = Encoding("pitanks", GROUPS, HEADS, encode, act, PiTanksNetworkSenses)

@@ -10,7 +10,7 @@ from typing import Annotated
 
 from pigaming_app.ai.networks.encoding import Encoding, Inputs, NetworkSenses, nearest_robot, saturating, whole
 from pigaming_app.games.race.course import CoursePosition, locate, segment_at
-from pigaming_app.games.race.observation import SIGHT, SLICKS, Feature, observe_features, observe_next_line
+from pigaming_app.games.race.observation import SIGHT, SLICKS, CourseFeature, observe_features, observe_next_line
 from pigaming_app.games.race.state import OIL, SHIELD, TURBO, Race
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
@@ -45,7 +45,7 @@ NEAR = 400.0  # px, within which others are seen
 
 
 @record
-class RaceSenses(NetworkSenses):
+class RaceNetworkSenses(NetworkSenses):
     """Parameters of the observation, and scratch space."""
 
     aside: float  # px right of the middle of the course
@@ -53,13 +53,13 @@ class RaceSenses(NetworkSenses):
     return_x: float  # waypoint on the way back before that line
     return_y: float
     place: CoursePosition
-    oils: Annotated[list[Feature], SLICKS]
-    pad: Feature
-    box: Feature
+    oils: Annotated[list[CourseFeature], SLICKS]
+    pad: CourseFeature
+    box: CourseFeature
 
 
 @kernel
-def encode(match: Race, seat: int, senses: RaceSenses, inputs: Inputs) -> None:
+def encode(match: Race, seat: int, senses: RaceNetworkSenses, inputs: Inputs) -> None:
     """Fill in the inputs of one seat."""
     for i in range(SIZE):
         inputs[i] = 0.0
@@ -104,7 +104,9 @@ def encode_self(match: Race, seat: int, inputs: Inputs) -> None:
 
 
 @kernel
-def encode_place(match: Race, seat: int, senses: RaceSenses, ahead_x: float, ahead_y: float, inputs: Inputs) -> None:
+def encode_place(
+    match: Race, seat: int, senses: RaceNetworkSenses, ahead_x: float, ahead_y: float, inputs: Inputs
+) -> None:
     """The place across the course, and the way back to a missed line or out of trouble."""
     robot, racer, place = match.robots[seat], match.racers[seat], senses.place
     senses.aside = place.aside
@@ -154,7 +156,9 @@ def encode_course(match: Race, robot: Robot, along: float, ahead_x: float, ahead
 
 
 @kernel
-def encode_others(match: Race, seat: int, senses: RaceSenses, ahead_x: float, ahead_y: float, inputs: Inputs) -> None:
+def encode_others(
+    match: Race, seat: int, senses: RaceNetworkSenses, ahead_x: float, ahead_y: float, inputs: Inputs
+) -> None:
     """The other robots, the nearest first."""
     told = 0
     for place in range(ROBOTS - 1):
@@ -167,7 +171,7 @@ def encode_others(match: Race, seat: int, senses: RaceSenses, ahead_x: float, ah
 
 @kernel
 def encode_other(
-    match: Race, seat: int, j: int, senses: RaceSenses, ahead_x: float, ahead_y: float, k: int, inputs: Inputs
+    match: Race, seat: int, j: int, senses: RaceNetworkSenses, ahead_x: float, ahead_y: float, k: int, inputs: Inputs
 ) -> None:
     """Robot j, from input k on."""
     me, robot, racer = match.robots[seat], match.robots[j], match.racers[j]
@@ -188,7 +192,7 @@ def encode_other(
 
 
 @kernel
-def encode_feature(feature: Feature, aside: float, k: int, inputs: Inputs) -> None:
+def encode_feature(feature: CourseFeature, aside: float, k: int, inputs: Inputs) -> None:
     """Something on the course ahead, from input k on."""
     if feature.present:
         inputs[k] = whole(1.0)
@@ -203,4 +207,4 @@ def act(match: Race, seat: int, choices: list[int]) -> None:
     set_action(match.actions[seat], DRIVES[choices[0]], TURNS[choices[1]], fire, choices[3])
 
 
-ENCODING = Encoding("race", GROUPS, HEADS, encode, act, RaceSenses)
+ENCODING = Encoding("race", GROUPS, HEADS, encode, act, RaceNetworkSenses)

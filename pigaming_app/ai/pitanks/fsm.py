@@ -11,7 +11,7 @@ from typing import Any
 from pigaming_app.ai.brain.kind import BrainKind, NoWeights
 from pigaming_app.ai.brain.steering import approach, turn_stick
 from pigaming_app.ai.brain.unstick import STUCK_DISTANCE, choose_escape, escape, ticks_stuck
-from pigaming_app.games.pitanks.observation import OTHERS, Observation, Other, Senses, observe
+from pigaming_app.games.pitanks.observation import OTHERS, PiTanksObservation, PiTanksOther, PiTanksSenses, observe
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
@@ -37,8 +37,8 @@ DEFEND, ATTACK, BREAK_FREE = range(3)
 class TankMind:
     """What both tank brains remember."""
 
-    senses: Senses
-    obs: Observation
+    senses: PiTanksSenses
+    obs: PiTanksObservation
     spread: float  # standard deviation of the aiming error, rad
     random: int
     state: int
@@ -75,7 +75,7 @@ def think(match: PiTanks, seat: int, mind: FsmMind, weights: NoWeights) -> None:
 
 
 @kernel
-def act(obs: Observation, mind: FsmMind, action: Action) -> None:
+def act(obs: PiTanksObservation, mind: FsmMind, action: Action) -> None:
     """One step of the machine: update memory, run the state, change state if it returns another one."""
     mind.since += PERIOD
     pick_target(obs, mind)
@@ -98,7 +98,7 @@ def act(obs: Observation, mind: FsmMind, action: Action) -> None:
 
 
 @kernel
-def defend(obs: Observation, mind: FsmMind, action: Action) -> int:
+def defend(obs: PiTanksObservation, mind: FsmMind, action: Action) -> int:
     """Take cover and wait; fire at an opponent in sight."""
     bored = obs.lead == 0 and mind.unseen > mind.patience
     if obs.lead < 0 or bored or not obs.cover or mind.target < 0:
@@ -118,7 +118,7 @@ def defend(obs: Observation, mind: FsmMind, action: Action) -> int:
 
 
 @kernel
-def attack(obs: Observation, mind: FsmMind, action: Action) -> int:
+def attack(obs: PiTanksObservation, mind: FsmMind, action: Action) -> int:
     """Close in on the target round the walls, aim and fire."""
     if mind.target < 0:
         set_action(action, 0.0, 0.0, 0, 0)
@@ -138,7 +138,7 @@ def attack(obs: Observation, mind: FsmMind, action: Action) -> int:
 
 
 @kernel
-def break_free(obs: Observation, mind: FsmMind, action: Action) -> int:
+def break_free(obs: PiTanksObservation, mind: FsmMind, action: Action) -> int:
     """Back out with a turn until the robot is free."""
     if not escape(mind, obs.x, obs.y, action):
         return BREAK_FREE
@@ -149,7 +149,7 @@ def break_free(obs: Observation, mind: FsmMind, action: Action) -> int:
 
 
 @kernel
-def pick_target(obs: Observation, mind: FsmMind) -> None:
+def pick_target(obs: PiTanksObservation, mind: FsmMind) -> None:
     """Target the nearest opponent, with bonuses for one in sight and for the present target."""
     best, least = -1, 1e9
     for i in range(OTHERS):
@@ -187,7 +187,7 @@ def draw_error(mind: TankMind) -> None:
 
 
 @kernel
-def detect_stuck(obs: Observation, mind: TankMind, action: Action) -> None:
+def detect_stuck(obs: PiTanksObservation, mind: TankMind, action: Action) -> None:
     """Enter BREAK_FREE if the robot drives without moving for STUCK_TICKS."""
     if mind.state == BREAK_FREE:
         return
@@ -205,7 +205,7 @@ def go_to(mind: TankMind, x: float, y: float) -> None:
 
 
 @kernel
-def follow(obs: Observation, mind: FsmMind, action: Action) -> None:
+def follow(obs: PiTanksObservation, mind: FsmMind, action: Action) -> None:
     """Follow the route; fire if the gun happens to point at the target."""
     bearing, speed = approach(obs.waypoint_bearing, obs.waypoint_distance)
     near = obs.goal_distance / 70.0
@@ -216,14 +216,14 @@ def follow(obs: Observation, mind: FsmMind, action: Action) -> None:
 
 
 @kernel
-def shoot(obs: Observation, mind: FsmMind, action: Action, speed: float) -> None:
+def shoot(obs: PiTanksObservation, mind: FsmMind, action: Action, speed: float) -> None:
     """Turn the gun to the target's lead angle, driving at `speed`, and fire once it is on target."""
     aim = obs.others[mind.target].aim + mind.bias
     set_action(action, speed, turn_stick(aim, obs.angular, obs.turn_rate, PERIOD), snap_shot(obs, mind), 0)
 
 
 @kernel
-def snap_shot(obs: Observation, mind: FsmMind) -> int:
+def snap_shot(obs: PiTanksObservation, mind: FsmMind) -> int:
     """1 if the gun points at the target and the reaction time is over, or if a mine can be laid at a distance."""
     if mind.target < 0:
         return 0
@@ -243,7 +243,7 @@ def snap_shot(obs: Observation, mind: FsmMind) -> int:
 
 
 @kernel
-def duel(obs: Observation, mind: FsmMind, action: Action, other: Other) -> None:
+def duel(obs: PiTanksObservation, mind: FsmMind, action: Action, other: PiTanksOther) -> None:
     """Aim and fire while the gun is loaded; swerve while it reloads."""
     ahead = 1.0
     if other.distance < CROWD:
@@ -258,7 +258,7 @@ def duel(obs: Observation, mind: FsmMind, action: Action, other: Other) -> None:
 
 
 @kernel
-def dodge(obs: Observation, action: Action) -> None:
+def dodge(obs: PiTanksObservation, action: Action) -> None:
     """Drive across the path of a bullet, to the nearer side, if that can still succeed."""
     if obs.threat > 0.7:
         return

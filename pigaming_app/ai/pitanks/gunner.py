@@ -18,8 +18,8 @@ from pigaming_app.ai.brain.unstick import escape
 from pigaming_app.ai.pitanks.fsm import BREAK_FREE, TankMind, detect_stuck, dodge, draw_error, go_to
 from pigaming_app.games.pitanks.observation import (
     OTHERS,
-    Observation,
-    Other,
+    PiTanksObservation,
+    PiTanksOther,
     aim_at_other,
     locate_other,
     observe_self,
@@ -82,7 +82,7 @@ def think(match: PiTanks, seat: int, mind: GunnerMind, weights: NoWeights) -> No
 
 
 @kernel
-def act(match: PiTanks, obs: Observation, mind: GunnerMind, action: Action) -> None:
+def act(match: PiTanks, obs: PiTanksObservation, mind: GunnerMind, action: Action) -> None:
     """One step of the machine: update memory, run the state, change state if it returns another one."""
     mind.since += PERIOD
     mind.shot += PERIOD
@@ -110,7 +110,7 @@ def act(match: PiTanks, obs: Observation, mind: GunnerMind, action: Action) -> N
 
 
 @kernel
-def hunt(obs: Observation, mind: GunnerMind, action: Action) -> int:
+def hunt(obs: PiTanksObservation, mind: GunnerMind, action: Action) -> int:
     """Drive to the target round the walls."""
     if mind.target < 0:
         set_action(action, 0.0, 0.0, 0, 0)
@@ -124,7 +124,7 @@ def hunt(obs: Observation, mind: GunnerMind, action: Action) -> int:
 
 
 @kernel
-def collect(obs: Observation, mind: GunnerMind, action: Action) -> int:
+def collect(obs: PiTanksObservation, mind: GunnerMind, action: Action) -> int:
     """Drive to the nearest pick-up."""
     if mind.target < 0 or not wants_prize(obs, mind):
         return hunt(obs, mind, action)
@@ -134,7 +134,7 @@ def collect(obs: Observation, mind: GunnerMind, action: Action) -> int:
 
 
 @kernel
-def fight(match: PiTanks, obs: Observation, mind: GunnerMind, action: Action) -> int:
+def fight(match: PiTanks, obs: PiTanksObservation, mind: GunnerMind, action: Action) -> int:
     """Aim and fire; swing aside while the gun reloads."""
     if mind.target < 0 or mind.unseen > LOST or obs.others[mind.target].distance > REACH:
         return hunt(obs, mind, action)
@@ -156,7 +156,7 @@ def fight(match: PiTanks, obs: Observation, mind: GunnerMind, action: Action) ->
 
 
 @kernel
-def break_free(obs: Observation, mind: GunnerMind, action: Action) -> int:
+def break_free(obs: PiTanksObservation, mind: GunnerMind, action: Action) -> int:
     """Back out with a turn until the robot is free."""
     return HUNT if escape(mind, obs.x, obs.y, action) else BREAK_FREE
 
@@ -224,7 +224,7 @@ def price(distance: float, tank: Tank) -> float:
 
 
 @kernel
-def in_fight(obs: Observation, mind: GunnerMind) -> int:
+def in_fight(obs: PiTanksObservation, mind: GunnerMind) -> int:
     """1 if the target has been noticed within REACH."""
     if mind.unseen or obs.others[mind.target].distance > REACH:
         return 0
@@ -232,7 +232,7 @@ def in_fight(obs: Observation, mind: GunnerMind) -> int:
 
 
 @kernel
-def wants_prize(obs: Observation, mind: GunnerMind) -> int:
+def wants_prize(obs: PiTanksObservation, mind: GunnerMind) -> int:
     """1 if the nearest pick-up is worth the way; in the finale only if it is very near."""
     if not obs.prize or obs.prize_distance > DETOUR:
         return 0
@@ -242,7 +242,7 @@ def wants_prize(obs: Observation, mind: GunnerMind) -> int:
 
 
 @kernel
-def follow(obs: Observation, mind: GunnerMind, action: Action) -> None:
+def follow(obs: PiTanksObservation, mind: GunnerMind, action: Action) -> None:
     """Follow the route; fire if the gun happens to point at the target."""
     bearing, speed = approach(obs.waypoint_bearing, obs.waypoint_distance)
     dash = 1 if obs.goal_distance > 300.0 and abs(bearing) < 0.3 and charged(obs, action) else 0
@@ -250,19 +250,19 @@ def follow(obs: Observation, mind: GunnerMind, action: Action) -> None:
 
 
 @kernel
-def charged(obs: Observation, action: Action) -> int:
+def charged(obs: PiTanksObservation, action: Action) -> int:
     """1 if the meter is full enough to start turbo, or to keep it on."""
     return 1 if obs.turbo > (LOW if action.turbo else FULL) else 0
 
 
 @kernel
-def aim(mind: GunnerMind, other: Other) -> float:
+def aim(mind: GunnerMind, other: PiTanksOther) -> float:
     """Bearing to point the gun at: between the target and where a bullet would meet it, with the present error."""
     return float(other.bearing + mind.lead * turn_to(other.aim - other.bearing) + mind.bias)
 
 
 @kernel
-def pull_trigger(obs: Observation, mind: GunnerMind) -> int:
+def pull_trigger(obs: PiTanksObservation, mind: GunnerMind) -> int:
     """1 if the gun points at a target that can be hit, or if a mine can be laid at a distance."""
     other = obs.others[mind.target]
     if obs.mine and other.distance > 150.0:
@@ -275,7 +275,7 @@ def pull_trigger(obs: Observation, mind: GunnerMind) -> int:
 
 
 @kernel
-def rhythm(obs: Observation, mind: GunnerMind, other: Other) -> int:
+def rhythm(obs: PiTanksObservation, mind: GunnerMind, other: PiTanksOther) -> int:
     """Part of a fight: it watches its last shot, swings aside, aims. In the finale it takes half the time for it."""
     pace = 2 if obs.finale or obs.overtime else 1
     if pace * mind.shot < mind.watch:
@@ -284,7 +284,7 @@ def rhythm(obs: Observation, mind: GunnerMind, other: Other) -> int:
 
 
 @kernel
-def swing_angle(other: Other) -> float:
+def swing_angle(other: PiTanksOther) -> float:
     """Angle off the target's bearing at which it swings aside, rad."""
     if other.distance < NEAR:
         return OPEN_UP
@@ -292,7 +292,7 @@ def swing_angle(other: Other) -> float:
 
 
 @kernel
-def can_hit(obs: Observation, mind: GunnerMind) -> int:
+def can_hit(obs: PiTanksObservation, mind: GunnerMind) -> int:
     """1 if the gun is loaded and the target noticed, in sight and not protected."""
     other = obs.others[mind.target]
     if not obs.loaded or not other.clear or other.protected > INVULNERABLE:
@@ -301,7 +301,7 @@ def can_hit(obs: Observation, mind: GunnerMind) -> int:
 
 
 @kernel
-def choose_side(match: PiTanks, obs: Observation, mind: GunnerMind, other: Other) -> None:
+def choose_side(match: PiTanks, obs: PiTanksObservation, mind: GunnerMind, other: PiTanksOther) -> None:
     """Swing to the other side if a wall is in the way and there is room on that one."""
     angle = obs.heading + other.bearing
     turn = swing_angle(other) * mind.weave
@@ -310,7 +310,7 @@ def choose_side(match: PiTanks, obs: Observation, mind: GunnerMind, other: Other
 
 
 @kernel
-def has_room(match: PiTanks, obs: Observation, direction: float) -> int:
+def has_room(match: PiTanks, obs: PiTanksObservation, direction: float) -> int:
     """1 if the robot can drive ROOM px in a direction."""
     x, y = obs.x + ROOM * cos(direction), obs.y + ROOM * sin(direction)
     if not (RADIUS < x < WIDTH - RADIUS and RADIUS < y < HEIGHT - RADIUS):

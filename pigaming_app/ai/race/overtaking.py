@@ -8,7 +8,7 @@ boxes, stays in a slipstream while its meter is low, and avoids oil.
 
 from typing import Protocol
 
-from pigaming_app.games.race.observation import OTHERS, Observation
+from pigaming_app.games.race.observation import OTHERS, RaceObservation
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS
 
@@ -42,7 +42,7 @@ class Overtaker(Protocol):
 
 
 @kernel
-def choose_lane(obs: Observation, mind: Overtaker) -> None:
+def choose_lane(obs: RaceObservation, mind: Overtaker) -> None:
     """Set `mind.lane` to the cheapest lane: px lost behind others, plus px of a longer way round the bend."""
     mark = obs.ahead
     wanted = mind.line * mark.ideal
@@ -61,7 +61,7 @@ def choose_lane(obs: Observation, mind: Overtaker) -> None:
 
 
 @kernel
-def lane_cost(obs: Observation, mind: Overtaker, lane: float) -> float:
+def lane_cost(obs: RaceObservation, mind: Overtaker, lane: float) -> float:
     """Cost of the robots and features on a lane, px; 0 if there are none. `lane`: px right of the middle."""
     cost = feature_cost(obs, mind, lane) if obs.party else 0.0
     passing = eagerness(obs)
@@ -85,7 +85,7 @@ def lane_cost(obs: Observation, mind: Overtaker, lane: float) -> float:
 
 
 @kernel
-def eagerness(obs: Observation) -> float:
+def eagerness(obs: RaceObservation) -> float:
     """Cost of staying behind a robot right ahead, px: in `party`, with a charged meter, on a straight."""
     if not obs.party or (obs.turbo < CHARGED and not obs.surge):
         return 0.0
@@ -94,14 +94,14 @@ def eagerness(obs: Observation) -> float:
 
 
 @kernel
-def has_features(obs: Observation, mind: Overtaker) -> bool:
+def has_features(obs: RaceObservation, mind: Overtaker) -> bool:
     """True if something on the course, or a slipstream, may be worth another lane."""
     near = obs.pad.present or obs.box.present or obs.oils[0].present
     return bool(obs.party and mind.alert > 0.0 and (near or obs.turbo < CHARGED))
 
 
 @kernel
-def feature_cost(obs: Observation, mind: Overtaker, lane: float) -> float:
+def feature_cost(obs: RaceObservation, mind: Overtaker, lane: float) -> float:
     """Cost, px, of oil on a lane, less the worth of a boost pad, an item box and a slipstream."""
     cost = 0.0
     if not obs.shield:
@@ -125,7 +125,7 @@ def feature_cost(obs: Observation, mind: Overtaker, lane: float) -> float:
 
 
 @kernel
-def leader_speed(obs: Observation, mind: Overtaker) -> float:
+def leader_speed(obs: RaceObservation, mind: Overtaker) -> float:
     """Speed of a robot right ahead on the present lane, as a share of full speed; above 1 if there is none."""
     share = 2.0
     tail = 0.0 if obs.party else TAIL

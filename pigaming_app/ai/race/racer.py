@@ -17,7 +17,7 @@ from math import atan2, cos, pi, sin, sqrt
 from pigaming_app.ai.brain.kind import BrainKind, NoWeights
 from pigaming_app.ai.brain.unstick import STUCK_DISTANCE, choose_escape, escape, ticks_stuck
 from pigaming_app.ai.race.overtaking import CLEAR, EDGE, LEEWAY, choose_lane, leader_speed
-from pigaming_app.games.race.observation import OTHERS, Observation, Senses, observe
+from pigaming_app.games.race.observation import OTHERS, RaceObservation, RaceSenses, observe
 from pigaming_app.games.race.state import OFF_COURSE, SHIELD, TURBO, Race
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.angles import turn_to
@@ -50,8 +50,8 @@ RACE, GO_BACK, BREAK_FREE = range(3)
 class RacerMind:
     """Memory of the driver; the fields without a comment are as in Driver."""
 
-    senses: Senses
-    obs: Observation
+    senses: RaceSenses
+    obs: RaceObservation
     speed: float
     form: float  # share of its speed that it reaches today
     line: float
@@ -87,7 +87,7 @@ def think(match: Race, seat: int, mind: RacerMind, weights: NoWeights) -> None:
 
 
 @kernel
-def act(obs: Observation, mind: RacerMind, action: Action) -> None:
+def act(obs: RaceObservation, mind: RacerMind, action: Action) -> None:
     """One step of the state machine: update memory, run the state, change state if it returns another one."""
     mind.since += PERIOD
     fired = action.fire
@@ -110,7 +110,7 @@ def act(obs: Observation, mind: RacerMind, action: Action) -> None:
 
 
 @kernel
-def race(obs: Observation, mind: RacerMind, action: Action) -> int:
+def race(obs: RaceObservation, mind: RacerMind, action: Action) -> int:
     """Follow the line, overtaking robots in the way."""
     if obs.past > SLACK:
         return go_back(obs, action)
@@ -133,7 +133,7 @@ def race(obs: Observation, mind: RacerMind, action: Action) -> int:
 
 
 @kernel
-def go_back(obs: Observation, action: Action) -> int:
+def go_back(obs: RaceObservation, action: Action) -> int:
     """Drive back to before a missed line, in reverse where that saves a long turn."""
     bearing, ahead = turn_to(atan2(obs.return_y - obs.y, obs.return_x - obs.x) - obs.heading), 1.0
     if abs(bearing) > 0.6 * pi and obs.past < 200.0:
@@ -145,7 +145,7 @@ def go_back(obs: Observation, action: Action) -> int:
 
 
 @kernel
-def break_free(obs: Observation, mind: RacerMind, action: Action) -> int:
+def break_free(obs: RaceObservation, mind: RacerMind, action: Action) -> int:
     """Back out with a turn until the robot is free."""
     if not escape(mind, obs.x, obs.y, action):
         return BREAK_FREE
@@ -163,7 +163,7 @@ def aimed_lane(mind: RacerMind) -> float:
 
 
 @kernel
-def draw_error(obs: Observation, mind: RacerMind) -> None:
+def draw_error(obs: RaceObservation, mind: RacerMind) -> None:
     """Draw a new line error and how early it brakes, every NEW_ERROR ticks; in a bend perhaps a mistake."""
     mind.blunder -= PERIOD
     mind.stray_left -= PERIOD
@@ -176,13 +176,13 @@ def draw_error(obs: Observation, mind: RacerMind) -> None:
 
 
 @kernel
-def wants_way_back(obs: Observation, mind: RacerMind) -> int:
+def wants_way_back(obs: RaceObservation, mind: RacerMind) -> int:
     """1 if it asks for the way back: after a missed line, facing the wrong way, or stuck; not for a bit of mud."""
     return 0 if obs.lost == OFF_COURSE and mind.state != BREAK_FREE else 1
 
 
 @kernel
-def wants_item(obs: Observation, mind: RacerMind) -> int:
+def wants_item(obs: RaceObservation, mind: RacerMind) -> int:
     """1 if its item pays now, or room is needed for the next one, and it notices."""
     if not obs.item or obs.finished or obs.spin or uniform(mind) >= mind.alert:
         return 0
@@ -201,7 +201,7 @@ def wants_item(obs: Observation, mind: RacerMind) -> int:
 
 
 @kernel
-def look_ahead(obs: Observation) -> float:
+def look_ahead(obs: RaceObservation) -> float:
     """Lookahead for the next observation, px; off the course not past the next line, to cross and not bypass it."""
     look = LOOK if obs.on else 0.5 * LOOK
     if not obs.on and -obs.past - SLACK < look:
@@ -210,7 +210,7 @@ def look_ahead(obs: Observation) -> float:
 
 
 @kernel
-def detect_stuck(obs: Observation, mind: RacerMind, action: Action) -> None:
+def detect_stuck(obs: RaceObservation, mind: RacerMind, action: Action) -> None:
     """Enter BREAK_FREE if the robot drives without moving for STUCK_TICKS."""
     if mind.state == BREAK_FREE:
         return
@@ -221,7 +221,7 @@ def detect_stuck(obs: Observation, mind: RacerMind, action: Action) -> None:
 
 
 @kernel
-def pursue(obs: Observation, mind: RacerMind, action: Action, x: float, y: float) -> None:
+def pursue(obs: RaceObservation, mind: RacerMind, action: Action, x: float, y: float) -> None:
     """Drive the arc to the point (x, y), as fast as its curvature allows.
 
     To compensate for the latency of the motors the arc begins at the pose predicted LATE s ahead. Source of pure
@@ -249,7 +249,7 @@ def pursue(obs: Observation, mind: RacerMind, action: Action, x: float, y: float
 
 
 @kernel
-def wants_turbo(obs: Observation, mind: RacerMind, bend: float) -> int:
+def wants_turbo(obs: RaceObservation, mind: RacerMind, bend: float) -> int:
     """1 if the way is straight enough, the meter full enough to start, and no robot is close ahead."""
     if not obs.on or abs(bend) * obs.turbo_factor * obs.speed > 0.8 * obs.turn_rate or obs.pace < 1.0:
         return 0

@@ -1,7 +1,7 @@
 """Robot Factory: bring your pallets through the machines and out, before the others do."""
 
 from pigaming_app.games.factory.layout import faults, read
-from pigaming_app.games.factory.observation import Observation, Senses, observe
+from pigaming_app.games.factory.observation import FactoryObservation, FactorySenses, observe
 from pigaming_app.games.factory.rules import judge
 from pigaming_app.games.factory.start import VARIANTS, ranking_key, records, rules_of, start, stats
 from pigaming_app.games.factory.state import Factory
@@ -11,8 +11,8 @@ from pigaming_app.games.game import Game, LadderMatches, RecordKind
 FACTORY = Game(
     name="factory",
     state=Factory,
-    senses=Senses,
-    observation=Observation,
+    senses=FactorySenses,
+    observation=FactoryObservation,
     variants=VARIANTS,
     columns=("delivered", "steps", "bumps"),
     record_kinds=(RecordKind("time", timed=True, by_goal=True), RecordKind("points")),

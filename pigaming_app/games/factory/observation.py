@@ -19,7 +19,7 @@ OTHERS = ROBOTS - 1
 
 
 @record
-class Senses:
+class FactorySenses:
     """Parameters of the observation of one seat, and its route."""
 
     delay: float  # s, age of the poses of others
@@ -27,7 +27,7 @@ class Senses:
 
 
 @record
-class Other:
+class FactoryOther:
     """Another robot, in seat order after the own seat."""
 
     present: int
@@ -79,7 +79,7 @@ class SlotView:
 
 
 @record
-class Observation:
+class FactoryObservation:
     """The observation of one seat. Positions and distances in px."""
 
     x: float
@@ -97,7 +97,7 @@ class Observation:
     refused: int
     seconds_left: float
     lead: int  # own team's deliveries less the other team's; in party points
-    others: Annotated[list[Other], OTHERS]
+    others: Annotated[list[FactoryOther], OTHERS]
     people: Annotated[list[Person], WORKERS]
     slots: Annotated[list[SlotView], SLOTS]
     waypoint_x: float  # waypoint of the route
@@ -112,7 +112,7 @@ class Observation:
 
 
 @kernel
-def observe(match: Factory, seat: int, senses: Senses, obs: Observation) -> None:
+def observe(match: Factory, seat: int, senses: FactorySenses, obs: FactoryObservation) -> None:
     """Fill in the observation of one seat."""
     robot, load, rules = match.robots[seat], match.loads[seat], match.rules
     obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
@@ -138,7 +138,7 @@ def observe(match: Factory, seat: int, senses: Senses, obs: Observation) -> None
 
 
 @kernel
-def observe_other(match: Factory, robot: Robot, j: int, delay: float, other: Other) -> None:
+def observe_other(match: Factory, robot: Robot, j: int, delay: float, other: FactoryOther) -> None:
     """Fill in robot j, as observed by `robot`."""
     seen, load, motion = match.robots[j], match.loads[j], match.motions[j]
     other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
@@ -190,7 +190,7 @@ def observe_slot(match: Factory, seat: int, s: int, seen: SlotView) -> None:
 
 
 @kernel
-def observe_waypoint(match: Factory, robot: Robot, senses: Senses, obs: Observation) -> None:
+def observe_waypoint(match: Factory, robot: Robot, senses: FactorySenses, obs: FactoryObservation) -> None:
     """Fill in the waypoint and goal of the route."""
     route = senses.route
     if not route.active:

@@ -17,14 +17,14 @@ from pigaming_app.games.factory.state import (
     TEAMS,
     WAITING,
     Factory,
-    Rules,
+    FactoryRules,
 )
 from pigaming_app.games.game import ALLIES, PAIRS, Setup, Variant
 from pigaming_app.games.simple import seat_robots
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 
-PALLETS = Rules().pallets  # per team, the default goal
+PALLETS = FactoryRules().pallets  # per team, the default goal
 GOALS = tuple(range(2, MAX_PALLETS + 1))
 OVERTIME = 30.0  # s
 VARIANTS = Variant.by_name(
@@ -106,14 +106,14 @@ def _place_equipment(match: Factory, floor: Floor) -> None:
     match.aisle[:] = floor.aisle
 
 
-def rules_of(setup: Setup) -> Rules:
+def rules_of(setup: Setup) -> FactoryRules:
     """The rules of a match."""
-    rules = Rules()
+    rules = FactoryRules()
     set_rules(rules, setup)
     return rules
 
 
-def set_rules(rules: Rules, setup: Setup) -> None:
+def set_rules(rules: FactoryRules, setup: Setup) -> None:
     """Adapt fresh rules to a setup."""
     rules.ticks = round(setup.minutes * 60 * HZ)
     rules.pallets = setup.goal or rules.pallets

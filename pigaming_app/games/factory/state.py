@@ -36,7 +36,7 @@ FORK, REACH = 64.0, 40.0  # px from a robot's centre to its fork, and from there
 
 
 @record
-class Rules(MatchRules):
+class FactoryRules(MatchRules):
     """Tunable parameters. Distances in px, speeds in px/s and rad/s, times in ticks."""
 
     pallets: int = 4  # per team
@@ -116,7 +116,7 @@ class Machine:
     failed_worker: int  # 1 + the worker who last failed to reach it, until one succeeds; 0: none
     failed_at: int  # tick of that failure
     fast: int  # 1: the fast machine of the moment, in party
-    quick: int  # 1: the pallet in process takes only Rules.fast_process
+    quick: int  # 1: the pallet in process takes only FactoryRules.fast_process
 
 
 @record
@@ -170,7 +170,7 @@ class Load:
 class Factory(MatchState):
     """The complete state of a match of Robot Factory."""
 
-    rules: Rules
+    rules: FactoryRules
     pallets: Annotated[list[Pallet], PALLETS]
     slots: Annotated[list[Slot], SLOTS]
     machines: Annotated[list[Machine], MACHINES]

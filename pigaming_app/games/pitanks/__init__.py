@@ -1,7 +1,7 @@
 """PiTanks: hit, and don't get hit."""
 
 from pigaming_app.games.game import Game, LadderMatches
-from pigaming_app.games.pitanks.observation import Observation, Senses, observe
+from pigaming_app.games.pitanks.observation import PiTanksObservation, PiTanksSenses, observe
 from pigaming_app.games.pitanks.rules import judge
 from pigaming_app.games.pitanks.start import VARIANTS, rules_of, start, stats
 from pigaming_app.games.pitanks.state import PiTanks
@@ -11,8 +11,8 @@ from pigaming_app.games.rounds import BEST_OF
 PITANKS = Game(
     name="pitanks",
     state=PiTanks,
-    senses=Senses,
-    observation=Observation,
+    senses=PiTanksSenses,
+    observation=PiTanksObservation,
     variants=VARIANTS,
     columns=("hits", "taken", "aim"),
     start=start,

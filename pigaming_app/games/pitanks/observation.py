@@ -23,7 +23,7 @@ BESIDE = 22.0  # px between a robot in cover and the wall
 
 
 @record
-class Senses:
+class PiTanksSenses:
     """Parameters of the observation of one seat, and its route."""
 
     delay: float  # s, age of the poses of others
@@ -32,7 +32,7 @@ class Senses:
 
 
 @record
-class Other:
+class PiTanksOther:
     """Another robot, in seat order after the own seat. Includes team mates."""
 
     present: int
@@ -53,7 +53,7 @@ class Other:
 
 
 @record
-class Observation:
+class PiTanksObservation:
     """The observation of one seat. Positions and distances in px."""
 
     x: float
@@ -69,7 +69,7 @@ class Observation:
     protected: int
     shield: int
     mine: int
-    others: Annotated[list[Other], OTHERS]
+    others: Annotated[list[PiTanksOther], OTHERS]
     cover: int  # 1: cover from the nearest opponent exists; the position is behind the nearest such inner wall
     cover_x: float
     cover_y: float
@@ -88,7 +88,7 @@ class Observation:
     goal_distance: float  # straight-line
     straight: int  # 1: the straight line to the goal is clear
     knocked_out: int  # ticks left
-    camped: int  # ticks within `Rules.camp_radius`
+    camped: int  # ticks within `PiTanksRules.camp_radius`
     lit: int
     bounty: int
     finale: int  # 1: hits count double
@@ -96,7 +96,7 @@ class Observation:
 
 
 @kernel
-def observe(match: PiTanks, seat: int, senses: Senses, obs: Observation) -> None:
+def observe(match: PiTanks, seat: int, senses: PiTanksSenses, obs: PiTanksObservation) -> None:
     """Fill in the observation of one seat."""
     robot = match.robots[seat]
     observe_self(match, seat, obs)
@@ -115,7 +115,7 @@ def observe(match: PiTanks, seat: int, senses: Senses, obs: Observation) -> None
 
 
 @kernel
-def observe_self(match: PiTanks, seat: int, obs: Observation) -> None:
+def observe_self(match: PiTanks, seat: int, obs: PiTanksObservation) -> None:
     """Fill in the seat's own robot, and the time left."""
     robot, tank = match.robots[seat], match.tanks[seat]
     obs.x, obs.y, obs.heading = robot.x, robot.y, robot.heading
@@ -129,7 +129,7 @@ def observe_self(match: PiTanks, seat: int, obs: Observation) -> None:
 
 
 @kernel
-def observe_surroundings(match: PiTanks, seat: int, senses: Senses, obs: Observation) -> None:
+def observe_surroundings(match: PiTanks, seat: int, senses: PiTanksSenses, obs: PiTanksObservation) -> None:
     """Fill in the first bullet that would hit, the nearest pick-up and the waypoint."""
     robot = match.robots[seat]
     observe_threat(match, seat, robot, senses.delay, obs)
@@ -140,7 +140,7 @@ def observe_surroundings(match: PiTanks, seat: int, senses: Senses, obs: Observa
 
 
 @kernel
-def observe_other(match: PiTanks, seat: int, j: int, delay: float, other: Other) -> None:
+def observe_other(match: PiTanks, seat: int, j: int, delay: float, other: PiTanksOther) -> None:
     """Fill in robot j, as observed by robot `seat`."""
     robot, seen, tank = match.robots[seat], match.robots[j], match.tanks[j]
     other.present, other.mate = seen.present, 1 if seen.team == robot.team else 0
@@ -156,7 +156,7 @@ def observe_other(match: PiTanks, seat: int, j: int, delay: float, other: Other)
 
 
 @kernel
-def locate_other(robot: Robot, seen: Robot, delay: float, other: Other) -> tuple[float, float]:
+def locate_other(robot: Robot, seen: Robot, delay: float, other: PiTanksOther) -> tuple[float, float]:
     """Fill in position and distance of the robot `seen`. Returns its velocity, px/s."""
     vx, vy = seen.linear * cos(seen.heading), seen.linear * sin(seen.heading)
     other.x, other.y = seen.x - delay * vx, seen.y - delay * vy
@@ -166,7 +166,7 @@ def locate_other(robot: Robot, seen: Robot, delay: float, other: Other) -> tuple
 
 
 @kernel
-def aim_at_other(match: PiTanks, robot: Robot, vx: float, vy: float, delay: float, other: Other) -> float:
+def aim_at_other(match: PiTanks, robot: Robot, vx: float, vy: float, delay: float, other: PiTanksOther) -> float:
     """Fill in bearing and aim of a robot that `locate_other` has located. Returns the direction to it, rad."""
     dx, dy = other.x - robot.x, other.y - robot.y
     way = atan2(dy, dx)
@@ -177,7 +177,7 @@ def aim_at_other(match: PiTanks, robot: Robot, vx: float, vy: float, delay: floa
 
 
 @kernel
-def observe_cover(match: PiTanks, robot: Robot, from_x: float, from_y: float, obs: Observation) -> None:
+def observe_cover(match: PiTanks, robot: Robot, from_x: float, from_y: float, obs: PiTanksObservation) -> None:
     """Fill in the nearest position at which an inner wall hides this robot from (from_x, from_y)."""
     nearest2 = 1e9
     for i in range(match.wall_count):
@@ -209,7 +209,7 @@ def observe_cover(match: PiTanks, robot: Robot, from_x: float, from_y: float, ob
 
 
 @kernel
-def observe_threat(match: PiTanks, seat: int, robot: Robot, delay: float, obs: Observation) -> None:
+def observe_threat(match: PiTanks, seat: int, robot: Robot, delay: float, obs: PiTanksObservation) -> None:
     """Fill in the first bullet that would hit if nobody moved; those fired less than `delay` ago are not visible."""
     first, first_side, at = 9.0, 0.0, -1
     x, y, speed = robot.x, robot.y, match.rules.bullet_speed
@@ -237,7 +237,7 @@ def observe_threat(match: PiTanks, seat: int, robot: Robot, delay: float, obs: O
 
 
 @kernel
-def observe_pickup(match: PiTanks, robot: Robot, obs: Observation) -> None:
+def observe_pickup(match: PiTanks, robot: Robot, obs: PiTanksObservation) -> None:
     """Fill in the nearest pick-up."""
     nearest2 = 1e9
     for pickup in match.pickups:
@@ -251,7 +251,7 @@ def observe_pickup(match: PiTanks, robot: Robot, obs: Observation) -> None:
 
 
 @kernel
-def observe_waypoint(match: PiTanks, robot: Robot, senses: Senses, obs: Observation) -> None:
+def observe_waypoint(match: PiTanks, robot: Robot, senses: PiTanksSenses, obs: PiTanksObservation) -> None:
     """Fill in the waypoint and goal of the route."""
     route = senses.route
     if not route.active:

@@ -35,7 +35,7 @@ def worth(match: PiTanks, k: int, victim: int) -> int:
 
 @kernel
 def is_finale(match: PiTanks) -> bool:
-    """True in the last `Rules.finale` ticks of the regular time."""
+    """True in the last `PiTanksRules.finale` ticks of the regular time."""
     rules = match.rules
     return bool(rules.ticks - rules.finale <= match.tick < rules.ticks)
 

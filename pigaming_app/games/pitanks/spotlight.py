@@ -7,7 +7,7 @@ from pigaming_app.sim.world import ROBOTS
 
 @kernel
 def update_spotlights(match: PiTanks) -> None:
-    """One tick: a robot is lit once it has been in a circle for `Rules.camping`, until it leaves that circle.
+    """One tick: a robot is lit once it has been in a circle for `PiTanksRules.camping`, until it leaves that circle.
 
     The circle is centred where the robot left the previous one. A knock-out does not count as staying.
     """

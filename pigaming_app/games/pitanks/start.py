@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from pigaming_app.games.game import Setup, Variant
-from pigaming_app.games.pitanks.state import PiTanks, Rules
+from pigaming_app.games.pitanks.state import PiTanks, PiTanksRules
 from pigaming_app.games.simple import seat_robots
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ
@@ -25,14 +25,14 @@ def start(match: PiTanks, arena: Arena, setup: Setup) -> None:
     match.next_pickup = match.rules.pickup_every // 2
 
 
-def rules_of(setup: Setup) -> Rules:
+def rules_of(setup: Setup) -> PiTanksRules:
     """The rules of a match."""
-    rules = Rules()
+    rules = PiTanksRules()
     set_rules(rules, setup)
     return rules
 
 
-def set_rules(rules: Rules, setup: Setup) -> None:
+def set_rules(rules: PiTanksRules, setup: Setup) -> None:
     """Adapt fresh rules to a setup."""
     rules.ticks = round(setup.minutes * 60 * HZ)
     if setup.variant in ("original", "plain", "classic"):

@@ -17,7 +17,7 @@ MINES = ROBOTS * OWN_MINES
 
 
 @record
-class Rules(MatchRules):
+class PiTanksRules(MatchRules):
     """Tunable parameters. Distances in px, times in ticks, speeds in px/s and rad/s."""
 
     speed: float = 260.0
@@ -71,7 +71,7 @@ class Tank:
     camp_x: float  # centre of the circle that it has not left
     camp_y: float
     camped: int  # ticks in that circle
-    lit: int  # 1: it has been there for `Rules.camping`
+    lit: int  # 1: it has been there for `PiTanksRules.camping`
     bounty: int  # points that a hit on it is worth in addition
     barred: int  # 1: its hits score nothing, since its team is not level at the top in overtime
 
@@ -115,7 +115,7 @@ class Mine:
 class PiTanks(MatchState):
     """The complete state of a match of PiTanks."""
 
-    rules: Rules
+    rules: PiTanksRules
     tanks: Annotated[list[Tank], ROBOTS]
     bullets: Annotated[list[Bullet], BULLETS]
     next_pickup: int  # ticks until the next one appears

@@ -1,7 +1,7 @@
 """Robot Race: the first to finish wins."""
 
 from pigaming_app.games.game import Game, LadderMatches, RecordKind
-from pigaming_app.games.race.observation import Observation, Senses, observe
+from pigaming_app.games.race.observation import RaceObservation, RaceSenses, observe
 from pigaming_app.games.race.rules import judge
 from pigaming_app.games.race.start import (
     VARIANTS,
@@ -21,8 +21,8 @@ from pigaming_app.games.race.surprise import surprise
 RACE = Game(
     name="race",
     state=Race,
-    senses=Senses,
-    observation=Observation,
+    senses=RaceSenses,
+    observation=RaceObservation,
     variants=VARIANTS,
     columns=("laps", "best", "total"),
     record_kinds=(RecordKind("lap", timed=True), RecordKind("race", timed=True, by_goal=True)),

@@ -26,7 +26,7 @@ RUN_UP = 70.0  # px before a line, as a run-up to cross it
 
 
 @record
-class Senses:
+class RaceSenses:
     """Parameters of the observation of one seat."""
 
     delay: float  # s, age of the poses of others
@@ -50,7 +50,7 @@ class TrackPoint:
 
 
 @record
-class Other:
+class RaceOther:
     """Another robot, in seat order after the own seat."""
 
     present: int
@@ -66,7 +66,7 @@ class Other:
 
 
 @record
-class Feature:
+class CourseFeature:
     """Something that lies on the course ahead."""
 
     present: int  # 1: there is one within SIGHT
@@ -75,7 +75,7 @@ class Feature:
 
 
 @record
-class Observation:
+class RaceObservation:
     """The observation of one seat."""
 
     x: float
@@ -103,7 +103,7 @@ class Observation:
     rank: int
     finished: int
     ahead: TrackPoint  # at the lookahead distance
-    others: Annotated[list[Other], OTHERS]
+    others: Annotated[list[RaceOther], OTHERS]
     lost: int  # as in Racer: FIRE asks for the way back
     party: int  # 1: the fields below are in use
     item: int
@@ -111,25 +111,25 @@ class Observation:
     spin: int
     slip: int
     surge: int
-    oils: Annotated[list[Feature], SLICKS]  # the nearest, nearest first
-    pad: Feature  # the nearest
-    box: Feature  # the nearest that is there; of two side by side the one less far to the side
+    oils: Annotated[list[CourseFeature], SLICKS]  # the nearest, nearest first
+    pad: CourseFeature  # the nearest
+    box: CourseFeature  # the nearest that is there; of two side by side the one less far to the side
 
 
 class RoadView(Protocol):
-    """The part of an Observation that is about the next line and the features of the course."""
+    """The part of an observation that is about the next line and the features of the course."""
 
     aside: float
     past: float
     return_x: float
     return_y: float
-    oils: list[Feature]
-    pad: Feature
-    box: Feature
+    oils: list[CourseFeature]
+    pad: CourseFeature
+    box: CourseFeature
 
 
 @kernel
-def observe(match: Race, seat: int, senses: Senses, obs: Observation) -> None:
+def observe(match: Race, seat: int, senses: RaceSenses, obs: RaceObservation) -> None:
     """Fill in the observation of one seat."""
     robot, racer, rules = match.robots[seat], match.racers[seat], match.rules
     course, place = match.course, senses.place
@@ -157,7 +157,7 @@ def observe(match: Race, seat: int, senses: Senses, obs: Observation) -> None:
 
 
 @kernel
-def observe_track(match: Race, place: CoursePosition, look: float, obs: Observation) -> None:
+def observe_track(match: Race, place: CoursePosition, look: float, obs: RaceObservation) -> None:
     """Fill in the fastest line at this position, and the turn of the course ahead."""
     course = match.course
     k, _ = segment_at(course, place.along)
@@ -229,7 +229,7 @@ def observe_next_line(match: Race, seat: int, along: float, obs: RoadView) -> No
 
 
 @kernel
-def observe_other(match: Race, robot: Robot, j: int, along: float, senses: Senses, other: Other) -> None:
+def observe_other(match: Race, robot: Robot, j: int, along: float, senses: RaceSenses, other: RaceOther) -> None:
     """Fill in robot j, as observed by `robot` at `along` px."""
     seen, place = match.robots[j], senses.place
     other.present = seen.present
@@ -274,7 +274,7 @@ def observe_features(match: Race, along: float, place: CoursePosition, obs: Road
 
 
 @kernel
-def note(feature: Feature, ahead: float, aside: float, own: float) -> None:
+def note(feature: CourseFeature, ahead: float, aside: float, own: float) -> None:
     """Fill in a feature if none nearer is there; of two equally far ahead, the one nearer to `own` px aside."""
     if ahead > SIGHT or (feature.present and feature.ahead < ahead):
         return

@@ -11,7 +11,7 @@ from pigaming_app.games.race.course import POINTS, Course, CoursePosition, locat
 from pigaming_app.games.race.state import Race
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.things.cover import Capsule, from_capsule
+from pigaming_app.sim.things.cover import CoverPart, from_capsule
 from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
@@ -50,7 +50,7 @@ def in_passage(match: Race, place: CoursePosition) -> bool:
 
 
 def passages(
-    course: Course, capsules: Sequence[Capsule], ideal: Sequence[float], lines: Sequence[float]
+    course: Course, capsules: Sequence[CoverPart], ideal: Sequence[float], lines: Sequence[float]
 ) -> tuple[Span, ...]:
     """The interval of offsets at each point of the course in which robots can pass.
 
@@ -97,7 +97,7 @@ def _on_course(gap: Span, half: float) -> Span:
     return (low, high) if low <= high else gap
 
 
-def _gaps(course: Course, k: int, capsules: Sequence[Capsule], beside: float) -> list[Span]:
+def _gaps(course: Course, k: int, capsules: Sequence[CoverPart], beside: float) -> list[Span]:
     """The intervals of offsets at a point, up to `beside` px beside the course, at which a robot touches nothing."""
     x, y, half = course.xs[k], course.ys[k], course.half[k]
     reach, place = half + beside, CoursePosition()

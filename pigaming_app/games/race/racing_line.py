@@ -13,7 +13,7 @@ from math import atan2, hypot, sqrt
 from pigaming_app.games.race.course import POINTS, Course
 from pigaming_app.games.race.passages import Span, passages
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.things.cover import Capsule
+from pigaming_app.sim.things.cover import CoverPart
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 MARGIN = 3.0  # px between the line and the edges
@@ -38,7 +38,7 @@ def fastest_line(course: Course, speed: float, turn_rate: float) -> Line:
 
 @lru_cache(maxsize=32)
 def line_round(
-    course: Course, speed: float, turn_rate: float, capsules: tuple[Capsule, ...], lines: tuple[float, ...]
+    course: Course, speed: float, turn_rate: float, capsules: tuple[CoverPart, ...], lines: tuple[float, ...]
 ) -> tuple[Line, tuple[Span, ...]]:
     """The fastest line that goes round things, and the passages that it takes; none if there are no things.
 

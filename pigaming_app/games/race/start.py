@@ -35,16 +35,16 @@ from pigaming_app.games.race.furniture import (
 from pigaming_app.games.race.laps import progress
 from pigaming_app.games.race.passages import Span, passages
 from pigaming_app.games.race.racing_line import Line, line_round
-from pigaming_app.games.race.state import LINES, MAX_LAPS, Race, Rules, TimingLine
+from pigaming_app.games.race.state import LINES, MAX_LAPS, Race, RaceRules, TimingLine
 from pigaming_app.sim.arena import Arena, Layout, StartPose, build
 from pigaming_app.sim.record import copy
 from pigaming_app.sim.rng import seeded, uniform
-from pigaming_app.sim.things.cover import Capsule
+from pigaming_app.sim.things.cover import CoverPart
 from pigaming_app.sim.things.spec import ThingSpec, read_things, wall_capsules
 from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import DT, HZ, ROBOTS, WALLS
 
-LAPS = Rules().laps  # the default goal
+LAPS = RaceRules().laps  # the default goal
 GOALS = tuple(range(1, MAX_LAPS + 1))
 PARTY_LAPS = 5
 PARTY_MUD = 0.5
@@ -65,7 +65,7 @@ class TrackPlan:
     grid: tuple[StartPose, ...]
     pads: tuple[float, ...]  # px along the course
     boxes: tuple[tuple[float, float], ...]  # (along, aside) px
-    solid: tuple[Capsule, ...] = ()  # things that are walls
+    solid: tuple[CoverPart, ...] = ()  # things that are walls
 
 
 def read(table: TomlTable) -> Layout:
@@ -74,7 +74,7 @@ def read(table: TomlTable) -> Layout:
     course, things = read_course(table), read_things(table)
     lines = _lines(table.table("track"), course, taped(course, things))
     solid = tuple(wall_capsules(things, WALLS))
-    spans = line_round(course, Rules().speed, Rules().turn_rate, solid, lines)[1]
+    spans = line_round(course, RaceRules().speed, RaceRules().turn_rate, solid, lines)[1]
     starts = tuple(clear_pose(course, line - BEHIND, 0.0, spans) for line in lines)
     common, pads = common_line(course, lines), place_pads(course, lines)
     boxes = place_boxes(course, lines, pads, spans)
@@ -155,7 +155,7 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
         _furnish(match, track)
 
 
-def reroute(arena: Arena, rules: Rules, things: tuple[ThingSpec, ...]) -> Callable[[Race], None]:
+def reroute(arena: Arena, rules: RaceRules, things: tuple[ThingSpec, ...]) -> Callable[[Race], None]:
     """The fastest line round things that were moved; see `games.game.Reroute`. Raises FieldError."""
     track: TrackPlan = arena.plan
     found = line_round(track.course, rules.speed, rules.turn_rate, tuple(wall_capsules(things, WALLS)), track.lines)
@@ -200,14 +200,14 @@ def _place_line(line: TimingLine, course: Course, along: float) -> None:
     line.bx, line.by = point_at(course, along, half)
 
 
-def rules_of(setup: Setup) -> Rules:
+def rules_of(setup: Setup) -> RaceRules:
     """The rules of a match."""
-    rules = Rules()
+    rules = RaceRules()
     set_rules(rules, setup)
     return rules
 
 
-def set_rules(rules: Rules, setup: Setup) -> None:
+def set_rules(rules: RaceRules, setup: Setup) -> None:
     """Adapt fresh rules to a setup. `party`: a common start, and half the speed in mud instead of a third."""
     rules.ticks = round(setup.minutes * 60 * HZ)
     rules.laps = setup.goal or rules.laps

@@ -21,7 +21,7 @@ LOST = ("", "off", "wrong", "missed", "stuck")
 
 
 @record
-class Rules(MatchRules):
+class RaceRules(MatchRules):
     """Tunable parameters. Speeds in px/s and rad/s, times in ticks."""
 
     laps: int = 3
@@ -101,7 +101,7 @@ class Racer:
 
 
 @record
-class Pad:
+class BoostPad:
     """A boost pad on the course: a square of 2 * PAD_HALF px, turned to the course."""
 
     x: float
@@ -135,14 +135,14 @@ class Oil:
 class Race(MatchState):
     """The complete state of a match of Robot Race."""
 
-    rules: Rules
+    rules: RaceRules
     course: Course
     lines: Annotated[list[TimingLine], LINES]
     racers: Annotated[list[Racer], ROBOTS]
     first: int  # tick of the first finish; 0: none yet
     ideal: Annotated[list[float], POINTS]  # offset of the fastest line at each point of the course, px
     pace: Annotated[list[float], POINTS]  # speed there, as a share of full speed
-    pads: Annotated[list[Pad], PADS]  # party only
+    pads: Annotated[list[BoostPad], PADS]  # party only
     boxes: Annotated[list[Box], BOXES]
     oils: Annotated[list[Oil], OILS]
     narrow: int  # 1: there are things, and robots pass them between these two offsets at each point, px

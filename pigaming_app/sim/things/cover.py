@@ -28,7 +28,7 @@ INNER = 0.9  # of the inradius, the half thickness of the capsule in the middle
 SAMPLES = 16  # points on each end of a capsule, at which its fit is measured
 
 
-class Capsule(NamedTuple):
+class CoverPart(NamedTuple):
     """All points within `half` px of the segment from (ax, ay) to (bx, by)."""
 
     ax: float
@@ -38,7 +38,7 @@ class Capsule(NamedTuple):
     half: float
 
 
-def capsules(outline: Outline, margin: float, hollow: float = FILLED) -> list[Capsule]:
+def capsules(outline: Outline, margin: float, hollow: float = FILLED) -> list[CoverPart]:
     """Capsules that cover an outline and the points within `margin` px of it.
 
     `hollow`: px from the capsules along the sides to the middle, from which on that is filled.
@@ -50,18 +50,18 @@ def capsules(outline: Outline, margin: float, hollow: float = FILLED) -> list[Ca
     room = inradius(corners)
     band, extra = min(BAND, INNER * room), margin + lost
     inner = inset(corners, band)
-    found = [Capsule(*a, *b, band + extra) for a, b in sides(inner)]
+    found = [CoverPart(*a, *b, band + extra) for a, b in sides(inner)]
     for corner in corners:
         end = _nearest(inner, corner)
         if dist(end, corner) - band > CUT:
-            found.append(Capsule(*_nearest(inset(corners, THIN), corner), *end, THIN + extra))
+            found.append(CoverPart(*_nearest(inset(corners, THIN), corner), *end, THIN + extra))
     if room > band + hollow:
         a, b = _farthest(inset(corners, INNER * room))
-        found.append(Capsule(*a, *b, INNER * room))
+        found.append(CoverPart(*a, *b, INNER * room))
     return found
 
 
-def around(outline: Outline, margin: float) -> Capsule:
+def around(outline: Outline, margin: float) -> CoverPart:
     """The narrowest capsule along one of the sides that contains an outline and the points within `margin` px."""
     best = None
     for (ax, ay), (bx, by) in sides(outline):
@@ -80,12 +80,12 @@ def around(outline: Outline, margin: float) -> Capsule:
     return best._replace(half=best.half + margin)
 
 
-def from_capsule(capsule: Capsule, x: float, y: float) -> float:
+def from_capsule(capsule: CoverPart, x: float, y: float) -> float:
     """Distance of a point from a capsule, px; negative inside."""
     return from_side((capsule.ax, capsule.ay), (capsule.bx, capsule.by), x, y) - capsule.half
 
 
-def excess(capsule: Capsule, outline: Outline) -> float:
+def excess(capsule: CoverPart, outline: Outline) -> float:
     """The largest distance of the capsule's edge from the outline, px."""
     ends = ((capsule.ax, capsule.ay), (capsule.bx, capsule.by))
     rim = [
@@ -98,13 +98,13 @@ def excess(capsule: Capsule, outline: Outline) -> float:
 
 def _lengthwise(
     ux: float, uy: float, along: Sequence[float], aside: Sequence[float], middle: float, half: float
-) -> Capsule:
+) -> CoverPart:
     """The smallest capsule along (ux, uy) on this middle line that contains all corners.
 
     A thin one is longer than a thick one: some between `half` and the reach of the farthest corner are tried.
     """
     reach = max(hypot(a - 0.5 * (min(along) + max(along)), b - middle) for a, b in zip(along, aside, strict=True))
-    best: Capsule | None = None
+    best: CoverPart | None = None
     for k in range(5):
         wide = half + (reach - half) * k / 4.0
         starts = [a + (max(0.0, wide * wide - (b - middle) ** 2)) ** 0.5 for a, b in zip(along, aside, strict=True)]
@@ -113,7 +113,7 @@ def _lengthwise(
         if first > last:
             first = last = 0.5 * (min(along) + max(along))
             wide = max(hypot(a - first, b - middle) for a, b in zip(along, aside, strict=True))
-        one = Capsule(
+        one = CoverPart(
             ux * first - uy * middle, uy * first + ux * middle, ux * last - uy * middle, uy * last + ux * middle, wide
         )
         if best is None or _extent(one) < _extent(best):
@@ -122,7 +122,7 @@ def _lengthwise(
     return best
 
 
-def _extent(capsule: Capsule) -> float:
+def _extent(capsule: CoverPart) -> float:
     """Area of a capsule, px^2."""
     length = hypot(capsule.bx - capsule.ax, capsule.by - capsule.ay)
     return capsule.half * (2.0 * length + pi * capsule.half)

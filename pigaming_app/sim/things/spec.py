@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from pigaming_app.sim.things.convex import Outline, is_convex, signed_area
-from pigaming_app.sim.things.cover import Capsule, around, capsules
+from pigaming_app.sim.things.cover import CoverPart, around, capsules
 from pigaming_app.sim.toml_table import FieldError, TomlTable
 
 MOST = 24  # things in an arena
@@ -60,7 +60,7 @@ def written(things: Sequence[ThingSpec]) -> str:
     )
 
 
-def wall_capsules(things: Sequence[ThingSpec], room: int) -> list[Capsule]:
+def wall_capsules(things: Sequence[ThingSpec], room: int) -> list[CoverPart]:
     """The capsules of all things that are walls, at most `room`; if need be the smallest things get a single one each.
 
     Raises FieldError if there are too many.
@@ -76,7 +76,7 @@ def wall_capsules(things: Sequence[ThingSpec], room: int) -> list[Capsule]:
     return [part for some in parts for part in some]
 
 
-def mud_capsules(things: Sequence[ThingSpec], room: int) -> list[Capsule]:
+def mud_capsules(things: Sequence[ThingSpec], room: int) -> list[CoverPart]:
     """The capsules of all things that are mud. Raises FieldError if there are more than `room`."""
     parts = [part for thing in things if thing.use is Use.MUD for part in capsules(thing.outline, 0.0, hollow=0.0)]
     if len(parts) > room:

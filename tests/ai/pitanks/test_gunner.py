@@ -11,7 +11,7 @@ from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.pitanks.observation import Observation, observe
+from pigaming_app.games.pitanks.observation import PiTanksObservation, observe
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
 from tests.ai.pitanks.stuck import stuck
@@ -98,7 +98,7 @@ def test_it_leaves_a_target_that_cannot_be_hit_but_novices_stay_with_theirs():
 def test_what_it_leaves_out_changes_neither_its_target_nor_what_it_observes_of_it():
     """The target of the full observation, by the same price, in many random situations."""
     match, luck = begun(("hand2", "idle", "idle", "idle"), "party", "classic"), Random(3)
-    mind, tanks, whole = match.brains[0].mind, match.state.tanks, Observation()
+    mind, tanks, whole = match.brains[0].mind, match.state.tanks, PiTanksObservation()
     targets = set()
     for _ in range(400):
         for robot in match.state.robots:

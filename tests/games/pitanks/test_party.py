@@ -9,7 +9,7 @@ from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.pitanks.observation import Observation, Senses, observe
+from pigaming_app.games.pitanks.observation import PiTanksObservation, PiTanksSenses, observe
 from pigaming_app.games.pitanks.rules import judge
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, OWN_MINES, SHIELD
 from pigaming_app.games.replay import decode, encode, verify
@@ -328,15 +328,15 @@ def test_brains_see_light_knock_out_bounty_finale_and_overtime():
     match.robots[1].score, match.tanks[2].lit = 4, 1
     hit(match, 1, 0)
     ticks(match, 1)
-    obs = Observation()
-    observe(match, 0, Senses(), obs)
+    obs = PiTanksObservation()
+    observe(match, 0, PiTanksSenses(), obs)
     assert (obs.knocked_out, obs.others[0].bounty, obs.others[0].worth, obs.others[1].worth) == (KNOCKOUT, 1, 2, 1)
     assert (obs.finale, obs.overtime) == (0, 0)
     match = ticks(level([3, 3, 2], minutes=0.5), 1)
-    observe(match, 2, Senses(), obs)
+    observe(match, 2, PiTanksSenses(), obs)
     assert (obs.finale, obs.overtime, obs.seconds_left) == (0, 1, pytest.approx(15.0))
     assert [other.worth for other in obs.others[1:]] == [0, 0]
-    observe(match, 0, Senses(), obs)
+    observe(match, 0, PiTanksSenses(), obs)
     assert obs.others[0].worth == 1
 
 

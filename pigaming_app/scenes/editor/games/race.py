@@ -12,7 +12,7 @@ from pigaming_app.games.drawing.values import Drawing, Part
 from pigaming_app.games.race.circuit import NARROWEST, WIDEST, Corner, traced
 from pigaming_app.games.race.course import POINTS, Course, point_at
 from pigaming_app.games.race.racing_line import line_round
-from pigaming_app.games.race.state import LINES, Rules
+from pigaming_app.games.race.state import LINES, RaceRules
 from pigaming_app.scenes.editor.model.shapes import (
     Dial,
     Item,
@@ -206,7 +206,7 @@ class RaceTools(Tools):
 
     def routes(self, arena: Arena) -> Routes:
         """The fastest line, which takes a second."""
-        course, rules = arena.plan.course, Rules()
+        course, rules = arena.plan.course, RaceRules()
         (asides, _), _ = line_round(course, rules.speed, rules.turn_rate, arena.plan.solid, arena.plan.lines)
         points = [point_at(course, k * course.step, aside) for k, aside in enumerate(asides)]
         return ([*points, points[0]],)

@@ -17,7 +17,7 @@ from pigaming_app.games.factory.state import (
     RAW,
     TEAMS,
     Factory,
-    Rules,
+    FactoryRules,
 )
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.factory.order_cards import URGENT
@@ -81,7 +81,7 @@ def mark_rush(light: Batch, top: Batch, state: Factory, pallet: Any, x: float, y
         put(top, signs.times_two(), x + PLATE_X, y + PLATE_Y)
 
 
-def jobs(rules: Rules) -> Iterator[Job]:
+def jobs(rules: FactoryRules) -> Iterator[Job]:
     """Prewarm jobs for these sprites."""
     yield from (signs.times_two, signs.next_fast)
     for turn in range(signs.OPEN_TURNS):

@@ -19,7 +19,7 @@ from typing import Any
 
 from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.race.course import CoursePosition, locate
-from pigaming_app.games.race.state import LINES, Rules
+from pigaming_app.games.race.state import LINES, RaceRules
 from pigaming_app.sim.arena import Arena
 from pigaming_app.storage.parsing import parse_json, quote
 from pigaming_app.storage.safe_files import NotSaved, read_or_restore, write_with_backup
@@ -104,7 +104,7 @@ def load_ghost(folder: Path, arena: Arena) -> tuple[Ghost | None, str]:
 
 def drivable(ghost: Ghost, arena: Arena) -> bool:
     """True if a lap is no faster than the rules allow and crosses each line at the recorded time."""
-    rules, course, place = Rules(), arena.plan.course, CoursePosition()
+    rules, course, place = RaceRules(), arena.plan.course, CoursePosition()
     length = sum(math.dist(a[:2], b[:2]) for a, b in pairwise(ghost.poses))
     if length > SLACK * rules.speed * rules.turbo_factor * ghost.seconds:
         return False

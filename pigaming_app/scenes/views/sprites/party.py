@@ -4,7 +4,7 @@ import math
 
 import pygame
 
-from pigaming_app.games.pitanks.state import Rules
+from pigaming_app.games.pitanks.state import PiTanksRules
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.ui.draw import (
     FOCUS,
@@ -26,7 +26,7 @@ from pigaming_app.ui.numbers import signed
 
 STARS, STAR_TURNS = 5, 8  # stars round a robot; rotation steps from one star to the next
 STAR_R = 58  # px from a robot to its stars
-STAGE = round(Rules().camp_radius + RADIUS)  # px: a lit robot that drives out of the light is free of it
+STAGE = round(PiTanksRules().camp_radius + RADIUS)  # px: a lit robot that drives out of the light is free of it
 LAMP = (255, 232, 170)
 
 
