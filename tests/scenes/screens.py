@@ -302,7 +302,7 @@ def event_table(
 ) -> Callable[[Arcade], Scene]:
     def opened(arcade: Arcade) -> Scene:
         scene = TablePage(arcade.context, event(form, count, seats, count, wide=wide))
-        scene.page, scene.age = page, 9.0
+        scene.page, scene.turned = page, 9.0
         return scene
 
     return opened
@@ -368,7 +368,7 @@ def with_phones(arcade: Arcade, trouble: str = "") -> Arcade:
 
 def join_by_phone(arcade: Arcade, trouble: str = "") -> Scene:
     page = JoinByPhone(with_phones(arcade, trouble).context, lambda: PHONES)
-    page.clock = PATIENCE + 1.0
+    page.age = PATIENCE + 1.0
     return page
 
 

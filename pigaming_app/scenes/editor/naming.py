@@ -38,6 +38,6 @@ class NamePage(name_page.NamePage):
         free = not (self.context.kiosk and self.is_taken(name))
         return free and is_own_name(self.game, made) and not NEW.fullmatch(made)
 
-    def save(self, name: str) -> StackOperation:
+    def keep(self, name: str) -> StackOperation:
         self.enter(name)
         return Pop()

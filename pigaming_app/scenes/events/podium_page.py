@@ -1,5 +1,6 @@
 """The end of an event: the robots of the first three on the podium, with their names, and confetti."""
 
+import math
 from collections.abc import Callable, Collection, Iterator, Sequence
 from functools import partial
 
@@ -10,6 +11,7 @@ from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.podium import APART, FIRST, HEIGHTS, ORDER, REVEALS, RISE, STEP_W, Podium, Stand
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, MIST, PLAYERS, SUB, THIN, TITLE, GlowCanvas, icon, text_width
@@ -20,7 +22,6 @@ from pigaming_app.ui.draw.text import fit_text, text, word, wrap
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 
-SKIP = 1.5  # s during which input is ignored
 VOLLEYS = (FIRST + 0.2, FIRST + 1.3, FIRST + 2.6, FIRST + 4.4)  # s, of confetti
 FOOT, NAME_Y = 800, 872  # px: foot of the podium, middle of the names
 REST, REST_X, REST_Y, REST_PITCH = 6, 1330, 290, 104  # places beside the podium; px
@@ -30,11 +31,15 @@ NAME_ROOM = STEP_W + APART - 20  # px
 SIGN_W = 72  # px, for the sign of an AI before its name
 
 
-class PodiumPage:
+class PodiumPage(Page):
     """The podium of an event that is over."""
 
+    idle, lockout = math.inf, 1.5
+    hints = ((Button.FIRE, "events.hint_table"), (Button.BACK, "events.hint_back"))
+
     def __init__(self, context: Context, running: RunningEvent) -> None:
-        self.context, self.running = context, running
+        super().__init__(context)
+        self.running = running
         self.best = podium_rows(running)
         steps = [Stand(row.place, (i,)) for i, row in enumerate(self.best)]
         self.rest, self.robots = places_below(running), robots_of(running)
@@ -43,9 +48,6 @@ class PodiumPage:
         self.celebration = Celebration("pitanks", seats, [PLAYERS[seat] for seat in seats])
         self.volleys = [*VOLLEYS]
         self.sounds = [*self.podium.sounds(), (FIRST, "fanfare", None)]
-        self.age = 0.0
-        hints = [(Button.FIRE, "events.hint_table"), (Button.BACK, "events.hint_back")]
-        self.prompts = context.prompts(hints)
         self.queue = PrewarmQueue(self._jobs())
 
     def prewarm(self, milliseconds: float) -> bool:
@@ -55,24 +57,17 @@ class PodiumPage:
     def on_enter(self) -> None:
         self.context.sounds.music(True)
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """FIRE shows the whole table, BACK leaves."""
-        event = self.prompts.as_button(event)
-        if self.age < SKIP:
-            return None
-        if event.button is Button.BACK:
-            self.context.sounds.play("back")
-            return Pop()
+    def press(self, event: InputEvent) -> StackOperation:
+        """FIRE shows the whole table."""
         if event.button in (Button.FIRE, Button.START, Button.UP):
             self.context.sounds.play("accept")
             return Push(TablePage(self.context, self.running))
         return None
 
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         """Reveal the steps, then shoot confetti. A correction may have opened a match again."""
         if not self.running.event.over:
             return Pop()
-        self.age += seconds
         self.queue.work(2.0)
         self.celebration.update(seconds)
         while self.sounds and self.sounds[0][0] <= self.age:
@@ -83,16 +78,22 @@ class PodiumPage:
             self.celebration.volley()
         return None
 
-    def draw(self, screen: pygame.Surface) -> None:
-        screen.blit(backdrop(), (0, 0))
-        heading(self.running.event.spec.title, self.context.words("events.over"), FOCUS).draw(screen)
+    @property
+    def heading(self) -> LitImage:
+        return heading(self.running.event.spec.title, self.context.words("events.over"), FOCUS)
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the podium, the names and the confetti."""
         self.celebration.draw(screen)
         self.podium.draw(screen, self.age)
         shown = {i for i in range(len(self.best)) if self.age >= REVEALS[i] + RISE}
         rest = self.rest if self.age >= FIRST + RISE else []
         draw_names(screen, self.podium.x, self.best, rest, shown, self.robots)
-        if self.age >= SKIP:
-            self.prompts.draw(screen)
+
+    def draw_foot(self, screen: pygame.Surface) -> None:
+        """Draw the prompts once they count."""
+        if self.age >= self.lockout:
+            super().draw_foot(screen)
 
     def _jobs(self) -> Iterator[Callable[[], object]]:
         yield backdrop

@@ -4,6 +4,7 @@ import pygame
 
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,
@@ -12,31 +13,29 @@ from pigaming_app.ui.draw import (
     MIST,
     Color,
 )
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop
+from pigaming_app.ui.draw.layers import LEFT, RIGHT
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters, letter_box
 
-INPUT_LOCKOUT = 0.3  # s during which input is ignored
 LETTERS = " ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
 W, H, GAP, MIDDLE = 176, 240, 32, 510  # px, letter boxes
 SIZE = 168  # px, letter size
 
 
-class NamePage:
+class NamePage(Page):
     """A page that asks for a name of at most `length` letters; `title`: key of its heading."""
 
+    when_idle, lockout = Pop(), 0.3
+    hints = ((Button.FIRE, "results.next_letter"), (Button.BACK, "lab.hint_back"), (Button.START, "lab.hint_save"))
+
     def __init__(self, context: Context, title: str, name: str, length: int, idle: float) -> None:
-        self.context, self.title, self.idle, self.length = context, title, idle, length
+        super().__init__(context)
+        self.title, self.idle, self.length = title, idle, length
         self.spell(name)
         self.pitch = min(W + GAP, (RIGHT - LEFT) // length)
-        self.age = 0.0
         self.taken = False  # the name is in use; START again overwrites
         self.unusable = False  # the name was refused
-        self.prompts = self.context.prompts(
-            [(Button.FIRE, "results.next_letter"), (Button.BACK, "lab.hint_back"), (Button.START, "lab.hint_save")],
-        )
 
     # ---- of the page
 
@@ -53,25 +52,19 @@ class NamePage:
         """True for a valid name."""
         return bool(name)
 
-    def save(self, name: str) -> StackOperation:
+    def keep(self, name: str) -> StackOperation:
         """Save under a name, and leave."""
         raise NotImplementedError
 
     # ---- scene
-
-    def on_enter(self) -> None:
-        """Nothing to do."""
 
     @property
     def name(self) -> str:
         """The current spelling."""
         return self.picker.spelled.strip()
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """Edit letters; START saves; BACK goes back one letter, and leaves from the first one."""
-        event = self.prompts.as_button(event)
-        if self.age < INPUT_LOCKOUT:
-            return None
+    def press(self, event: InputEvent) -> StackOperation:
+        """Edit letters; START saves."""
         if event.button is not Button.START:
             pointing = event.button is Button.POINT
             self.taken, self.unusable = self.taken and pointing, self.unusable and pointing
@@ -82,11 +75,6 @@ class NamePage:
                 self._play(self.picker.move(1))
             case Button.LEFT:
                 self._play(self.picker.move(-1))
-            case Button.BACK if self.picker.slot == 0:
-                self.context.sounds.play("back")
-                return Pop()
-            case Button.BACK:
-                self._play(self.picker.move(-1))
             case Button.START:
                 return self._save()
             case Button.CLICK if event.at:
@@ -95,14 +83,20 @@ class NamePage:
                 pass
         return None
 
-    def update(self, seconds: float) -> StackOperation:
-        self.age += seconds
-        self.picker.update(seconds)
-        return Pop() if self.context.idle > self.idle else None
+    def leave(self) -> StackOperation:
+        """Go back one letter; leave from the first one."""
+        self.taken = self.unusable = False
+        if self.picker.slot == 0:
+            return super().leave()
+        self._play(self.picker.move(-1))
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
-        screen.blit(backdrop(), (0, 0))
-        heading(self.context.words(self.title)).draw(screen)
+    def advance(self, seconds: float) -> StackOperation:
+        self.picker.update(seconds)
+        return None
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the letters, and how to change them."""
         xs = [self.middle(i) for i in range(len(self.picker.letters))]
         w = self.pitch - GAP
         for x in xs:
@@ -111,7 +105,6 @@ class NamePage:
         cursor(w, H, 36, 20, BOLD, (H / 2 + 48, 30, 230)).draw(screen, xs[self.picker.slot], MIDDLE)
         line, color = self._hint()
         text(line, BODY, color).draw(screen, 960, MIDDLE + 290)
-        self.prompts.draw(screen)
 
     def spell(self, name: str) -> None:
         """Begin with a name."""
@@ -157,4 +150,4 @@ class NamePage:
             self.taken = True
             self.context.sounds.play("refused")
             return None
-        return self.save(self.name)
+        return self.keep(self.name)

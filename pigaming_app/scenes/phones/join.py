@@ -9,7 +9,8 @@ from collections.abc import Callable, Sequence
 import pygame
 
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.ui.draw import (
     ALARM,
@@ -31,14 +32,14 @@ from pigaming_app.ui.draw import (
     icon,
 )
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, paragraph, wrap
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phones.code import qr_code
 from pigaming_app.ui.input.phones.host import PhoneHost
-from pigaming_app.ui.widgets.labels import heading, pulse, sign
+from pigaming_app.ui.widgets.labels import pulse, sign
 
 IDLE = 60.0  # s without input until the title
 PATIENCE = 20.0  # s without a visitor, after which network and firewall are named
@@ -50,10 +51,13 @@ SEAT_W = 152
 Devices = Sequence[Device | None]
 
 
-class JoinByPhone:
+class JoinByPhone(Page):
     """The page. `devices`: of the seats. `lobby`: handles the presses of phones; None over a paused match. `ready`:
     true when the lobby goes on.
     """
+
+    title = "phones.title"
+    hints = ((Button.BACK, "phones.hint_back"),)
 
     def __init__(
         self,
@@ -62,13 +66,10 @@ class JoinByPhone:
         lobby: Callable[[InputEvent], StackOperation] | None = None,
         ready: Callable[[], bool] = lambda: False,
     ) -> None:
-        self.context, self.devices, self.lobby, self.ready = context, devices, lobby, ready
+        super().__init__(context)
+        self.devices, self.lobby, self.ready = devices, lobby, ready
+        self.idle = IDLE if lobby else math.inf
         self.host = context.shared(phone_host)
-        self.clock = 0.0
-        self.prompts = context.prompts([(Button.BACK, "phones.hint_back")])
-
-    def on_enter(self) -> None:
-        pass
 
     def handle(self, event: InputEvent) -> StackOperation:
         """Phones act in the lobby below; the first press of another device returns there."""
@@ -79,8 +80,7 @@ class JoinByPhone:
         if event.button is Button.POINT or (self.lobby is None and event.button in (Button.FOUND, Button.LOST)):
             return None
         if event.button is Button.BACK and (self.lobby is None or not phone):
-            self.context.sounds.play("back")
-            return Pop()
+            return self.leave()
         if event.button is Button.CLICK:
             return Pop()
         if self.lobby is None:
@@ -91,30 +91,29 @@ class JoinByPhone:
         stays = event.button in (Button.FOUND, Button.LOST) or (phone and not self.ready())
         return operation or (None if stays else Pop())
 
-    def update(self, seconds: float) -> StackOperation:
-        """Return when phones are off; to the title when the lobby is abandoned."""
-        self.clock += seconds
-        if not self.host.on:
-            return Pop()
-        return Home() if self.lobby and self.context.idle > IDLE else None
+    def advance(self, seconds: float) -> StackOperation:
+        """Return when phones are off."""
+        return None if self.host.on else Pop()
 
-    def draw(self, screen: pygame.Surface) -> None:
+    @property
+    def subtitle(self) -> str:
+        return self.context.words("phones.line")
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the code, the address and the seats, or the trouble."""
         words, host = self.context.words, self.host
-        screen.blit(backdrop(), (0, 0))
-        heading(words("phones.title"), words("phones.line")).draw(screen)
         if host.url:
             draw_code(screen, host.url, CODE)
             steps((words("phones.step_wifi"), words("phones.step_scan"), words("phones.step_press"))).draw(screen)
             address(words("phones.type"), plain(host.url)).draw(screen)
             self._seats(screen)
-            if host.server and not host.server.visited and self.clock > PATIENCE:
+            if host.server and not host.server.visited and self.age > PATIENCE:
                 hint(words("phones.firewall", port=host.server.port)).draw(screen)
         else:
             sign("phone", 150, STEEL, THIN).draw(screen, *CODE.center)
             text = trouble(words, host)
             for i, lit in enumerate(paragraph(text, ROOM, 4, ALARM)):
                 lit.draw(screen, TEXT_X, CODE.centery - 60 + 58 * i)
-        self.prompts.draw(screen)
 
     def _seats(self, screen: pygame.Surface) -> None:
         """The seats, with the phones that have joined, and the phones that have not."""
@@ -127,7 +126,7 @@ class JoinByPhone:
         waiting = [device for device in self.context.controls.handhelds() if device not in devices]
         count = sum(device.kind == "phone" for device in waiting)
         if count:
-            sign("phone", 40, FOCUS, THIN, pulse(self.clock)).draw(screen, TEXT_X + SEAT_W * 4 + 76, SEATS_Y + 40)
+            sign("phone", 40, FOCUS, THIN, pulse(self.age)).draw(screen, TEXT_X + SEAT_W * 4 + 76, SEATS_Y + 40)
             number(f"× {count}").draw(screen, TEXT_X + SEAT_W * 4 + 126, SEATS_Y + 40)
 
 

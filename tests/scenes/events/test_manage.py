@@ -10,7 +10,7 @@ from pigaming_app.events.spec import Format
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.manage.corrections import MAX_NOTE, NOTES, Correction, ResultsList
 from pigaming_app.scenes.events.manage.event_page import DELETE, HOLD, HOLD_IN_KIOSK, RENAME, WITHDRAW, EventPage
-from pigaming_app.scenes.events.manage.text_page import ALPHABET, INPUT_LOCKOUT, TextPage
+from pigaming_app.scenes.events.manage.text_page import ALPHABET, TextPage
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
@@ -169,7 +169,7 @@ def test_a_title_is_typed(arcade: Arcade) -> None:
     managed(arcade, run, RENAME)
     arcade.press(Button.FIRE)
     page = arcade.shown(TextPage)
-    arcade.wait(INPUT_LOCKOUT + 0.1)
+    arcade.wait(TextPage.lockout + 0.1)
     for _ in range(len("Open day")):
         key(arcade, "BACKSPACE", "\b")
     assert page.text == ""
@@ -191,7 +191,7 @@ def test_a_title_is_typed(arcade: Arcade) -> None:
 def test_a_title_is_written_with_a_stick_or_the_mouse(arcade: Arcade) -> None:
     page = TextPage(arcade.context, "Title", "", 3, lambda text: "")
     arcade.open(page)
-    arcade.wait(INPUT_LOCKOUT + 0.1)
+    arcade.wait(TextPage.lockout + 0.1)
     arcade.press(Button.FIRE)
     arcade.press(Button.DOWN)
     arcade.press(Button.RIGHT)
@@ -215,7 +215,7 @@ def test_a_correction_has_a_reason_in_own_words(arcade: Arcade) -> None:
     arcade.press(Button.X)
     text = arcade.shown(TextPage)
     assert text.most == MAX_NOTE
-    arcade.wait(INPUT_LOCKOUT + 0.1)
+    arcade.wait(TextPage.lockout + 0.1)
     for wrong in ("", "walkover"):
         text.text = wrong
         arcade.press(Button.START)

@@ -6,40 +6,40 @@ import pygame
 
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.ui.draw import ALARM, BODY, BOLD, FOCUS, HERO, ICE, LINE, MIST, TITLE, cut_box
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.labels import black_out, heading
 from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters, letter_box
 
-IDLE = 120.0  # s without input before the page is left
-INPUT_LOCKOUT = 0.3  # s during which input is ignored
 ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZÁÂÃÀÄÇÉÊÈÍÑÓÔÕÖÚÜ0123456789.,-!? "
 LINE_BOX = pygame.Rect(LEFT, 250, RIGHT - LEFT, 120)
 W, H, MIDDLE, HINT_Y = 216, 276, 600, 850  # px: letter box, its middle, the line below
 CURSOR = "_"
 
 
-class TextPage:
+class TextPage(Page):
     """`accept`: takes the text, and returns the sentence why not, if it cannot; `most`: characters."""
 
+    idle, when_idle, lockout = 120.0, Pop(), 0.3
+
     def __init__(self, context: Context, title: str, before: str, most: int, accept: Callable[[str], str]) -> None:
-        self.context, self.title, self.most, self.accept = context, title, most, accept
+        super().__init__(context)
+        self.asked, self.most, self.accept = title, most, accept
         self.text = before
         self.picker = LetterPicker(ALPHABET, ALPHABET[0])
         self.refusal = ""
-        self.age = 0.0
 
     @property
-    def prompts(self) -> ButtonPrompts:
+    def hints(self) -> Hints:
         """The prompts of a pad, or of the keyboard, whose letters and space are typed."""
         own = [(Button.FIRE, "events.hint_letter"), (Button.X, "events.hint_erase")]
         typed = self.context.controls.last.kind == "keys"
         ways_out = [(Button.START, "events.hint_save"), (Button.BACK, "events.hint_back")]
-        return self.context.prompts([*([] if typed else own), *ways_out])
+        return [*([] if typed else own), *ways_out]
 
     def on_enter(self) -> None:
         """Take over the letters of the keyboard."""
@@ -54,14 +54,11 @@ class TextPage:
         self.refusal = ""
         if letter == "\b":
             self._erase()
-        elif self.age >= INPUT_LOCKOUT:
+        elif self.age >= self.lockout:
             self._add(letter)
 
-    def handle(self, event: InputEvent) -> StackOperation:
+    def press(self, event: InputEvent) -> StackOperation:
         """UP and DOWN turn the letter, FIRE and RIGHT add it, X and LEFT erase the last one, START saves."""
-        event = self.prompts.as_button(event)
-        if self.age < INPUT_LOCKOUT:
-            return None
         if event.button not in (Button.POINT, Button.FOUND, Button.LOST):
             self.refusal = ""
         match event.button:
@@ -73,25 +70,23 @@ class TextPage:
                 self._erase()
             case Button.START:
                 return self._save()
-            case Button.BACK:
-                self.context.sounds.play("back")
-                return Pop()
             case Button.CLICK if event.at and abs(event.at[0] - 960) <= W / 2:
                 self._click(event.at[1] - MIDDLE)
             case _:
                 pass
         return None
 
-    def update(self, seconds: float) -> StackOperation:
-        """Animate; leave when idle."""
-        self.age += seconds
+    def advance(self, seconds: float) -> StackOperation:
         self.picker.update(seconds)
-        return Pop() if self.context.idle > IDLE else None
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    @property
+    def heading(self) -> LitImage:
+        return heading(self.asked, f"{len(self.text)} / {self.most}")
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the text and the letter."""
         words = self.context.words
-        screen.blit(backdrop(), (0, 0))
-        heading(self.title, f"{len(self.text)} / {self.most}").draw(screen)
         black_out(screen, LINE_BOX)
         line_box().draw(screen, *LINE_BOX.topleft)
         shown = self.text + CURSOR
@@ -103,7 +98,6 @@ class TextPage:
         draw_letters(screen, self.picker, [960], MIDDLE, HERO, 60, ICE)
         cursor(W, H, 36, 20, BOLD, (H / 2 + 48, 30, 230)).draw(screen, 960, MIDDLE)
         text(self.refusal or words("events.type"), BODY, ALARM if self.refusal else MIST).draw(screen, 960, HINT_Y)
-        self.prompts.draw(screen)
 
     # ---- inside
 

@@ -7,53 +7,41 @@ import pygame
 from pigaming_app.scenes.events.names import shortened
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.results.spelling import Spelling
 from pigaming_app.ui.draw import ALARM, BODY, BOLD, HERO, ICE, LABEL, MIST
-from pigaming_app.ui.draw.layers import backdrop
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.letter_picker import cursor, draw_letters, letter_box
 from pigaming_app.ui.widgets.word_filter import is_rude
 
-IDLE = 90.0  # s without input before the return to the entrants
-INPUT_LOCKOUT = 0.3  # s during which input is ignored
 W, H, GAP, MIDDLE = 216, 276, 48, 500  # px, letter boxes
 LETTERS = 3
 RECENT, RECENT_ROOM, RECENT_Y, HINT_Y = 8, 180, 250, 800  # names shown, and px
 
 
-class LettersPage:
+class LettersPage(Page):
     """Entry of names, one after the other. `enter`: takes a name, and returns the sentence why not, if it cannot;
     `names`: those entered so far; `once`: leave after the first one.
     """
 
+    title, when_idle, lockout = "events.letters", Pop(), 0.3
+    hints = (
+        (Button.FIRE, "results.next_letter"),
+        (Button.START, "events.hint_enter"),
+        (Button.BACK, "events.hint_back"),
+    )
+
     def __init__(
         self, context: Context, enter: Callable[[str], str], names: Callable[[], list[str]], once: bool = False
     ) -> None:
-        self.context, self.enter, self.names, self.once = context, enter, names, once
+        super().__init__(context)
+        self.enter, self.names, self.once = enter, names, once
         self.spelling = Spelling()
         self.refusal = ""
-        self.age = 0.0
-        hints = [
-            (Button.FIRE, "results.next_letter"),
-            (Button.START, "events.hint_enter"),
-            (Button.BACK, "events.hint_back"),
-        ]
-        self.prompts = context.prompts(hints)
 
-    def on_enter(self) -> None:
-        """Nothing to do."""
-
-    def handle(self, event: InputEvent) -> StackOperation:
-        """Change letters; FIRE on the last one and START enter the name; BACK on the first one leaves."""
-        event = self.prompts.as_button(event)
-        picker = self.spelling.picker
-        if self.age < INPUT_LOCKOUT:
-            return None
-        if event.button is Button.BACK and picker.slot == 0:
-            self.context.sounds.play("back")
-            return Pop()
+    def press(self, event: InputEvent) -> StackOperation:
+        """Change letters; FIRE on the last one and START enter the name."""
         if event.button is Button.CLICK and event.at:
             self._click(event.at)
             return None
@@ -65,16 +53,25 @@ class LettersPage:
             self.context.sounds.play(sound)
         return None
 
-    def update(self, seconds: float) -> StackOperation:
-        """Animate; return to the entrants when idle."""
-        self.age += seconds
-        self.spelling.update(seconds)
-        return Pop() if self.context.idle > IDLE else None
+    def leave(self) -> StackOperation:
+        """Go back one letter; leave from the first one."""
+        self.refusal = ""
+        if self.spelling.picker.slot == 0:
+            return super().leave()
+        self.context.sounds.play(self.spelling.handle(Button.BACK) or "back")
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    def advance(self, seconds: float) -> StackOperation:
+        self.spelling.update(seconds)
+        return None
+
+    @property
+    def subtitle(self) -> str:
+        return self.context.words("events.count", count=len(self.names()))
+
+    def paint(self, screen: pygame.Surface) -> None:
+        """Draw the last names, the letters, and how to change them."""
         words, names = self.context.words, self.names()
-        screen.blit(backdrop(), (0, 0))
-        heading(words("events.letters"), words("events.count", count=len(names))).draw(screen)
         text("   ".join(shortened(name, RECENT_ROOM) for name in names[-RECENT:]), LABEL, MIST, "head").draw(
             screen, 960, RECENT_Y
         )
@@ -87,7 +84,6 @@ class LettersPage:
             text(self.refusal, BODY, ALARM).draw(screen, 960, HINT_Y)
         else:
             text(words("lab.name_how"), BODY, MIST).draw(screen, 960, HINT_Y)
-        self.prompts.draw(screen)
 
     # ---- inside
 

@@ -16,7 +16,7 @@ class NamePage(name_page.NamePage):
     def is_taken(self, name: str) -> bool:
         return name != self.lab.name and name in names()
 
-    def save(self, name: str) -> StackOperation:
+    def keep(self, name: str) -> StackOperation:
         words = self.context.words
         try:
             self.lab.trainer.save(name)
