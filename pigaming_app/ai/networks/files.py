@@ -5,13 +5,14 @@ the hash of the engine, and a handicap: a level is a network with a handicap.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
-from math import isfinite
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Annotated, Any
+
+from msgspec import Meta
 
 from pigaming_app import ASSETS
 from pigaming_app.ai.brain.archive import HEAD, BrainFileError, pack, unpack, verify
@@ -19,6 +20,8 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.policy import HIDDEN, NO_HANDICAP, Handicap, Policy, network_brain
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.games.engine_hash import engine_hash
+from pigaming_app.storage.parsing import ParseError
+from pigaming_app.storage.schema import Count, Finite, to_plain, typed
 
 BRAINS = ASSETS / "brains"
 FORMAT = "pigaming-network-1"
@@ -27,16 +30,9 @@ MAX_BYTES = 100_000  # size limit of a file
 MAX_HEAD, MAX_MATRIX, MAX_BIAS = 400_000, 100_000, 2_000  # limits of unpacked sizes, bytes; a character has four
 MATRICES, BIASES = ("first", "second", "last"), ("first_bias", "second_bias", "last_bias")
 PARTS = {HEAD: MAX_HEAD, **dict.fromkeys(MATRICES, MAX_MATRIX), **dict.fromkeys(BIASES, MAX_BIAS)}
-MAX_TEXT, MAX_ENTRIES, MAX_ROWS, MAX_COLUMNS = 4_000, 100, 1_000, 20
-LIMITS = {
-    "delay": (0.0, 1.0),
-    "error": (0.0, 1.0),
-    "sharpness": (0.0, 10.0),
-    "thrift": (0.0, 1.0),
-    "speed": (0.1, 1.0),
-    "form": (0.0, 0.9),
-    "turns": (0.0, 0.0),  # only some encodings have them, in code
-}  # of handicaps
+Text = Annotated[str, Meta(max_length=4_000)]
+Scalar = Text | Finite | int | bool | None
+Values = Scalar | list[Scalar]
 
 
 class NetworkError(BrainFileError):
@@ -47,8 +43,12 @@ class NetworkError(BrainFileError):
 class Curve:
     """The course of a training: numbers by row and column, such as updates and shares of wins."""
 
-    columns: tuple[str, ...] = ()
-    rows: tuple[tuple[float, ...], ...] = ()
+    columns: Annotated[tuple[Text, ...], Meta(max_length=20)] = ()
+    rows: Annotated[tuple[tuple[Finite, ...], ...], Meta(max_length=1_000)] = ()
+
+    def __post_init__(self) -> None:
+        if any(len(row) != len(self.columns) for row in self.rows):
+            raise ValueError("rows and columns do not fit")
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,17 +58,17 @@ class TrainedNetwork:
     `matrices`: int16, (inputs, 64), (64, 64), (64, outputs), in units of 1/256; `biases`: int16, one for each column.
     """
 
-    name: str
-    game: str
+    name: Text
+    game: Text
     matrices: Sequence[Any]
     biases: Sequence[Any]
-    recipe: Mapping[str, Any]  # hyper-parameters, opponents: numbers, texts, and lists of them
+    recipe: Annotated[Mapping[Text, Values], Meta(max_length=100)]  # hyper-parameters, opponents
     seed: int
-    updates: int
-    decisions: int  # of the learner's robots, over the whole training
+    updates: Count
+    decisions: Count  # of the learner's robots, over the whole training
     curve: Curve = Curve()
-    licence: str = LICENCE
-    engine: str = ""  # hash of the engine it was trained with; "": the present one
+    licence: Text = LICENCE
+    engine: Text = ""  # hash of the engine it was trained with; "": the present one
     handicap: Handicap = NO_HANDICAP
 
     def __post_init__(self) -> None:
@@ -82,13 +82,8 @@ class TrainedNetwork:
 
 def encode(trained: TrainedNetwork) -> bytes:
     """Content of the file of a network. Raises NetworkError for one that `decode` would refuse."""
-    head = {
-        "format": FORMAT,
-        **{key: value for key, value in vars(trained).items() if key not in ("matrices", "biases", "recipe")},
-        "recipe": dict(trained.recipe),
-        "curve": asdict(trained.curve),
-        "handicap": asdict(trained.handicap),
-    }
+    parts = {key: value for key, value in vars(trained).items() if key not in ("matrices", "biases")}
+    head = {"format": FORMAT, **to_plain(parts)}
     arrays = dict(zip((*MATRICES, *BIASES), (*trained.matrices, *trained.biases), strict=True))
     raw = pack(head, arrays)
     decode(raw, trained.name)
@@ -160,69 +155,9 @@ def _trained(head: Mapping[str, Any], arrays: Mapping[str, Any]) -> TrainedNetwo
     if Layers(matrices, biases).largest_sum() >= EXACT:
         raise NetworkError("its weights are too large")
     try:
-        return TrainedNetwork(
-            name=_text(head["name"]),
-            game=encoding.game,
-            matrices=matrices,
-            biases=biases,
-            recipe=_recipe(head["recipe"]),
-            seed=_count(head["seed"], -(2**63)),
-            updates=_count(head["updates"]),
-            decisions=_count(head["decisions"]),
-            curve=_curve(head["curve"]),
-            licence=_text(head["licence"]),
-            engine=_text(head["engine"]),
-            handicap=_handicap(head["handicap"]),
-        )
-    except (KeyError, TypeError, ValueError, OverflowError):
-        raise NetworkError("its head is not complete") from None
-
-
-def _text(value: Any) -> str:
-    if not isinstance(value, str) or len(value) > MAX_TEXT:
-        raise ValueError("text")
-    return value
-
-
-def _count(value: Any, low: int = 0) -> int:
-    if type(value) is not int or not low <= value < 2**63:
-        raise ValueError("count")
-    return value
-
-
-def _number(value: Any) -> float:
-    if type(value) not in (int, float) or not isfinite(value):
-        raise ValueError("number")
-    return float(value)
-
-
-def _recipe(table: Any) -> dict[str, Any]:
-    """Numbers, texts and truth values by name, or lists of them. Raises ValueError."""
-    if not isinstance(table, dict) or len(table) > MAX_ENTRIES:
-        raise ValueError("recipe")
-    for values in table.values():
-        for value in values if isinstance(values, list) else [values]:
-            if isinstance(value, str):
-                _text(value)
-            elif value is not None and type(value) is not bool:
-                _number(value)
-    return table
-
-
-def _curve(table: Any) -> Curve:
-    """Raises KeyError, TypeError, ValueError."""
-    columns = tuple(_text(name) for name in table["columns"])
-    rows = tuple(tuple(_number(value) for value in row) for row in table["rows"])
-    if len(columns) > MAX_COLUMNS or len(rows) > MAX_ROWS or any(len(row) != len(columns) for row in rows):
-        raise ValueError("curve")
-    return Curve(columns, rows)
-
-
-def _handicap(table: Any) -> Handicap:
-    """Raises KeyError, TypeError, ValueError."""
-    if not isinstance(table, dict) or not table.keys() <= {one.name for one in fields(Handicap)}:
-        raise ValueError("handicap")
-    numbers = {name: _number(value) for name, value in table.items()}
-    if any(not LIMITS[name][0] <= number <= LIMITS[name][1] for name, number in numbers.items()):
-        raise ValueError("handicap")
-    return Handicap(**numbers)
+        trained = typed({**head, "matrices": matrices, "biases": biases}, TrainedNetwork)
+    except ParseError as error:
+        raise NetworkError(f"its head: {error}") from None
+    if trained.handicap.turns:
+        raise NetworkError("its head: handicap.turns: only some encodings have them, in code")
+    return trained

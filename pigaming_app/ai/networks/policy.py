@@ -20,6 +20,7 @@ from pigaming_app.sim.kernel import kernel, kernel_with_loops
 from pigaming_app.sim.record import dtype, record
 from pigaming_app.sim.rng import bell, seeded, uniform
 from pigaming_app.sim.world import HZ
+from pigaming_app.storage.schema import Share, between
 
 if TYPE_CHECKING:
     from pigaming_app.ai.networks.layers import Layers
@@ -33,12 +34,12 @@ DRAWN_FOR = HZ // 2  # ticks for which an aiming error lasts
 class Handicap:
     """What makes a network weaker than it is. The default leaves it as strong as it can be."""
 
-    delay: float = 0.0  # s, age of the poses of others
-    error: float = 0.0  # rad, standard deviation of the bearing of others, redrawn every half second
-    sharpness: float = 1.0  # factor of the logits: below 1 it chooses less surely
-    thrift: float = 0.0  # cost of a shot that it has in mind, in points
-    speed: float = 1.0  # share of full speed that it drives at most
-    form: float = 0.0  # share of that which it may lack on a bad day; drawn for each match
+    delay: Share = 0.0  # s, age of the poses of others
+    error: Share = 0.0  # rad, standard deviation of the bearing of others, redrawn every half second
+    sharpness: Annotated[float, between(0.0, 10.0)] = 1.0  # factor of the logits: below 1 it chooses less surely
+    thrift: Share = 0.0  # cost of a shot that it has in mind, in points
+    speed: Annotated[float, between(0.1, 1.0)] = 1.0  # share of full speed that it drives at most
+    form: Annotated[float, between(0.0, 0.9)] = 0.0  # share of that which it may lack on a bad day, drawn by match
     turns: float = 0.0  # s, at most, for which it goes for one opponent before the next has its turn; 0: no turns
 
 

@@ -6,7 +6,7 @@ checksum of itself and the table, and the hash of the engine, since results meas
 
 from dataclasses import asdict, dataclass, fields
 from functools import cache
-from typing import Any
+from typing import Annotated, Any
 
 from pigaming_app import ASSETS
 from pigaming_app.ai.brain.archive import BrainFileError, pack, unpack, verify
@@ -18,6 +18,8 @@ from pigaming_app.ai.qlearning.table import ACTIONS, PAIRS, QTable
 from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES
 from pigaming_app.sim.record import dtype
+from pigaming_app.storage.parsing import ParseError
+from pigaming_app.storage.schema import Line, between, typed
 
 FORMAT, RULE = "pigaming-table-1", "pitanks classic"
 MAX_BYTES = 4_000_000  # size limit of a file; a full training takes about 60,000
@@ -33,14 +35,14 @@ class TableError(BrainFileError):
 class Trained:
     """A table with the parameters of its training. `rows`: one NumPy record of `QTable`."""
 
-    name: str
+    name: Line
     reward: int  # 1 or 2: published reward table; 0: custom
     recipe: Recipe
     seed: int
-    arena: str
-    minutes: float  # per match
+    arena: Line
+    minutes: Annotated[float, between(MIN_MINUTES, MAX_MINUTES)]  # per match
     rows: Any
-    engine: str  # hash of the engine it was trained with
+    engine: Line  # hash of the engine it was trained with
 
     @property
     def matches(self) -> int:
@@ -111,38 +113,18 @@ def _trained(head: dict[str, Any], q: Any, n: Any) -> Trained:
     counts = {"experiences": int(n.sum()), "pairs": int(tried.sum()), "states": int(tried.any(axis=1).sum())}
     if not np.isfinite(q).all() or (n < 0).any() or any(head.get(key) != count for key, count in counts.items()):
         raise TableError("the table contradicts itself")
-    recipe = _recipe(head.get("recipe"))
     rows = np.zeros(1, dtype(QTable))
     rows["q"], rows["n"] = q, n
     try:
+        trained = typed({**head, "rows": rows}, Trained)
+        if head["recipe"].keys() != {field.name for field in fields(Recipe)}:
+            raise TableError("its recipe is of another version")
         for key in COUNTS:
-            rows[key] = int(head[key])
-        for key, value in asdict(recipe).items():
+            rows[key] = typed(head.get(key), int)
+        for key, value in asdict(trained.recipe).items():
             rows["knobs"][key] = value
-        trained = Trained(
-            name=str(head["name"]),
-            reward=int(head["reward"]),
-            recipe=recipe,
-            seed=int(head["seed"]),
-            arena=str(head["arena"]),
-            minutes=float(head["minutes"]),
-            rows=rows,
-            engine=str(head["engine"]),
-        )
-        if trained.matches < 0 or not MIN_MINUTES <= trained.minutes <= MAX_MINUTES:
-            raise TableError("the table contradicts itself")
-        return trained
-    except TableError:
-        raise
-    except (KeyError, TypeError, ValueError, OverflowError):
-        raise TableError("its head is not complete") from None
-
-
-def _recipe(numbers: Any) -> Recipe:
-    """The recipe after validation. Raises TableError."""
-    if not isinstance(numbers, dict) or numbers.keys() != {field.name for field in fields(Recipe)}:
-        raise TableError("its recipe is of another version")
-    try:
-        return Recipe(**numbers)
-    except (TypeError, ValueError) as error:
-        raise TableError(f"its recipe: {error}") from None
+    except (ParseError, OverflowError) as error:
+        raise TableError(f"its head: {error}") from None
+    if trained.matches < 0:
+        raise TableError("the table contradicts itself")
+    return trained

@@ -58,9 +58,15 @@ def test_what_was_written_is_read():
         ({"last_bias": lambda array: array.astype(float)}, "whole numbers"),
         ({"first": lambda array: array * 0 + np.int16(32767)}, "too large"),
         ({"first": lambda array: np.zeros(1_000_000)}, "too big"),
-        ({"head": lambda head: {**head, "recipe": {"a": float("nan")}}}, "not complete"),
-        ({"head": lambda head: {**head, "handicap": {**head["handicap"], "delay": 9.0}}}, "not complete"),
-        ({"head": lambda head: {**head, "curve": {"columns": ["a"], "rows": [[1, 2]]}}}, "not complete"),
+        ({"head": lambda head: {**head, "recipe": {"a": float("nan")}}}, r"its head: recipe\[...\]"),
+        (
+            {"head": lambda head: {**head, "handicap": {**head["handicap"], "delay": 9.0}}},
+            r"its head: handicap\.delay: expected a number <= 1",
+        ),
+        (
+            {"head": lambda head: {**head, "curve": {"columns": ["a"], "rows": [[1, 2]]}}},
+            "its head: curve: rows and columns do not fit",
+        ),
     ],
 )
 def test_an_edited_file_is_refused_in_one_line(tmp_path, changes, reason):

@@ -5,6 +5,7 @@ network plays here against the hand-made robot.
 """
 
 import logging
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 from math import inf
 from time import monotonic
@@ -167,10 +168,11 @@ class NetworkTrainer:
 
     def open(self, trained: TrainedNetwork) -> None:
         """Continue with a saved network."""
-        recipe = {name: trained.recipe.get(name, value) for name, value in asdict(NetworkRecipe()).items()}
-        self.recipe = NetworkRecipe(**{name: float(value) for name, value in recipe.items()})
+        known: Mapping[str, Any] = trained.recipe
+        recipe = {name: float(known.get(name, value)) for name, value in asdict(NetworkRecipe()).items()}
+        self.recipe = NetworkRecipe(**recipe)
         weights = Weights(tuple(trained.matrices), tuple(trained.biases))
-        matches = float(trained.recipe.get("matches", 0.0))
+        matches = float(known.get("matches", 0.0))
         measures = tuple(Measure(*row) for row in trained.curve.rows if len(row) == 2)
         self._begin(trained.seed, State(weights, trained.updates, trained.decisions, matches), measures)
 
