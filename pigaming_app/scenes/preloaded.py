@@ -8,7 +8,6 @@ CORE = (
     "pigaming_app.scenes.play.scene",
     "pigaming_app.scenes.views.race.mud",
     "pigaming_app.scenes.options.page",
-    "pigaming_app.scenes.options.controls_test",
 )
 
 

@@ -22,6 +22,8 @@ from pigaming_app.games.game import Outcome, Row, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay
 from pigaming_app.hardware.scan.things import ThingKind
+from pigaming_app.scenes.controls.controls_test import ControlsTest
+from pigaming_app.scenes.controls.remap_page import RemapPage
 from pigaming_app.scenes.editor import store
 from pigaming_app.scenes.editor.checker import Verdict
 from pigaming_app.scenes.editor.gallery.drawing_page import DrawingPage
@@ -62,10 +64,8 @@ from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import Seats
 from pigaming_app.scenes.mat.robots.menu import RobotsMenu
 from pigaming_app.scenes.options import games_page
-from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.new_game import NewGame
 from pigaming_app.scenes.options.page import SECTIONS, OptionsPage
-from pigaming_app.scenes.options.remap_page import RemapPage
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import PATIENCE, JoinByPhone
 from pigaming_app.scenes.phones.settings_page import PhonesPage

@@ -7,6 +7,8 @@ from pathlib import Path
 import pygame
 import pytest
 
+from pigaming_app.scenes.controls import pictures as gadgets
+from pigaming_app.scenes.controls.controls_test import ControlsTest
 from pigaming_app.scenes.flow.stack import Scene, Stack
 from pigaming_app.scenes.howto import scene as howto
 from pigaming_app.scenes.howto.scene import HowTo
@@ -15,8 +17,6 @@ from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.seats import Seats
-from pigaming_app.scenes.options import controls_pictures as gadgets
-from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.replays.page import ReplaysPage

@@ -37,9 +37,10 @@ class OptionRow(NamedTuple):
     """A row of the options that opens a page; its words are the texts `options.NAME` and `options.NAME_line`."""
 
     section: str  # of the options; empty: the first page
-    after: str  # the row of the core that it follows
+    after: str  # the row that it follows; if that is missing, it comes last
     page: Callable[[Context], Scene]
     picture: Callable[[GlowCanvas, int], object]  # draws round (0, 0); `beat`: 0 or 1, twice a second
+    for_children: bool = False  # they may open it in a kiosk
 
 
 class Show(NamedTuple):

@@ -16,7 +16,10 @@ from pigaming_app.storage.optional import is_there, optional
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.window import Pin
 
-NAMES = ("attract", "brain", "howto", "ladder", "events", "lab", "editor", "replays", "phones", "kiosk", "mat")
+NAMES = (
+    *("attract", "brain", "controls", "howto", "ladder", "events"),
+    *("lab", "editor", "replays", "phones", "kiosk", "mat"),
+)
 
 log = logging.getLogger("pigaming")
 

@@ -15,9 +15,7 @@ from pigaming_app.scenes.features.registry import features
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
 from pigaming_app.scenes.options import pictures
-from pigaming_app.scenes.options.controls_test import ControlsTest
 from pigaming_app.scenes.options.games_page import GamesPage
-from pigaming_app.scenes.options.remap_page import RemapPage
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.views.race.ghost_files import delete_ghosts
 from pigaming_app.scenes.views.rumble import TAKEN
@@ -184,8 +182,6 @@ SECTIONS: dict[str, dict[str, Option]] = {
     },
     "controls": {
         "rumble": switch("rumble", _rumble),
-        "padtest": opens(lambda page: ControlsTest(page.context), for_children=True),
-        "remap": opens(lambda page: RemapPage(page.context)),
     },
     "ease": {
         "calm": switch("calm"),
@@ -215,8 +211,9 @@ def options_of(section: str) -> dict[str, Option]:
     found = [*SECTIONS.get(section, FIRST).items()]
     for name, row in added_rows().items():
         if row.section == section:
-            after = [known for known, _ in found].index(row.after) + 1
-            found.insert(after, (name, opens(partial(_page_of, row))))
+            known = [name for name, _ in found]
+            place = known.index(row.after) + 1 if row.after in known else len(found)
+            found.insert(place, (name, opens(partial(_page_of, row), row.for_children)))
     return dict(found)
 
 

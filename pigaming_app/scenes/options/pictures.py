@@ -115,7 +115,7 @@ def _drawn(name: str, chosen: int, beat: int) -> LitImage:
             ink.text(code.upper(), LABEL, x, y, lit, "head", "c")
     elif name in ("display", "fullscreen", "picture"):
         _monitor(ink, name == "picture" or (name == "fullscreen" and bool(chosen)), beat)
-    elif name in ("padtest", "controls"):
+    elif name == "controls":
         icon(ink, "pad", 0, 10, 130, FOCUS, LINE)
         if beat:
             ink.disc(0.44 * 130, 10 - 0.28 * 130, 12, ICE)
@@ -134,10 +134,6 @@ def _drawn(name: str, chosen: int, beat: int) -> LitImage:
     elif name == "large":
         ink.text("A", 2 * LABEL, -60, 24, dim(STEEL, 0.9) if chosen else FOCUS, "head", "c")
         ink.text("A", 4 * LABEL, 70, 0, FOCUS if chosen else dim(STEEL, 0.9), "head", "c")
-    elif name == "remap":
-        for x, lit in ((-84, STEEL), (84, FOCUS)):
-            ink.line(cut_box(x - 52, -52, 104, 104, 14), lit, LINE, True)
-        ink.line([(-20, 0), (20, 0)], ICE, LINE).line([(6, -14), (20, 0), (6, 14)], ICE, LINE)
     elif name in ("games", "added"):
         for i, (x, y) in enumerate(((-110, -62), (10, -62), (-110, 22), (10, 22))):
             last = i == 3 and (beat or name == "games")
@@ -151,27 +147,6 @@ def _drawn(name: str, chosen: int, beat: int) -> LitImage:
         ink.line([(0, -110), (0, -10)], FOCUS, LINE)
     else:
         raise KeyError(name)
-    return LitImage(ink.lit(0.9), (-240, -170))
-
-
-KEY_ICONS = {"fire": "shoot", "turbo": "speed", "x": "plus", "start": "play", "normal": "turn_left"}
-
-
-@cached
-def key(name: str, device: str, lit: bool) -> LitImage:
-    """The function `name` of a key or a button: a sign in its outline, which glows if `lit`. `device`: its icon."""
-    ink, color = GlowCanvas(480, 340).set_transform(240, 170), FOCUS if lit else STEEL
-    if name == "device":
-        icon(ink, device, 0, 10, 120, color, LINE)
-        return LitImage(ink.lit(0.9), (-240, -170))
-    if device != "pad":
-        ink.line(cut_box(-110, -110, 220, 220, 24), color, LINE, True)
-    else:
-        ink.ring(0, 0, 116, color, LINE)
-    if name == "y":
-        ink.text("ABC", LABEL, 0, 0, ICE, "head", "c")
-    else:
-        icon(ink, KEY_ICONS.get(name, name), 0, 0, 60, ICE, LINE)
     return LitImage(ink.lit(0.9), (-240, -170))
 
 

@@ -5,14 +5,14 @@ from pathlib import Path
 import pygame
 import pytest
 
+from pigaming_app.scenes.controls.controls_test import ControlsTest
+from pigaming_app.scenes.controls.remap_page import RemapPage
 from pigaming_app.scenes.events.drivers import driver_label, suggested
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.seats import EMPTY
-from pigaming_app.scenes.options.controls_test import ControlsTest
-from pigaming_app.scenes.options.remap_page import RemapPage
 from pigaming_app.scenes.start import opened
 from pigaming_app.ui.draw import icons
 from pigaming_app.ui.i18n import LANGUAGES

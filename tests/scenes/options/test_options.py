@@ -7,9 +7,9 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.scenes.options.controls_test import ControlsTest
+from pigaming_app.scenes.controls.controls_test import ControlsTest
+from pigaming_app.scenes.controls.remap_page import RemapPage
 from pigaming_app.scenes.options.page import SECTIONS, OptionsPage, options_of
-from pigaming_app.scenes.options.remap_page import RemapPage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import Settings

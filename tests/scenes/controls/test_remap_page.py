@@ -6,7 +6,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.scenes.options.remap_page import WAIT, RemapPage
+from pigaming_app.scenes.controls.remap_page import WAIT, RemapPage
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls

@@ -6,8 +6,8 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.scenes.options import controls_test as padtest
-from pigaming_app.scenes.options.controls_test import ControlsTest
+from pigaming_app.scenes.controls import controls_test as padtest
+from pigaming_app.scenes.controls.controls_test import ControlsTest
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.robot import LAG
 from pigaming_app.ui.draw import BODY

@@ -10,6 +10,7 @@ from pigaming_app.ui.draw import (
     BODY,
     FOCUS,
     ICE,
+    LABEL,
     LINE,
     MIST,
     SIGNS,
@@ -138,3 +139,24 @@ def _draw_label(ink: GlowCanvas, label: str, x: float, y: float, color: Color) -
     else:
         size = BODY if text_width(label, BODY) < 40 else 30
         ink.text(label, size, x, y, color, "head", "c")
+
+
+KEY_ICONS = {"fire": "shoot", "turbo": "speed", "x": "plus", "start": "play", "normal": "turn_left"}
+
+
+@cached
+def key(name: str, device: str, lit: bool) -> LitImage:
+    """The function `name` of a key or a button: a sign in its outline, which glows if `lit`. `device`: its icon."""
+    ink, color = GlowCanvas(480, 340).set_transform(240, 170), FOCUS if lit else STEEL
+    if name == "device":
+        icon(ink, device, 0, 10, 120, color, LINE)
+        return LitImage(ink.lit(0.9), (-240, -170))
+    if device != "pad":
+        ink.line(cut_box(-110, -110, 220, 220, 24), color, LINE, True)
+    else:
+        ink.ring(0, 0, 116, color, LINE)
+    if name == "y":
+        ink.text("ABC", LABEL, 0, 0, ICE, "head", "c")
+    else:
+        icon(ink, KEY_ICONS.get(name, name), 0, 0, 60, ICE, LINE)
+    return LitImage(ink.lit(0.9), (-240, -170))
