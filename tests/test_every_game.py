@@ -98,7 +98,7 @@ def ends_in_time(match):
     assert all(isfinite(number) for number in numbers(match.state))
 
 
-@pytest.mark.parametrize("game", one_in(3, games()))  # compiling takes long
+@pytest.mark.parametrize("game", one_in(4, games()))  # compiling takes long
 def test_both_bodies_play_the_same_match_to_the_last_bit(game, tmp_path):
     names = [*arenas(game), str(with_things(game, tmp_path))]
     variants = [*games()[game].variants] * 2

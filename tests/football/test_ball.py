@@ -4,7 +4,7 @@ from math import cos, hypot, pi, sin
 from random import Random
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from pigaming_app.sim.arena import WallSpec
@@ -16,6 +16,7 @@ from pigaming_app.sim.world import DT
 from pigaming_football.physics import note_steps, reflect
 from pigaming_football.rules import judge, move
 from pigaming_football.state import Ball
+from tests.cases import examples
 from tests.football.pitch import ARENAS, BALL, ROBOT, overlap, put_ball, put_robot, state
 
 SLOP = 2e-6  # px
@@ -49,7 +50,7 @@ def moments(draw):
     return football
 
 
-@settings(max_examples=3000, deadline=None)
+@examples(3000)
 @given(moments())
 def test_no_ball_is_ever_in_a_wall_or_a_robot(football):
     note_steps(football)
@@ -84,7 +85,7 @@ def test_no_ball_is_ever_in_a_wall_or_a_robot_whatever_happens():
         assert football.goals > 3
 
 
-@settings(max_examples=2000, deadline=None)
+@examples(2000)
 @given(st.floats(0.0, 2.0 * pi), st.floats(58.1, 300.0), st.floats(-1.5, 1.5), st.floats(0.0, ABSURD), STEP, STEP)
 def test_no_ball_tunnels_through_a_robot(way, distance, off, speed, dx, dy):
     """It touches a robot, whatever the speeds, if and only if the ways of the two bring them together."""
@@ -107,7 +108,7 @@ def test_no_ball_tunnels_through_a_robot(way, distance, off, speed, dx, dy):
         assert ball.touched == 0
 
 
-@settings(max_examples=300, deadline=None)
+@examples(300)
 @given(st.integers(0, 10**6), st.sampled_from((10, 30, 100)))
 def test_no_ball_tunnels_through_a_wall(seed, thick):
     """A wall across the whole pitch keeps the ball on its side for ever, with robots that push it against the wall."""
@@ -134,7 +135,7 @@ def test_no_ball_tunnels_through_a_wall(seed, thick):
         assert ball.x < 800.0 - thick / 2 - BALL + SLOP
 
 
-@settings(max_examples=3000, deadline=None)
+@examples(3000)
 @given(
     SPEEDS, SPEEDS, st.floats(-400.0, 400.0), st.floats(-400.0, 400.0), st.floats(0.0, 2.0 * pi), st.floats(0.05, 1.0)
 )
@@ -173,7 +174,7 @@ def test_friction_stops_a_ball_where_mechanics_says():
     assert football.ball.x - 200.0 == pytest.approx(500.0**2 / (2.0 * 200.0), abs=500.0 * DT)
 
 
-@settings(max_examples=400, deadline=None)
+@examples(400)
 @given(moments(), st.integers(1, 25))
 def test_the_rules_favour_no_side(football, ticks):
     """The moment turned by half a circle goes on as the turned moment."""

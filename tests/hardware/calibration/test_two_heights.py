@@ -24,6 +24,12 @@ def arena():
 
 
 @pytest.fixture(scope="module")
+def made(arena):
+    """The calibration of the arena."""
+    return calibrated(arena)
+
+
+@pytest.fixture(scope="module")
 def sights(arena):
     """Markers in pictures of lids on a robot and flat on the mat, at hand-laid places, by trial."""
     detector, page = MarkerDetector(WEARERS), np.zeros((1080, 1920), np.uint8)
@@ -45,8 +51,10 @@ def sights(arena):
 
 @pytest.mark.parametrize(("height", "wrong"), [(1.0, False), (0.75, True), (1.25, True), (1.05, False), (0.95, False)])
 @pytest.mark.parametrize("width", [1.0, 1.05])
-def test_a_lid_on_a_robot_and_on_the_mat_tells_the_height_however_wide_the_arena(arena, sights, height, wrong, width):
-    made, true = calibrated(arena), arena.optics.lens.eye[2]
+def test_a_lid_on_a_robot_and_on_the_mat_tells_the_height_however_wide_the_arena(
+    arena, made, sights, height, wrong, width
+):
+    true = arena.optics.lens.eye[2]
     ground = replace(made, height=true * height, width_mm=made.width_mm * width)
     for trial in sights:
         heights = TwoHeights(ground)
@@ -56,8 +64,8 @@ def test_a_lid_on_a_robot_and_on_the_mat_tells_the_height_however_wide_the_arena
         assert heights.wrong == wrong
 
 
-def test_one_height_alone_tells_nothing(arena, sights):
-    heights = TwoHeights(calibrated(arena))
+def test_one_height_alone_tells_nothing(made, sights):
+    heights = TwoHeights(made)
     assert not heights.seen
     for mark in sights[0][:7]:
         heights.add(mark)
