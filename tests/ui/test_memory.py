@@ -2,11 +2,19 @@
 
 import gc
 import sys
+import weakref
 
 import pytest
 
 from pigaming_app.jobs.bench.memory import resident_mb
 from pigaming_app.ui import memory as heap
+
+
+class Loop:
+    """An object in a reference cycle."""
+
+    itself: "Loop"
+
 
 BLOCK, BLOCKS, KEPT = 60_000, 1600, 80  # bytes, below the threshold of a mapping of its own; one of so many is kept
 
@@ -17,6 +25,21 @@ def test_nothing_is_collected_while_many_objects_are_being_made() -> None:
         assert not heap.collect()
     assert gc.isenabled()
     assert heap.collect()
+
+
+def test_what_stays_is_not_traversed_again_and_garbage_among_it_goes_at_the_next_rest() -> None:
+    loop = Loop()
+    loop.itself, gone = loop, weakref.ref(loop)
+    try:
+        heap.settle()
+        assert gc.get_freeze_count() > 10_000
+        del loop
+        heap.collect()
+        assert gone() is not None
+        heap.settle()
+        assert gone() is None
+    finally:
+        gc.unfreeze()
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="glibc")

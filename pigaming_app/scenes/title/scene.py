@@ -3,6 +3,8 @@
 After a while without input, the page of a feature shows what there is to play.
 """
 
+from collections.abc import Iterator
+
 import pygame
 
 from pigaming_app.scenes.features.registry import idle_page, menu
@@ -28,7 +30,7 @@ from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
 from pigaming_app.ui.i18n import NAMES
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.memory import return_freed_blocks
+from pigaming_app.ui.memory import return_freed_blocks, settle
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import (
     blit_sprite,
@@ -62,13 +64,13 @@ class Title:
         self.focus = Focus(self._spots())
         self.language = LanguageName(context)
         self.music = True  # off in the quiet hours
-        self.since = 0.0  # s since the last return
+        self.since, self.chores = 0.0, self._do_chores()  # s since the last return; see `_rest`
         self.asked: set[str] = set()  # new plug-ins that were asked about
 
     def on_enter(self) -> None:
         """Release the sprites of matches and start the music; in a kiosk, offer its driving styles again."""
         surfaces.release_matches()
-        self.since = 0.0
+        self.since, self.chores = 0.0, self._do_chores()
         if self.context.kiosk:
             self.context.driving.forget_one_button()
         self.context.idle = 0.0
@@ -145,12 +147,19 @@ class Title:
             self.context.sounds.music(self.music)
 
     def _rest(self, seconds: float) -> None:
-        """Once after each return, release the memory of the pages before: it stays flat over a day."""
-        before, self.since = self.since, self.since + seconds
-        if before < REST <= self.since:
-            surfaces.release_pages()
-            drop_paused()
-            return_freed_blocks()
+        """Once after each return, do the chores, one a frame."""
+        self.since += seconds
+        if self.since >= REST:
+            next(self.chores, None)
+
+    def _do_chores(self) -> Iterator[None]:
+        """Release the memory of the pages before, which stays flat over a day."""
+        surfaces.release_pages()
+        drop_paused()
+        yield
+        return_freed_blocks()
+        yield
+        settle()
 
     def _open(self, name: str) -> StackOperation:
         if name == "language":
