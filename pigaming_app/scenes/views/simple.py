@@ -8,7 +8,8 @@ import pygame
 
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud.parts import Y as TOP_OF_PANELS
-from pigaming_app.scenes.views.hud.score import ScoreHud, pulse
+from pigaming_app.scenes.views.hud.parts import pulse
+from pigaming_app.scenes.views.hud.score import ScoreHud
 from pigaming_app.scenes.views.particles import reel
 from pigaming_app.scenes.views.rumble import GIVEN
 from pigaming_app.scenes.views.sprites import robot as tank
@@ -141,7 +142,7 @@ class SimpleView(MatchView):
         self.hud.clock_words = self.clock_words(state)
         for slot in self.hud.show(state):
             if self.options.flashes != "off":
-                self.particles.bloom(slot.x, TOP_OF_PANELS, 0.4, reel(pulse, slot.seat, slot.w))
+                self.particles.bloom(slot.x, TOP_OF_PANELS, 0.4, reel(pulse, PLAYERS[slot.seat], slot.w))
         under: Batch = []
         over: Batch = []
         light: Batch = []

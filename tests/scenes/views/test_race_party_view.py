@@ -286,7 +286,7 @@ def test_finishes_within_half_a_second_are_announced_with_the_difference(behind,
     assert "photo_finish" not in sounds(view, state)
     second.finished, second.finish, second.rank = 1, 1000.0 + behind / DT, 2
     assert ("photo_finish" in sounds(view, state)) == close
-    lines = " ".join(view.cards.notice[0])
+    lines = view.cards.notice[0].replace("|", " ")
     assert (f"{behind:.2f}" in lines) == close
 
 

@@ -7,22 +7,19 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
-import pygame
-
 from pigaming_app.games.factory.state import DELIVERED, ICE, TEAMS, Factory
 from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.factory import order_cards, panels, star_panel
-from pigaming_app.scenes.views.factory.order_cards import Order
-from pigaming_app.scenes.views.factory.panels import EDGE, NUMBER, H, Mate, W, X, Y
+from pigaming_app.scenes.views.factory.order_cards import STEPS, Order
+from pigaming_app.scenes.views.factory.panels import NUMBER, H, Mate, W, X, Y
 from pigaming_app.scenes.views.hud.ai_sign import ai_of, name_of
-from pigaming_app.scenes.views.hud.parts import CLOCK, HudParts
+from pigaming_app.scenes.views.hud.parts import CLOCK, EDGE, HudParts, clock_jobs, drawn, pulse, word_bits
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, SUB, Color, GlowCanvas, readable
+from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, Color, readable
 from pigaming_app.ui.draw import ICE as WHITE
 from pigaming_app.ui.draw.frame_budget import Job
-from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, glyph, wrap_balanced
+from pigaming_app.ui.draw.text import wrap_balanced
 from pigaming_app.ui.i18n import Words
 
 ROBOT, CRATES = 268, 330  # px from a panel's outer edge, at least
@@ -55,8 +52,7 @@ class FactoryHud:
         if state.rules.allies:
             star_panel.show_stars(self.parts, state, self._mates(state, ICE))
         elif self.words and state.rules.party and state.tick >= state.rules.ticks:
-            call = self.words("factory.next_point")
-            self.parts.show("clock", call, CLOCK.x, CLOCK.w, partial(overtime_bits, call))
+            self.parts.show("clock", self._overtime, CLOCK.x, CLOCK.w, partial(word_bits, self._overtime))
         else:
             self.parts.countdown(state, CLOCK_Y)
         return new
@@ -79,6 +75,12 @@ class FactoryHud:
             bits = partial(team_bits, team, *content)
         self.parts.show(team, content, X[team] - 8, W + 16, bits)
 
+    @property
+    def _overtime(self) -> str:
+        """Words in place of the clock; | parts lines."""
+        words = self.words("factory.next_point") if self.words else ""
+        return "|".join(wrap_balanced(words, 2, readable(LABEL), "head"))
+
     def _mates(self, state: Factory, team: int) -> tuple[Mate, ...]:
         return tuple(
             (i, ai_of(self.players[i]), name_of(self.names, i), round(16 * robot.turbo))
@@ -87,26 +89,26 @@ class FactoryHud:
         )
 
     def jobs(self, state: Factory) -> Iterator[Job]:
-        """Prewarm jobs for the pieces of the panels."""
+        """Prewarm jobs: samples of the panels, and of the words over them."""
+        party = bool(state.rules.party)
+        yield from clock_jobs(CLOCK_Y)
         for team in self.teams:
-            yield partial(panels.pulse, team)
-            for char in "0123456789":
-                yield from (partial(glyph, char, readable(SUB), color) for color in (WHITE, FOCUS))
-            for key in ("stolen", "expired") if state.rules.party else ("one_to_go",):
+            yield partial(pulse, COLORS[team], W, H)
+            for key in ("stolen", "expired") if party else ("one_to_go",):
                 if self.words:
-                    yield partial(panels.banner, self.words(f"factory.{key}"), call_color(key, team))
+                    yield drawn(call_bits, team, self.words(f"factory.{key}"), call_color(key, team))
         if state.rules.allies:
             yield from star_panel.jobs(state)
             return
+        rushes = [Order(form, STEPS // 2, urgent) for form in range(DELIVERED) for urgent in (False, True) if party]
         for team in self.teams:
-            named = tuple((seat, brain, name, 0) for seat, brain, name, _ in self._mates(state, team) if name)
-            yield partial(panels.frame, team, mates=named)
-            for form in range(DELIVERED + 1):
-                yield partial(panels.small_crate, team, form, order_cards.SIZES[0][0])
-        if state.rules.party:
-            yield from order_cards.jobs()
-            if self.words:
-                yield partial(overtime, self.words("factory.next_point"))
+            shown, goal = tuple(Order(form) for form in range(DELIVERED + 1)), 0 if party else state.rules.pallets
+            for i in range(10):
+                for color in (WHITE, FOCUS):
+                    yield drawn(team_bits, team, i, goal, color, self._mates(state, team), shown)
+            yield from (drawn(order_cards.bits, team, (order,), 0, W, False) for order in rushes)
+        if party and self.words:
+            yield drawn(word_bits, self._overtime)
 
 
 def lacks_one(state: Factory, team: int) -> bool:
@@ -139,19 +141,3 @@ def call_color(key: str, team: int) -> Color:
 def call_bits(team: int, text: str, color: Color) -> Iterator[Bit]:
     """A call that covers a team's panel."""
     yield panels.banner(text, color), (X[team] - EDGE, Y - EDGE), None
-
-
-def overtime_bits(text: str) -> Iterator[Bit]:
-    """The words that replace the clock in overtime."""
-    yield panels.centred(overtime(text), CLOCK.centerx, CLOCK_Y)
-
-
-@cached
-def overtime(text: str) -> pygame.Surface:
-    """A short call in two lines, as wide as the clock."""
-    lines = wrap_balanced(text, 2, readable(LABEL), "hero")
-    size = min(fit_size(line, readable(LABEL), CLOCK.w - 16, "hero") for line in lines)
-    ink = GlowCanvas(CLOCK.w, H + 20)
-    for i, line in enumerate(lines):
-        ink.text(line, size, CLOCK.w / 2, (H + 20) / 2 + 52 * (i - (len(lines) - 1) / 2), FOCUS, "hero", "c")
-    return ink.lit(0.7)

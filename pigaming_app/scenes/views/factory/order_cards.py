@@ -1,17 +1,15 @@
 """Pallets in a team's panel; in party they are its orders, and a rush order shows its worth and the time left."""
 
 from collections.abc import Iterator
-from functools import partial
 from typing import NamedTuple
 
 import pygame
 
-from pigaming_app.games.factory.state import DELIVERED, TEAMS, Factory
+from pigaming_app.games.factory.state import DELIVERED, Factory
 from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.factory.panels import MIDDLE, centred, small_crate
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, THIN, GlowCanvas, cut_box, dim, readable
-from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.surface_cache import cached
 
 CARD_W, CARD_H = 60, 92  # px of the card of a rush order
@@ -62,15 +60,6 @@ def bits(team: int, shown: tuple[Order, ...], left: float, right: float, mirrore
         cut = (image.get_width() - BAR_W) // 2 + BAR_W * order.left // STEPS
         corner = round(x) - image.get_width() // 2, round(MIDDLE) + BAR_DOWN - image.get_height() // 2
         yield image, corner, (0, 0, cut, image.get_height())
-
-
-def jobs() -> Iterator[Job]:
-    """Prewarm jobs for the cards of rush orders."""
-    for urgent in (False, True):
-        yield partial(card, urgent)
-        yield partial(bar, urgent)
-    for team in range(TEAMS):
-        yield from (partial(small_crate, team, state, RUSH_CRATE) for state in range(DELIVERED))
 
 
 @cached

@@ -8,7 +8,7 @@ from pigaming_app.games.factory.state import ICE as FIRST_TEAM
 from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.factory.background import draw_lorry
 from pigaming_app.scenes.views.hud.ai_sign import driver_tab, level_mark
-from pigaming_app.scenes.views.hud.parts import number_bits
+from pigaming_app.scenes.views.hud.parts import EDGE, number_bits, plate
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.scenes.views.sprites.factory import draw_crate, emblem
 from pigaming_app.ui.draw import (
@@ -26,11 +26,10 @@ from pigaming_app.ui.draw import (
     icon,
     readable,
 )
-from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, number_width
 
-Y, H, W, EDGE = 26, 104, 652, 24  # px: top, height and width of a panel, margin around its sprites
+Y, H, W = 26, 104, 652  # px: top, height and width of a panel
 X = (160, 1108)
 EMBLEM, NUMBER = 58, 106  # px from a panel's outer edge
 MIDDLE = Y + H / 2
@@ -43,7 +42,7 @@ def frame(team: int, lorry: bool = False, mates: tuple[Mate, ...] = ()) -> pygam
     """Outline and emblem of a panel; with a lorry for its emblem if there is only one team. `mates`: whose names stand
     on its upper line.
     """
-    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    ink = plate(W, H)
     _outline(ink, team)
     for i, (seat, brain, name, _) in enumerate(mates):
         x, room = 24 + (W - 48) / len(mates) * i, (W - 48) / len(mates)
@@ -61,7 +60,7 @@ def frame(team: int, lorry: bool = False, mates: tuple[Mate, ...] = ()) -> pygam
 @cached
 def plain_frame(team: int) -> pygame.Surface:
     """Outline of a panel without an emblem."""
-    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    ink = plate(W, H)
     _outline(ink, team)
     return ink.lit(0.6)
 
@@ -73,7 +72,7 @@ def _outline(ink: GlowCanvas, team: int) -> None:
 @cached
 def banner(text: str, color: Color) -> pygame.Surface:
     """A whole panel with a call instead of its content."""
-    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    ink = plate(W, H)
     ink.fill(cut_box(0, 0, W, H), dim(color, 0.2)).line(cut_box(0, 0, W, H), color, LINE + 4, True)
     ink.text(text, fit_size(text, readable(SUB), W - 80, "hero"), W / 2, H / 2, color, "hero", "c")
     return ink.lit(0.7)
@@ -100,18 +99,6 @@ def robot_sign(seat: int, brain: str, turbo: int) -> pygame.Surface:
     if turbo:
         ink.line([(14, 46), (14 + 90 * turbo / 16, 46)], PLAYERS[seat], 4)
     return ink.lit(0.4)
-
-
-@cached
-def pulse(team: int) -> tuple[Sprite, ...]:
-    """Fade-out of a panel flash after a delivery, relative to its top left."""
-    ink = (
-        GlowCanvas(W + 2 * EDGE, H + 2 * EDGE)
-        .set_transform(EDGE, EDGE)
-        .fill(cut_box(0, 0, W, H), dim(COLORS[team], 0.24))
-    )
-    whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
-    return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
 
 
 def centred(image: pygame.Surface, x: float, y: float) -> Bit:

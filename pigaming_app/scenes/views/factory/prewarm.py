@@ -12,10 +12,9 @@ from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import factory_signs as signs
 from pigaming_app.scenes.views.sprites import pickups as things
-from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, TITLE, dim, readable
+from pigaming_app.ui.draw import ALARM, FOCUS, PLAYERS, dim
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS
-from pigaming_app.ui.draw.text import glyph
 
 
 def jobs(seats: Sequence[int], state: Factory, notes: Announcements) -> Iterator[Job]:
@@ -38,9 +37,6 @@ def jobs(seats: Sequence[int], state: Factory, notes: Announcements) -> Iterator
         yield partial(crates.progress, HALF, part)
         yield partial(crates.progress, DONE, part)
         yield partial(crates.frozen, part, crates.FROZEN)
-    for char in "0123456789:":
-        for color in (ICE, ALARM):
-            yield partial(glyph, char, readable(TITLE), color)
     for seat in seats:
         yield partial(crates.target, PLAYERS[seat], False)
         yield partial(crates.target, dim(PLAYERS[seat], AIMS), True)

@@ -12,14 +12,13 @@ from pigaming_app.games.factory.state import DELIVERED, ICE, Factory
 from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.factory import panels
 from pigaming_app.scenes.views.factory.order_cards import ORDER
-from pigaming_app.scenes.views.factory.panels import EDGE, MIDDLE, NUMBER, H, Mate, W, X, Y
-from pigaming_app.scenes.views.hud.parts import ALARM_SECONDS, CLOCK, HudParts, clock_bits
+from pigaming_app.scenes.views.factory.panels import MIDDLE, NUMBER, H, Mate, W, X, Y
+from pigaming_app.scenes.views.hud.parts import ALARM_SECONDS, CLOCK, EDGE, HudParts, clock_bits, drawn
 from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw import ALARM, FOCUS, LINE, MIST, STEEL, THIN, TITLE, Color, GlowCanvas, readable, star_points
+from pigaming_app.ui.draw import ALARM, FOCUS, LINE, MIST, STEEL, THIN, Color, GlowCanvas, readable, star_points
 from pigaming_app.ui.draw import ICE as WHITE
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import glyph
 
 CRATES, CRATE, PITCH, ROW = 306, 38, 54, 6  # px from the left edge; size; pitch; in a row of two rows, else one
 SINGLE = (4, 52, 80)  # at most so many pallets are in one row; px: their size and pitch
@@ -107,12 +106,7 @@ def star_sign(form: str, text: str) -> pygame.Surface:
 
 
 def jobs(state: Factory) -> Iterator[Job]:
-    """Prewarm jobs for both panels."""
-    yield partial(panels.frame, ICE, True)
-    yield partial(panels.plain_frame, ICE)
-    for form in range(DELIVERED + 1):
-        yield from (partial(panels.small_crate, ICE, form, size) for size in (CRATE, SINGLE[1]))
-    for limit in limits(state):
-        yield from (partial(star_sign, form, clock(limit // HZ)) for form in ("lit", "urgent", "lost"))
-    for char in "0123456789:":
-        yield from (partial(glyph, char, readable(TITLE), color) for color in (WHITE, ALARM))
+    """Prewarm jobs: samples of both panels, and of the clock."""
+    times = tuple(limit // HZ for limit in limits(state))
+    yield drawn(progress_bits, tuple(range(DELIVERED + 1)) * 2, WHITE)
+    yield from (drawn(star_bits, left, urgent, times, ()) for left in range(4) for urgent in (False, True))

@@ -31,10 +31,12 @@ from pigaming_app.scenes.views.factory.effects import CratePops, react
 from pigaming_app.scenes.views.factory.events import FactoryEventDetector, spot
 from pigaming_app.scenes.views.factory.hud import CALLS, FactoryHud
 from pigaming_app.scenes.views.factory.next_step import NextStepGuide
+from pigaming_app.scenes.views.factory.panels import H as PANEL_H
+from pigaming_app.scenes.views.factory.panels import W as PANEL_W
 from pigaming_app.scenes.views.factory.panels import X as PANELS
 from pigaming_app.scenes.views.factory.panels import Y as TOP_OF_PANELS
-from pigaming_app.scenes.views.factory.panels import pulse
 from pigaming_app.scenes.views.factory.prewarm import jobs
+from pigaming_app.scenes.views.hud.parts import pulse
 from pigaming_app.scenes.views.particles import reel
 from pigaming_app.scenes.views.rumble import BLOCKED, DELIVERED, GIVEN, PICKED, TAKEN, rumbles
 from pigaming_app.scenes.views.sprites import factory as crates
@@ -99,7 +101,9 @@ class FactoryView(MatchView):
         self.particles.advance(seconds)
         for team in self.hud.show(state):
             if self.options.flashes != "off":
-                self.particles.bloom(PANELS[team], TOP_OF_PANELS, 0.4, reel(pulse, team))
+                self.particles.bloom(
+                    PANELS[team], TOP_OF_PANELS, 0.4, reel(pulse, crates.TEAMS[team], PANEL_W, PANEL_H)
+                )
         under: Batch = []
         over: Batch = []
         light: Batch = []

@@ -1,18 +1,23 @@
-"""HUD parts common to all games: baked panels, numbers, the clock."""
+"""HUD parts common to all games: baked panels, bars, numbers, the clock, and samples of them that are drawn ahead."""
 
-from collections.abc import Callable, Hashable, Iterable
+from collections import deque
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from typing import Any
 
 import pygame
 
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
 from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, TITLE, Color, readable
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, TITLE, Color, GlowCanvas, cut_box, dim, readable
+from pigaming_app.ui.draw.frame_budget import Job
+from pigaming_app.ui.draw.sprites import Sprite, faded
+from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, glyph, number_width, text
 
 Y, H, EDGE = 34, 92, 24  # px: top and height of the panels, margin around their sprites
 PANEL_W = 316  # px, width of a panel
 XS = {1: (492,), 2: (492, 1112), 3: (160, 492, 1112), 4: (160, 492, 1112, 1444)}  # px: left edges, by number of panels
+CELL = 17.75  # px, pitch of the cells of a turbo bar
 ALARM_SECONDS = 10
 CLOCK = pygame.Rect(820, 0, 280, HUD_HEIGHT)
 
@@ -42,10 +47,49 @@ class HudParts:
         self.show("clock", left, CLOCK.x, CLOCK.w, lambda: clock_bits(text, y, color))
 
 
+def drawn(bits: Callable[..., Iterable[Bit]], *sample: object) -> Job:
+    """A prewarm job that draws a sample, so that all its pieces are cached: `bits(*sample)`."""
+    return lambda: deque(bits(*sample), maxlen=0)
+
+
+def plate(w: float, h: float) -> GlowCanvas:
+    """A canvas of w x h px with a margin of EDGE px."""
+    return GlowCanvas(round(w) + 2 * EDGE, round(h) + 2 * EDGE).set_transform(EDGE, EDGE)
+
+
+@cached
+def pulse(color: Color, w: int, h: int = H, share: float = 0.24) -> tuple[Sprite, ...]:
+    """Fade-out of the flash of a panel of w x h px, relative to its top left. `share`: of its brightness."""
+    whole = Sprite(plate(w, h).fill(cut_box(0, 0, w, h), dim(color, share)).lit(0.8), -EDGE, -EDGE)
+    return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
+
+
+@cached
+def turbo_cells(color: Color, w: int, high: int, lit: bool, glow: float = 0.5) -> pygame.Surface:
+    """Cells of a turbo bar of `w` px, `high` px high, all lit or all dark."""
+    ink = plate(w, high)
+    for i in range(int(w / CELL + 0.01)):
+        x = i * CELL
+        ink.fill([(x + 3, 0), (x + 16, 0), (x + 13, high), (x, high)], color if lit else dim(color, 0.18))
+    return ink.lit(glow) if lit else ink.plain()
+
+
+def bar_bits(full: pygame.Surface, empty: pygame.Surface, at: tuple[int, int], way: float) -> list[Bit]:
+    """A bar at `at` that is lit up to `way` px; `full` and `empty`: all of it, with a margin of EDGE px."""
+    x, y, split, (w, h) = at[0] - EDGE, at[1] - EDGE, EDGE + round(way), full.get_size()
+    return [(full, (x, y), (0, 0, split, h)), (empty, (x + split, y), (split, 0, w - split, h))]
+
+
 def clock_bits(text: str, y: float, color: Color, lead: int = 0) -> list[Bit]:
     """The digits of the clock, in the middle of the picture behind `lead` px."""
     size = number_size(text, CLOCK.w - lead, readable(TITLE), TITLE)
     return number_bits(text, size, 960 + (lead - number_width(text, size)) / 2, y, color)
+
+
+def clock_jobs(y: float) -> Iterator[Job]:
+    """Prewarm jobs: samples of the clock."""
+    for i in range(10):
+        yield from (drawn(clock_bits, f"{i}:{i}{i}", y, color) for color in (ICE, ALARM))
 
 
 def number_size(text: str, room: float, *sizes: int) -> int:

@@ -21,8 +21,14 @@ from pigaming_app.scenes.views.hud.parts import (
     H,
     HudParts,
     Y,
+    bar_bits,
+    clock_jobs,
+    drawn,
     number_bits,
     number_size,
+    plate,
+    pulse,
+    turbo_cells,
     word_bits,
 )
 from pigaming_app.ui.draw import (
@@ -43,13 +49,11 @@ from pigaming_app.ui.draw import (
     mix,
     readable,
 )
-from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import number_width
 from pigaming_app.ui.numbers import numeral
 
-SUM_W = 116  # px
-CELL = 17.75  # px, pitch of the turbo bar cells
+SUM_W, CLOCK_Y = 116, 84  # px
 
 
 @dataclass(frozen=True)
@@ -127,16 +131,16 @@ class ScoreHud:
         return changed
 
     def jobs(self) -> Iterator[Callable[[], object]]:
-        """Prewarm jobs for the pieces of the panels."""
+        """Prewarm jobs: samples of the panels and of the clock."""
+        turbo = 32 if self.has_turbo else None
         for slot in self.slots:
-            for leads in {False, not self.sums}:
-                yield partial(frame, slot.seat, slot.w, leads, *self._driver(slot.seat), self.has_turbo)
-            yield partial(pulse, slot.seat, slot.w)
-            if self.has_turbo:
-                yield partial(turbo_bar, slot.seat, slot.w, True)
-                yield partial(turbo_bar, slot.seat, slot.w, False)
-        if self.sums:
-            yield from (partial(sum_frame, leads, second) for leads in (True, False) for second in (True, False))
+            yield partial(pulse, PLAYERS[slot.seat], slot.w)
+            for score in (*range(10), -1):
+                leads = bool(score % 2) and not self.sums
+                yield drawn(self._panel_bits, slot, score, leads, self._driver(slot.seat), turbo, ())
+        for i, _ in enumerate(self.sums):
+            yield from (partial(sum_frame, leads, bool(i)) for leads in (True, False))
+        yield from clock_jobs(CLOCK_Y)
 
     def leads(self, state: Any, seat: int, alone: bool) -> bool:
         """True for a seat that is marked as leading; `alone`: it, or its team, has the most points alone."""
@@ -155,7 +159,7 @@ class ScoreHud:
         if self.clock_words:
             self.parts.show("clock", self.clock_words, CLOCK.x, CLOCK.w, partial(word_bits, self.clock_words))
         else:
-            self.parts.countdown(state, 84)
+            self.parts.countdown(state, CLOCK_Y)
 
     def _driver(self, seat: int) -> tuple[str, str]:
         """The AI on a seat, and the name of an entrant; either may be empty."""
@@ -171,10 +175,8 @@ class ScoreHud:
         bits: list[Bit] = [(frame(slot.seat, slot.w, leads, *driver, turbo is not None), (x - EDGE, Y - EDGE), None)]
         bits += number_bits(text, size, x + 84, middle, mix(PLAYERS[slot.seat], WHITE, 0.8))
         if turbo is not None:
-            full = EDGE + round((slot.w - 32) * turbo / 64)
-            at, below = (x + 16 - EDGE, Y + 72 - EDGE), 10 + 2 * EDGE
-            bits.append((turbo_bar(slot.seat, slot.w, True), at, (0, 0, full, below)))
-            bits.append((turbo_bar(slot.seat, slot.w, False), (at[0] + full, at[1]), (full, 0, slot.w, below)))
+            full, empty = (turbo_cells(PLAYERS[slot.seat], slot.w - 32, 10, lit) for lit in (True, False))
+            bits += bar_bits(full, empty, (x + 16, Y + 72), (slot.w - 32) * turbo / 64)
         room = int(slot.w - 116 - number_width(text, size))
         return bits + self.extra_bits(extras, x + slot.w, middle, room)
 
@@ -200,7 +202,7 @@ def sole_leader(points: dict[int, int]) -> int | None:
 @cached
 def frame(player: int, w: int, leads: bool, brain: str, name: str, turbo: bool) -> pygame.Surface:
     """Outline and badge of a panel, with the leader's crown and who drives."""
-    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[player]
+    ink, color = plate(w, H), PLAYERS[player]
     outline = cut_box(0, 0, w, H)
     if leads:
         ink.fill(outline, dim(color, 0.14))
@@ -214,29 +216,9 @@ def frame(player: int, w: int, leads: bool, brain: str, name: str, turbo: bool) 
 
 
 @cached
-def pulse(player: int, w: int) -> tuple[Sprite, ...]:
-    """Fade-out of a panel flash after a change of points, relative to its top left."""
-    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[player]
-    ink.fill(cut_box(0, 0, w, H), dim(color, 0.24))
-    whole = Sprite(ink.lit(0.8), -EDGE, -EDGE)
-    return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
-
-
-@cached
-def turbo_bar(player: int, w: int, full: bool) -> pygame.Surface:
-    """Cells of a turbo bar, all lit or all dark."""
-    ink = GlowCanvas(w - 32 + 2 * EDGE, 10 + 2 * EDGE).set_transform(EDGE, EDGE)
-    for i in range(int((w - 32) / CELL + 0.01)):
-        x = i * CELL
-        cell = [(x + 3, 0), (x + 16, 0), (x + 13, 10), (x, 10)]
-        ink.fill(cell, PLAYERS[player] if full else dim(PLAYERS[player], 0.18))
-    return ink.lit(0.5) if full else ink.plain()
-
-
-@cached
 def sum_frame(leads: bool, second: bool) -> pygame.Surface:
     """Box of a team's total, with its team bars: one, or two for the second team."""
-    ink = GlowCanvas(SUM_W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    ink = plate(SUM_W, H)
     if leads:
         ink.fill(cut_box(0, 0, SUM_W, H), dim(ICE, 0.10))
     ink.line(cut_box(0, 0, SUM_W, H), ICE if leads else STEEL, LINE if leads else THIN, True)

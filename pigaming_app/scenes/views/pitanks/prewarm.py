@@ -9,10 +9,9 @@ from pigaming_app.scenes.views.sprites import effects, party
 from pigaming_app.scenes.views.sprites import pickups as things
 from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.walled_background import wall_sprite
-from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LINE, PLAYERS, SUB, THIN, TITLE, WALL, WHITE, mix, readable
+from pigaming_app.ui.draw import ALARM, FOCUS, LINE, PLAYERS, THIN, WALL
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS
-from pigaming_app.ui.draw.text import glyph
 from pigaming_app.ui.numbers import signed
 
 
@@ -20,7 +19,7 @@ def jobs(state: Any, walls: int, seats: Sequence[int]) -> Iterator[Job]:
     """One small job per sprite; a cached sprite costs nothing. `walls`: number of walls of the arena itself."""
     yield from (partial(tank.ghost, seat) for seat in seats)
     yield from _shooting(seats)
-    yield from _numbers(seats, ("+1", "−1") if state.rules.penalty else ("+1",))
+    yield from _points(seats, ("+1", "−1") if state.rules.penalty else ("+1",))
     yield from _walls(state, walls)
     yield from _hits(seats)
     if state.rules.pickups:
@@ -47,13 +46,7 @@ def _party(seats: Sequence[int]) -> Iterator[Job]:
         yield from (partial(things.popup, signed(points), seat) for seat in seats)  # fading it takes 0.1 ms
 
 
-def _numbers(seats: Sequence[int], popups: Sequence[str]) -> Iterator[Job]:
-    for char in "0123456789−":
-        for seat in seats:
-            yield partial(glyph, char, readable(SUB), mix(PLAYERS[seat], WHITE, 0.8))
-    for char in "0123456789:":
-        for color in (ICE, ALARM):
-            yield partial(glyph, char, readable(TITLE), color)
+def _points(seats: Sequence[int], popups: Sequence[str]) -> Iterator[Job]:
     for seat in seats:
         for text in popups:
             for level in range(things.POPUP_LEVELS, 0, -1):

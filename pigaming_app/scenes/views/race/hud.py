@@ -4,26 +4,27 @@ The clock counts up; once a robot has finished it counts down the time left for 
 """
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import pygame
 
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.scenes.views.background import Background, Bit
 from pigaming_app.scenes.views.hud.ai_sign import ai_of, name_of
-from pigaming_app.scenes.views.hud.parts import CLOCK, XS, H, HudParts, Y
+from pigaming_app.scenes.views.hud.parts import CLOCK, XS, H, HudParts, Y, drawn, pulse, word_bits
 from pigaming_app.scenes.views.hud.parts import clock_bits as digits
-from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import drives_wrong
 from pigaming_app.scenes.views.race.gaps import Gaps, figure
-from pigaming_app.scenes.views.race.hud_cards import ENDING, FIGURE, FOOT, OF, RaceCard, W, card_bits, place_size
+from pigaming_app.scenes.views.race.hud_cards import FLASH, FOOT, RaceCard, W, card_bits
 from pigaming_app.scenes.views.race.lines import flag, line_signs
 from pigaming_app.scenes.views.view import decimal
 from pigaming_app.sim.world import HZ
-from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST, TITLE, WHITE, GlowCanvas, readable
+from pigaming_app.ui.draw import ALARM, ICE, LABEL, PLAYERS, WHITE, GlowCanvas, readable
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import glyph, wrap
+from pigaming_app.ui.draw.text import wrap, wrap_balanced
 from pigaming_app.ui.i18n import Words
 
 MOVED = int(1.2 * HZ)  # ticks for which an arrow marks a change of place
@@ -43,7 +44,7 @@ class RaceHud:
         self.parts = HudParts(background)
         self.moves: dict[int, tuple[int, int]] = {}  # seat: (direction, tick) of its last change of place
         self.names: Sequence[str] = ()  # of the first seats, in an event
-        self.notice: tuple[tuple[str, ...], int] = (), 0  # words in place of the clock, and their first tick
+        self.notice = "", 0  # words in place of the clock, and their first tick
 
     def moved(self, seat: int, ahead: bool, tick: int) -> None:
         """Record a change of place."""
@@ -64,50 +65,28 @@ class RaceHud:
             self.parts.show(x, card, x - 8, W + 16, partial(card_bits, card, x))
         lines, begin = self.notice
         if lines and begin <= state.tick < begin + ANNOUNCED:
-            bit = partial(race_cards.banner, lines, FOCUS)
-            self.parts.show("clock", lines, CLOCK.x, CLOCK.w, lambda: [(bit(), (CLOCK.x, 0), None)])
+            self.parts.show("clock", lines, CLOCK.x, CLOCK.w, partial(word_bits, lines))
             return
         left = _left(state)
         clock = ("left", left) if left is not None else ("time", state.tick // HZ)
         self.parts.show("clock", clock, CLOCK.x, CLOCK.w, partial(clock_bits, *clock))
 
     def jobs(self, state: Race) -> Iterator[Job]:
-        """Prewarm jobs for the pieces of the cards."""
-        for seat in (i for i, robot in enumerate(state.robots) if robot.present):
-            yield partial(race_cards.pulse, seat)
-            for alarm, done in ((False, False), (True, False), (False, True)):
-                yield partial(
-                    race_cards.frame,
-                    seat,
-                    ai_of(self.players[seat]),
-                    name_of(self.names, seat),
-                    alarm,
-                    done,
-                    bool(state.rules.party) and not (alarm or done),
-                )
-            for full in (True, False):
-                yield partial(race_cards.turbo, seat, full, False)
-                yield partial(race_cards.foot, seat, state.rules.laps, full)
-        for char in "0123456789:":
-            yield from (partial(glyph, char, readable(TITLE), color) for color in (ICE, ALARM))
-        for char in "1234":
-            yield from (partial(glyph, char, place_size(), color) for color in (WHITE, FOCUS))
-        for char in "0123456789+" + decimal(self.words, "."):
-            yield partial(glyph, char, FIGURE, ICE)
-        for char in f"/{state.rules.laps}":
-            yield partial(glyph, char, OF, MIST)
-        yield from (partial(race_cards.missed_mark, sign) for sign in self.signs)
-        for ending in self.endings:
-            yield from (partial(race_cards.word, ending, color, ENDING) for color in (WHITE, FOCUS))
-        for lit in (True, False):
-            yield partial(race_cards.leader, lit)
-            yield partial(race_cards.mover, lit)
-        yield from (race_cards.wrong_mark, small_flag)
-        if state.rules.party:
-            yield from (partial(race_cards.item_slot, name) for name in ICONS)
-            yield from (partial(race_cards.turbo, seat, True, True) for seat in self.seats)
-            if self.words:
-                yield partial(race_cards.banner, announced(self.words("race.last_lap")), FOCUS)
+        """Prewarm jobs: samples of cards and clock."""
+        party = bool(state.rules.party)
+        for i in range(10):
+            yield from (drawn(clock_bits, kind, 60 * i + i) for kind in ("time", "left"))
+        for seat in self.seats:
+            yield partial(pulse, PLAYERS[seat], W, H, FLASH)
+            card = replace(self._card(state, seat, 1), turbo=32, way=FOOT // 2)
+            changes: list[dict[str, Any]] = [{"sign": "wrong"}, {"done": True}, {"moved": 1}, {"moved": -1}]
+            changes += [{"sign": "missed", "missed": sign} for sign in self.signs]
+            changes += [{"item": icon, "slip": True} for icon in ICONS if party]
+            changes += [{"lap": i, "gap": decimal(self.words, f"+{i}.{i}")} for i in range(10)]
+            changes += [{"place": i + 1, "ending": ending} for i, ending in enumerate(self.endings)]
+            yield from (drawn(card_bits, replace(card, **change), 0) for change in changes)
+        if party and self.words:
+            yield drawn(word_bits, announced(self.words("race.last_lap")))
 
     def _card(self, state: Race, seat: int, place: int) -> RaceCard:
         racer, robot, laps = state.racers[seat], state.robots[seat], state.rules.laps
@@ -138,9 +117,10 @@ class RaceHud:
         return self.gaps.gap(state, seat) if state.racers[seat].finished else self.gaps.shown[seat]
 
 
-def announced(text: str) -> tuple[str, ...]:
-    """Lines of an announcement that fit in place of the clock."""
-    return tuple(wrap(text, readable(LABEL), CLOCK.w - 16, "head"))
+def announced(text: str) -> str:
+    """An announcement in place of the clock; | parts lines."""
+    size = readable(LABEL)
+    return "|".join(wrap_balanced(text, min(2, len(wrap(text, size, CLOCK.w - 16, "head"))), size, "head"))
 
 
 def clock_bits(kind: str, seconds: int) -> list[Bit]:

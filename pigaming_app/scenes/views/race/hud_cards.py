@@ -8,16 +8,26 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.scenes.views.background import HUD_HEIGHT, Bit
+from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.hud.ai_sign import driver_tab
-from pigaming_app.scenes.views.hud.parts import CLOCK, PANEL_W, H, Y, number_bits, number_size
+from pigaming_app.scenes.views.hud.parts import (
+    CELL,
+    EDGE,
+    PANEL_W,
+    H,
+    Y,
+    bar_bits,
+    number_bits,
+    number_size,
+    plate,
+    turbo_cells,
+)
 from pigaming_app.scenes.views.race.lines import draw_sign, flag
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,
     FOCUS,
     ICE,
-    LABEL,
     LINE,
     MIST,
     PLAYERS,
@@ -35,13 +45,12 @@ from pigaming_app.ui.draw import (
     reads_large,
     regular_polygon,
 )
-from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, number_width
+from pigaming_app.ui.draw.text import number_width
 
-W, EDGE = PANEL_W, 24  # px: width of the cards, margin around their sprites
+W = PANEL_W  # px, width of the cards
 GAIN, LOSS = (96, 255, 150), (255, 128, 118)  # colours of a gain and a loss of time; the sign shows it too
-CELLS, CELL = 16, 17.75  # cells of the turbo bar, px between them
+CELLS = 16  # of the turbo bar
 PLACE, FIGURE, OF, ENDING = SUB, 58, BODY, 30  # font sizes: digits of 58 are 41 px high
 ROW = 49  # px, vertical centre of the digits
 LEFT, LAP, RIGHT = 16, 103, W - 14  # px: left edge of place and lap, right edge of the gap
@@ -50,6 +59,7 @@ LARGE_PLACE, LARGE_ROW, LARGE_LAP = 82, 45, 94  # px, of larger texts: there is 
 FOOT = W - 40  # px, length of the lap bar
 SIGNS = W - 132  # px, centre of the warnings
 ITEM = W - 68  # px, EDGE left of the centre of the item slot
+FLASH = 0.3  # brightness of the flash of a card
 ITEM_SIZE, ITEM_UP = 28, 5  # px, radius, and its centre above the card
 
 
@@ -91,11 +101,11 @@ def card_bits(card: RaceCard, x: int) -> list[Bit]:
         bits.append((mover(card.moved > 0), (after + 15 - EDGE, Y + ROW + 16 - EDGE), None))
     if card.item != "none":
         bits.append((item_slot(card.item), (x + ITEM - EDGE, Y - 2 * EDGE - ITEM_UP), None))
-    full, empty = turbo(card.seat, True, card.slip), turbo(card.seat, False, False)
-    bits += _part_lit(full, empty, (x + 17, Y + 80), card.turbo * CELLS * CELL / 64)
-    bits += _part_lit(
-        foot(card.seat, card.laps, True), foot(card.seat, card.laps, False), (x + 20, Y + H - 3), card.way
-    )
+    color, wide = PLAYERS[card.seat], round(CELLS * CELL)
+    full = turbo_cells(WHITE, wide, 7, True, 1.0) if card.slip else turbo_cells(color, wide, 7, True)
+    bits += bar_bits(full, turbo_cells(color, wide, 7, False), (x + 17, Y + 76), card.turbo * CELLS * CELL / 64)
+    full, empty = (foot(card.seat, card.laps, lit) for lit in (True, False))
+    bits += bar_bits(full, empty, (x + 20, Y + H - 3), card.way)
     if card.sign == "missed":
         bits.append((missed_mark(card.missed), (x + SIGNS - EDGE, Y - EDGE), None))
     elif card.sign:
@@ -117,12 +127,6 @@ def _figures(card: RaceCard, x: int) -> list[Bit]:
     return [*bits, (leader(card.done), (x + RIGHT - 60 - EDGE, Y - EDGE), None)]
 
 
-def _part_lit(full: pygame.Surface, empty: pygame.Surface, at: tuple[int, int], way: float) -> list[Bit]:
-    """Bar lit up to `way` px."""
-    x, y, split, (w, h) = at[0] - EDGE, at[1] - EDGE, EDGE + round(way), full.get_size()
-    return [(full, (x, y), (0, 0, split, h)), (empty, (x + split, y), (split, 0, w - split, h))]
-
-
 def place_size() -> int:
     """Type size of the place, px."""
     return LARGE_PLACE if reads_large() else PLACE
@@ -136,7 +140,7 @@ def frame(seat: int, brain: str, name: str, alarm: bool, done: bool, slot: bool)
     """Outline and badge of a card, and who drives; red during a warning, bold after the finish. `slot`: with a gap for
     an item.
     """
-    ink, color = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[seat]
+    ink, color = plate(W, H), PLAYERS[seat]
     outline, edge = cut_box(0, 0, W, H), ALARM if alarm else color
     if alarm or done:
         ink.fill(outline, dim(edge, 0.16))
@@ -151,30 +155,11 @@ def frame(seat: int, brain: str, name: str, alarm: bool, done: bool, slot: bool)
 
 
 @cached
-def pulse(seat: int) -> tuple[Sprite, ...]:
-    """Fade-out of a card flash, relative to its top left."""
-    ink = GlowCanvas(W + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
-    whole = Sprite(ink.fill(cut_box(0, 0, W, H), dim(PLAYERS[seat], 0.3)).lit(0.8), -EDGE, -EDGE)
-    return whole, *(faded(whole, share) for share in (0.8, 0.6, 0.4, 0.25, 0.1))
-
-
-@cached
 def word(text: str, color: Color, size: int = BODY) -> pygame.Surface:
     """Short word, EDGE px from the left, vertical centre EDGE px from the top."""
     width = max(1, round(number_width(text, size)))
     ink = GlowCanvas(width + 2 * EDGE, size + 2 * EDGE)
     return ink.text(text, size, EDGE, EDGE, color, "head").lit(0.5)
-
-
-@cached
-def turbo(seat: int, full: bool, slip: bool) -> pygame.Surface:
-    """Cells of a turbo bar, all lit or all dark; white in a slipstream, which refills it."""
-    ink = GlowCanvas(round(CELLS * CELL) + 2 * EDGE, 9 + 2 * EDGE).set_transform(EDGE, EDGE)
-    color = WHITE if slip else PLAYERS[seat]
-    for i in range(CELLS):
-        x = i * CELL
-        ink.fill([(x + 3, -4), (x + 15, -4), (x + 13, 3), (x, 3)], color if full else dim(color, 0.2))
-    return ink.lit(1.0 if slip else 0.5) if full else ink.plain()
 
 
 @cached
@@ -189,19 +174,9 @@ def item_slot(name: str) -> pygame.Surface:
 
 
 @cached
-def banner(lines: tuple[str, ...], color: Color) -> pygame.Surface:
-    """Words in place of the clock, in one or two lines."""
-    ink = GlowCanvas(CLOCK.w, HUD_HEIGHT)
-    for i, line in enumerate(lines):
-        size = fit_size(line, readable(LABEL), CLOCK.w - 16)
-        ink.text(line, size, CLOCK.w / 2, Y + H / 2 + 54 * (i - (len(lines) - 1) / 2), color, "head", "c")
-    return ink.lit(0.8)
-
-
-@cached
 def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
     """Lap bar along the bottom of a card, one segment per lap, all lit or all dark."""
-    ink, color = GlowCanvas(FOOT + 2 * EDGE, 6 + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[seat]
+    ink, color = plate(FOOT, 6), PLAYERS[seat]
     piece = FOOT / laps
     for i in range(laps):
         corners = [(i * piece, 0), ((i + 1) * piece - 5, 0), ((i + 1) * piece - 5, 6), (i * piece, 6)]
@@ -213,14 +188,14 @@ def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
 def mover(up: bool) -> pygame.Surface:
     """Arrowhead for a gained or lost place."""
     side = -1 if up else 1
-    ink = GlowCanvas(2 * EDGE + 2, 2 * EDGE + 2).set_transform(EDGE, EDGE)
+    ink = plate(2, 2)
     return ink.fill([(-13, -side * 9), (13, -side * 9), (0, side * 11)], GAIN if up else LOSS).lit(0.9)
 
 
 @cached
 def leader(done: bool) -> pygame.Surface:
     """Crown of the leader or, at the end, a flag."""
-    ink = GlowCanvas(60 + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    ink = plate(60, H)
     if done:
         flag(ink, 30, ROW, 21, FOCUS)
     else:
@@ -231,7 +206,7 @@ def leader(done: bool) -> pygame.Surface:
 @cached
 def missed_mark(sign: int) -> pygame.Surface:
     """Warning: sign of the missed line."""
-    ink = GlowCanvas(W // 2 + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    ink = plate(W // 2, H)
     draw_sign(ink, sign, 36, 44, 30)
     ink.line([(92, 22), (92, 50)], WHITE, 12)
     return ink.disc(92, 69, 8, WHITE).lit(0.7)
@@ -240,7 +215,7 @@ def missed_mark(sign: int) -> pygame.Surface:
 @cached
 def wrong_mark() -> pygame.Surface:
     """Warning: wrong way."""
-    ink = GlowCanvas(W // 2 + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    ink = plate(W // 2, H)
     return u_turn(ink, 56, 46, 0.85).lit(0.7)
 
 

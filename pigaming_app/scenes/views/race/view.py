@@ -9,15 +9,15 @@ import pygame
 
 from pigaming_app.games.race.state import MISSED_LINE, OFF_COURSE, Race, Racer
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.hud.parts import Y
+from pigaming_app.scenes.views.hud.parts import H, Y, pulse
 from pigaming_app.scenes.views.particles import reel
-from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.background import RaceBackground
 from pigaming_app.scenes.views.race.effects import Announcements, RaceEffects, sound_cues, spray
 from pigaming_app.scenes.views.race.events import RaceEvent, RaceEventDetector, drives_wrong
 from pigaming_app.scenes.views.race.ghost import GhostRecorder
 from pigaming_app.scenes.views.race.hud import RaceHud
+from pigaming_app.scenes.views.race.hud_cards import FLASH, W
 from pigaming_app.scenes.views.race.lines import LineFrame, frame
 from pigaming_app.scenes.views.race.party.events import PartyEventDetector
 from pigaming_app.scenes.views.race.party.floor import draw_air, draw_finish, draw_floor, finish_line
@@ -33,7 +33,7 @@ from pigaming_app.scenes.views.things.styles import ROAD
 from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions, decimal
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ, WIDTH
-from pigaming_app.ui.draw import FOCUS, THIN
+from pigaming_app.ui.draw import FOCUS, PLAYERS, THIN
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, put, step
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.widgets.caption import caption
@@ -157,7 +157,7 @@ class RaceView(MatchView):
             self.cards.moved(event.seat, event.kind == "up", state.tick)
             if self.options.flashes != "off":
                 x = self.cards.xs[int(event.number) - 1]
-                self.particles.bloom(x, Y, 0.4, reel(race_cards.pulse, event.seat))
+                self.particles.bloom(x, Y, 0.4, reel(pulse, PLAYERS[event.seat], W, H, FLASH))
         elif event.kind == "void":
             self.void_at[event.seat] = self.particles.clock
         elif event.kind == "final_lap" and self.words:
