@@ -77,11 +77,11 @@ def to_json(value: object) -> str:
 
 
 def to_toml(value: object, form: int | None = None) -> str:
-    """The value as TOML, with its format if it has one."""
+    """The value as TOML, with its format if it has one; what is None is left out."""
     import tomli_w
 
     head = {} if form is None else {"format": form}
-    return tomli_w.dumps(head | to_plain(value))
+    return tomli_w.dumps(head | {key: entry for key, entry in to_plain(value).items() if entry is not None})
 
 
 def valid_entries(entries: object, kind: type[T]) -> list[T]:

@@ -5,21 +5,23 @@ display, camera or version, or one edited by hand, is refused with a message for
 """
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from math import atan2, hypot
+from typing import Annotated
 from zlib import crc32
 
 import numpy as np
+from msgspec import Meta
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.calibration.lens import Lens
-from pigaming_app.hardware.calibration.quality import CAUSES, CameraQuality
+from pigaming_app.hardware.calibration.lens import Coefficient, Lens
+from pigaming_app.hardware.calibration.quality import CameraQuality
 from pigaming_app.hardware.signals import DetectedMarker, Fix
 from pigaming_app.hardware.vision.markers import WEARERS
-from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.storage.parsing import ParseError, parse_toml, quote
+from pigaming_app.storage.schema import between, to_plain, typed
 
 VERSION = 1
 LID = 70.0  # mm from the mat to the marker on a robot
@@ -29,6 +31,11 @@ SIZE_TOLERANCE = 0.12  # relative deviation beyond which a marker is not on a li
 SKEW_TOLERANCE = 1.18  # longest edge by shortest, beyond which a marker is tilted
 
 Points = NDArray[np.float64]  # (n, 2)
+
+
+Plane = Annotated[tuple[Coefficient, ...], Meta(min_length=9, max_length=9)]
+Place = Annotated[float, between(-1e5, 1e5)]  # arena px
+Error = Annotated[float, between(0.0, 1e6)]
 
 
 class CalibrationError(OperatorError):
@@ -41,14 +48,14 @@ class GroundPlane:
 
     display: str  # the display it was made on, as in `Canvas.displays`
     lens: Lens  # with the size of the pictures
-    plane: tuple[float, ...]  # homography, row by row: undistorted camera px -> arena px on the mat
-    width_mm: float  # of the arena on the mat, measured with a ruler
-    foot: tuple[float, float]
-    height: float  # mm
-    lid: float = LID
-    marker: float = MARKER
-    mean_mm: float = 0.0  # errors on the held-out board
-    max_mm: float = 0.0
+    plane: Plane  # homography, row by row: undistorted camera px -> arena px on the mat
+    width_mm: Annotated[float, between(100.0, 20_000.0)]  # of the arena on the mat, measured with a ruler
+    foot: tuple[Place, Place]
+    height: Annotated[float, between(200.0, 20_000.0)]  # mm
+    lid: Annotated[float, between(0.0, 500.0)] = LID
+    marker: Annotated[float, between(5.0, 500.0)] = MARKER
+    mean_mm: Error = 0.0  # errors on the held-out board
+    max_mm: Error = 0.0
     quality: CameraQuality = field(default_factory=CameraQuality)  # of the picture
 
     def __post_init__(self) -> None:
@@ -130,7 +137,7 @@ def to_toml(ground: GroundPlane) -> str:
     """Serialize a calibration as TOML with a checksum."""
     import tomli_w
 
-    entries = {"version": VERSION, **asdict(ground)}
+    entries = {"version": VERSION, **to_plain(ground)}
     return tomli_w.dumps({**entries, "check": _check(entries)})
 
 
@@ -146,9 +153,13 @@ def read(text: str, display: str | None = None, camera: tuple[int, int] | None =
     if check != _check(entries):
         raise CalibrationError(OperatorMessage("changed"))
     try:
-        ground = _ground(TomlTable(entries))
-    except (FieldError, np.linalg.LinAlgError) as wrong:
-        raise CalibrationError(OperatorMessage("damaged", detail=wrong)) from wrong
+        ground = typed(entries, GroundPlane)
+        if not np.isfinite(np.linalg.inv(np.array(ground.plane).reshape(3, 3))).all():
+            raise ParseError("plane: not a plane that can be seen")
+        if ground.lid >= ground.height:
+            raise ParseError("lid: as high as the camera")
+    except ParseError as error:
+        raise CalibrationError(OperatorMessage("damaged", detail=error)) from error
     if display is not None and ground.display != display:
         raise CalibrationError(OperatorMessage("other_display", theirs=ground.display, ours=display))
     if camera is not None and ground.lens.size != camera:
@@ -171,50 +182,3 @@ def _plain(value: object) -> object:
     if isinstance(value, dict):
         return sorted((key, _plain(inner)) for key, inner in value.items())
     return [_plain(inner) for inner in value] if isinstance(value, list | tuple) else value
-
-
-def _ground(table: TomlTable) -> GroundPlane:
-    lens = table.table("lens")
-    width, height = lens.numbers("size", 2, 16, 16384)
-    plane = table.numbers("plane", 9, -1e6, 1e6)
-    foot = table.numbers("foot", 2, -1e5, 1e5)
-    if not np.isfinite(np.linalg.inv(np.array(plane).reshape(3, 3))).all():
-        raise table.error("plane", "not a plane that can be seen")
-    cx, cy = lens.numbers("centre", 2, 0, 16384)
-    display = table.entries.get("display")
-    if not isinstance(display, str):
-        raise table.error("display", "a text is missing")
-    lid, above = table.number("lid", None, 0.0, 500.0, " mm"), table.number("height", None, 200.0, 20000.0, " mm")
-    if lid >= above:
-        raise table.error("lid", "as high as the camera")
-    return GroundPlane(
-        display,
-        Lens((int(width), int(height)), lens.number("k1"), lens.number("k2"), (cx, cy)),
-        plane,
-        table.number("width_mm", None, 100.0, 20000.0, " mm"),
-        (foot[0], foot[1]),
-        above,
-        lid,
-        table.number("marker", None, 5.0, 500.0, " mm"),
-        table.number("mean_mm", None, 0.0),
-        table.number("max_mm", None, 0.0),
-        _quality(table.table("quality")) if "quality" in table else CameraQuality(),
-    )
-
-
-def _quality(table: TomlTable) -> CameraQuality:
-    anyway, cause = table.entries.get("anyway"), table.entries.get("cause", "")
-    if not isinstance(anyway, bool):
-        raise table.error("anyway", "true or false is missing")
-    if not isinstance(cause, str) or cause not in ("", *CAUSES):
-        raise table.error("cause", f"{quote(cause)} is unknown")
-    return CameraQuality(
-        table.number("exposure", None, 0.0, 10.0, " s"),
-        table.number("gain", None, 0.0, 1e6),
-        table.number("marker_px", None, 0.0, 1e4, " px"),
-        table.number("blur_px", None, 0.0, 1e4, " px"),
-        table.number("detection", None, 0.0, 1.0),
-        anyway,
-        table.number("old_detection", 0.0, 0.0, 1.0),
-        cause,
-    )

@@ -6,23 +6,29 @@ focal length is not needed.
 """
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pigaming_app.storage.schema import between
+
 ROUNDS = 6  # of Newton's method: to 1e-6 of the width for every lens that maps each point once
 
 Points = NDArray[np.float64]  # (n, 2) px
+Side = Annotated[int, between(16, 16_384)]  # px
+Centre = Annotated[float, between(0.0, 16_384.0)]  # px
+Coefficient = Annotated[float, between(-1e6, 1e6)]
 
 
 @dataclass(frozen=True)
 class Lens:
     """Radial distortion of pictures of `size` px; `centre` in px, by default their middle."""
 
-    size: tuple[int, int]
-    k1: float = 0.0
-    k2: float = 0.0
-    centre: tuple[float, float] = (-1.0, -1.0)
+    size: tuple[Side, Side]
+    k1: Coefficient = 0.0
+    k2: Coefficient = 0.0
+    centre: tuple[Centre, Centre] = (-1.0, -1.0)
 
     def __post_init__(self) -> None:
         if self.centre[0] < 0.0:

@@ -4,30 +4,33 @@ share of the pictures in which a driving robot's marker is found, by `detection`
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 from pigaming_app.hardware.calibration.detection import found_share
 from pigaming_app.hardware.signals import ExposureKept, ExposureState
 from pigaming_app.hardware.vision.exposure import LONGEST
 from pigaming_app.hardware.vision.markers import OLD_IDS, ROBOT_IDS, WEARERS
 from pigaming_app.storage.messages import OperatorMessage
+from pigaming_app.storage.schema import Share, between, one_of
 
 NEEDED = 0.95  # share of the pictures in which a marker must be found
 CAUSES = ("finds_blurred", "finds_smeared", "finds_small")  # of a weak prediction
 SMALL_EDGE = 20.0  # camera px, edge of a marker below which the wizard warns
+Pixels = Annotated[float, between(0.0, 1e4)]
 
 
 @dataclass(frozen=True)
 class CameraQuality:
-    """Picture of a calibrated camera. Zeros: not measured, as in calibrations of older versions."""
+    """Picture of a calibrated camera. Zeros: not measured."""
 
-    exposure: float = 0.0  # s; 0: the driver gives no figure
-    gain: float = 0.0  # units of the driver
-    marker_px: float = 0.0  # edge of a robot's marker at the weakest place of the arena, camera px
-    blur_px: float = 0.0  # standard deviation, camera px
-    detection: float = 0.0  # predicted share of the pictures in which the weakest marker of a driving robot is found
+    exposure: Annotated[float, between(0.0, 10.0)] = 0.0  # s; 0: the driver gives no figure
+    gain: Annotated[float, between(0.0, 1e6)] = 0.0  # units of the driver
+    marker_px: Pixels = 0.0  # edge of a robot's marker at the weakest place of the arena, camera px
+    blur_px: Pixels = 0.0  # standard deviation, camera px
+    detection: Share = 0.0  # predicted share of the pictures in which the weakest marker of a driving robot is found
     anyway: bool = False  # the operator saved it despite a prediction below NEEDED
-    old_detection: float = 0.0  # the same for the markers of older sheets; 0: not predicted
-    cause: str = ""  # key of the main cause of a weak prediction
+    old_detection: Share = 0.0  # the same for the markers of older sheets; 0: not predicted
+    cause: Annotated[str, one_of("", *CAUSES)] = ""  # key of the main cause of a weak prediction
 
     def with_edge(self, marker_px: float) -> "CameraQuality":
         """The same picture with markers of another size, px."""

@@ -6,19 +6,24 @@ The file is kept beside the calibration. It also holds the projector's place, so
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Annotated
 
 import numpy as np
+from msgspec import Meta
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.scan.hull import hull
 from pigaming_app.sim.things.convex import contains, is_convex, signed_area
 from pigaming_app.sim.things.spec import CORNERS, MAX_MARGIN, MOST, ThingSpec, Use
-from pigaming_app.sim.toml_table import FieldError, TomlTable
+from pigaming_app.storage import schema
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.storage.parsing import ParseError, parse_toml, quote
+from pigaming_app.storage.schema import between
 
 VERSION = 1
 
+Place = Annotated[float, between(-1000.0, 3000.0)]
+Foot = Annotated[float, between(-1e5, 1e5)]
 Outline = NDArray[np.float64]  # (n, 2) arena px, convex, clockwise on screen
 
 
@@ -37,9 +42,9 @@ class Thing:
     """
 
     kind: ThingKind
-    outline: tuple[tuple[float, float], ...]  # arena px
-    height_mm: float
-    margin_px: float
+    outline: Annotated[tuple[tuple[Place, Place], ...], Meta(min_length=3, max_length=CORNERS)]  # arena px
+    height_mm: Annotated[float, between(0.0, 1000.0)]
+    margin_px: Annotated[float, between(0.0, 100.0)]
     mud: bool = False
 
     @property
@@ -82,15 +87,15 @@ class Thing:
 class ProjectorPlace:
     """The projector is `height` mm above the mat, over the point `foot` (arena px)."""
 
-    foot: tuple[float, float]
-    height: float  # mm
+    foot: tuple[Foot, Foot]
+    height: Annotated[float, between(200.0, 20_000.0)]  # mm
 
 
 @dataclass(frozen=True)
 class Layout:
     """Everything found on a mat. `without` removes one thing; all else is kept."""
 
-    things: tuple[Thing, ...] = ()
+    things: Annotated[tuple[Thing, ...], Meta(max_length=MOST)] = ()
     projector: ProjectorPlace | None = None
 
     def without(self, thing: Thing) -> "Layout":
@@ -123,23 +128,17 @@ def moved_outwards(corners: Outline, by: float) -> Outline:
 
 
 def to_toml(layout: Layout) -> str:
-    """Serialize a layout."""
-    import tomli_w
-
-    entries: dict[str, object] = {"version": VERSION}
-    if layout.projector is not None:
-        entries["projector"] = {"foot": list(layout.projector.foot), "height": layout.projector.height}
-    entries["thing"] = [
-        {
-            "kind": str(thing.kind),
-            "outline": [[round(x, 2), round(y, 2)] for x, y in thing.outline],
-            "height_mm": round(thing.height_mm, 1),
-            "margin_px": round(thing.margin_px, 2),
-            "use": str(thing.use),
-        }
+    """Serialize a layout, rounded to a hundredth of a px and a tenth of a mm."""
+    things = tuple(
+        replace(
+            thing,
+            outline=tuple((round(x, 2), round(y, 2)) for x, y in thing.outline),
+            height_mm=round(thing.height_mm, 1),
+            margin_px=round(thing.margin_px, 2),
+        )
         for thing in layout.things
-    ]
-    return tomli_w.dumps(entries)
+    )
+    return schema.to_toml({"version": VERSION, **schema.to_plain(replace(layout, things=things))})
 
 
 def read(text: str) -> Layout:
@@ -151,43 +150,12 @@ def read(text: str) -> Layout:
     if entries.get("version") != VERSION:
         raise LayoutError(OperatorMessage("version_things", theirs=quote(entries.get("version")), ours=VERSION))
     try:
-        return _layout(TomlTable(entries))
-    except FieldError as wrong:
-        raise LayoutError(OperatorMessage("damaged_things", detail=wrong)) from wrong
-
-
-def _layout(table: TomlTable) -> Layout:
-    table.only("version", "projector", "thing")
-    place = None
-    if "projector" in table:
-        entry = table.table("projector")
-        x, y = entry.numbers("foot", 2, -1e5, 1e5)
-        place = ProjectorPlace((x, y), entry.number("height", None, 200.0, 20000.0, " mm"))
-    entries = table.tables("thing")
-    if len(entries) > MOST:
-        raise table.error("thing", f"{len(entries)} things, but {MOST} are possible")
-    return Layout(tuple(_thing(entry) for entry in entries), place)
-
-
-def _thing(entry: TomlTable) -> Thing:
-    entry.only("kind", "outline", "height_mm", "margin_px", "use")
-    points = entry.entries.get("outline")
-    if not isinstance(points, list) or not 3 <= len(points) <= CORNERS:
-        raise entry.error("outline", f"3 to {CORNERS} points are needed")
-    row = TomlTable({f"[{i + 1}]": point for i, point in enumerate(points)}, f"{entry.path}outline")
-    outline = tuple((x, y) for x, y in (row.numbers(key, 2, -1000.0, 3000.0) for key in row.entries))
-    if not (is_convex(outline) or is_convex(outline[::-1])):
-        raise entry.error("outline", "not convex")
-    kind = ThingKind(entry.word("kind", [str(kind) for kind in ThingKind]))
-    uses = (Use.WALL,) if kind is ThingKind.TALL else (Use.LINE, Use.MUD)
-    use = entry.word("use", [str(use) for use in uses]) if "use" in entry else uses[0]
-    return Thing(
-        kind,
-        outline,
-        entry.number("height_mm", None, 0.0, 1000.0, " mm"),
-        entry.number("margin_px", None, 0.0, 100.0, " px"),
-        use == Use.MUD,
-    )
+        layout = schema.typed(entries, Layout)
+    except ParseError as error:
+        raise LayoutError(OperatorMessage("damaged_things", detail=error)) from error
+    if any(not (is_convex(thing.outline) or is_convex(thing.outline[::-1])) for thing in layout.things):
+        raise LayoutError(OperatorMessage("damaged_things", detail="not convex"))
+    return layout
 
 
 def largest(things: Sequence[Thing]) -> tuple[Thing, ...]:

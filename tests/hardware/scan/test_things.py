@@ -52,8 +52,6 @@ def test_tape_is_mud_by_choice_and_everything_tall_a_wall():
     chosen = read(to_toml(LAYOUT.replaced(TAPE, TAPE.as_mud(True))))
     assert [thing.use for thing in chosen.things] == [Use.WALL, Use.MUD]
     assert BOX.as_mud(True).use is Use.WALL
-    old = "\n".join(line for line in to_toml(LAYOUT).splitlines() if not line.startswith("use"))
-    assert read(old) == LAYOUT
 
 
 def test_an_arena_gets_things_with_straight_sides_in_either_order_of_corners():
@@ -75,7 +73,7 @@ def test_an_arena_gets_things_with_straight_sides_in_either_order_of_corners():
         ("82.5", "-1.0"),
         ("110.0", "300.0"),  # not convex
         ("2700.0", "nan"),
-        ("[[thing]]", "[[thing"),
+        ("version = 1", "version = "),
         ("margin_px", "margin"),
     ],
 )
