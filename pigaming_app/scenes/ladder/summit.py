@@ -1,5 +1,6 @@
 """The end of a climb: at the top, or where the person stopped. Then the three letters, if it is among the best."""
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
@@ -11,6 +12,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
 from pigaming_app.scenes.ladder.climber import Climber
 from pigaming_app.scenes.ladder.climbers import Climbers, format_climb
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.initials import Initials, Qualification, places
 from pigaming_app.scenes.results.winner import big_robot, title
@@ -21,28 +23,31 @@ from pigaming_app.ui.draw.frame_budget import PrewarmQueue
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
-from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.labels import blit_sprite
 
-STAY, SKIP = 12.0, 1.2  # s until it ends by itself, and after which it may be skipped
+STAY = 12.0  # s until it ends by itself
 VOLLEYS = (0.4, 1.4, 2.6, 4.0)  # s, of confetti at the top
 STAR_Y, STAR_R, STAR_PITCH, STAR_EVERY = 190, 62, 190, 0.25  # px, and s from star to star
 ROBOT_Y, SCALE, FLOOR_Y = 508, 3.2, 660  # px
 TITLE_Y, LINE_Y = 784, 900
 
 
-class Summit:
+class Summit(Page):
     """The last page of a climber with at least one robot beaten."""
 
+    idle, lockout = math.inf, 1.2
+    closing = Button.FIRE, Button.START, Button.CLICK
+    hints = ((Button.FIRE, "results.on"),)
+
     def __init__(self, context: Context, climber: Climber) -> None:
-        self.context, self.climber, self.climb = context, climber, climber.climb
-        self.age = 0.0
-        self.title = context.words("ladder.summit" if self.climb.at_top else "ladder.stopped")
-        self.size = fit_size(self.title, HERO * 3 // 4, 1640, "hero")
+        self.access = Access(context, lambda: [climber.device])
+        super().__init__(context, gate=self.access)
+        self.climber, self.climb = climber, climber.climb
+        self.line = context.words("ladder.summit" if self.climb.at_top else "ladder.stopped")
+        self.size = fit_size(self.line, HERO * 3 // 4, 1640, "hero")
         self.celebration = Celebration("pitanks", [0], [PLAYERS[0]])
         self.volleys = [*VOLLEYS] if self.climb.at_top else []
-        self.access = Access(context, lambda: [self.climber.device])
-        self.prompts = context.prompts([(Button.FIRE, "results.on")], device=lambda: self.access.hint_device)
         self.queue = PrewarmQueue(self._jobs())
 
     def prewarm(self, milliseconds: float) -> bool:
@@ -53,15 +58,12 @@ class Summit:
         self.context.sounds.music(True)
         self.context.sounds.play("fanfare" if self.climb.at_top else "win")
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """Any button goes on after a moment."""
-        admitted = self.access.admit(self.prompts.as_button(event))
-        goes_on = admitted and admitted.button in (Button.FIRE, Button.START, Button.BACK, Button.CLICK)
-        return self._next() if goes_on and self.age >= SKIP else None
+    def leave(self) -> StackOperation:
+        """Any button goes on."""
+        return self._next()
 
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         """Animate; go on after a while."""
-        self.age += seconds
         self.queue.work(0.0)
         self.celebration.update(seconds)
         while self.volleys and self.volleys[0] <= self.age:
@@ -69,7 +71,8 @@ class Summit:
             self.celebration.volley()
         return self._next() if self.age >= STAY else None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    def show(self, screen: pygame.Surface) -> None:
+        """Draw the robot on the last rung, without a heading."""
         words, climb = self.context.words, self.climb
         screen.blit(backdrop(), (0, 0))
         floor().draw(screen)
@@ -78,11 +81,14 @@ class Summit:
             lit = i < climb.beaten and self.age >= STAR_EVERY * (i + 1)
             star(lit, STAR_R).draw(screen, 960 + STAR_PITCH * (i - (LEVELS - 1) / 2), STAR_Y)
         blit_sprite(screen, big_robot(0, SCALE), 960, ROBOT_Y)
-        blit_sprite(screen, title(self.title, self.size, FOCUS if climb.at_top else ICE), 960, TITLE_Y)
+        blit_sprite(screen, title(self.line, self.size, FOCUS if climb.at_top else ICE), 960, TITLE_Y)
         line = words("ladder.lost_one") if climb.lost == 1 else words("ladder.lost_count", lost=climb.lost)
         text(line, LABEL, MIST, "head").draw(screen, 960, LINE_Y)
-        if self.age >= SKIP:
-            self.prompts.draw(screen)
+
+    def draw_foot(self, screen: pygame.Surface) -> None:
+        """Draw the prompt once it counts."""
+        if self.age >= self.lockout:
+            super().draw_foot(screen)
 
     # ---- inside
 
@@ -108,7 +114,7 @@ class Summit:
         for lit in (False, True):
             yield partial(star, lit, STAR_R)
         yield partial(big_robot, 0, SCALE)
-        yield partial(title, self.title, self.size, FOCUS if self.climb.at_top else ICE)
+        yield partial(title, self.line, self.size, FOCUS if self.climb.at_top else ICE)
         if self.volleys:
             for color in dict.fromkeys(self.celebration.colors):
                 for size in SIZES:

@@ -15,7 +15,7 @@ from pigaming_app.scenes.ladder.climber import Climber
 from pigaming_app.scenes.ladder.climbers import Climbers
 from pigaming_app.scenes.ladder.rungs import LadderPage, after_match
 from pigaming_app.scenes.ladder.strengths import Strengths, shown
-from pigaming_app.scenes.ladder.summit import SKIP, Summit
+from pigaming_app.scenes.ladder.summit import Summit
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
@@ -89,7 +89,7 @@ def test_a_climb_from_the_first_rung_to_the_letters_and_the_table(arcade: Arcade
     page(arcade).climber = Climber(Climb("pitanks", rung=5, wins=1, beaten=4, lost=2), page(arcade).climber.number)
     play(arcade, 5, 0)
     assert arcade.shown(Summit).climb.at_top
-    arcade.wait(SKIP + 0.1, draw=True)
+    arcade.wait(Summit.lockout + 0.1, draw=True)
     arcade.press(Button.FIRE)
     arcade.shown(Initials)
     arcade.wait(0.6)

@@ -9,12 +9,11 @@ import pygame
 
 from pigaming_app.hardware.calibration.corner_pin import STRAIGHT, CornerPin
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.messages import OperatorError
-from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,
@@ -39,40 +38,42 @@ from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import DIRECTIONS
 
 STEPS = (10, 1)  # px
 CORNERS = ((0, 0), (1920, 0), (1920, 1080), (0, 1080))
 BOX = pygame.Rect(460, 316, 1000, 420)  # the black box in the middle
-SENTENCE_SECONDS = 5.0  # seconds for which a sentence is shown
-IDLE = 600.0  # seconds without input until the title, unsaved
 CELL = 120  # px, grid spacing
 MAX_OFFSET = 800  # px, limit of a corner's displacement
 
 log = logging.getLogger("pigaming")
 
 
-class CornerPinPage:
+class CornerPinPage(Page):
     """The page. The previous pin is restored unless the new one is saved."""
 
+    idle, stay = 600.0, 5.0
+    prompts_y = BOX.bottom + 76
+    hints = (
+        (Button.FIRE, "pin.hint_next"),
+        (Button.X, "pin.hint_step"),
+        (Button.Y, "pin.hint_reset"),
+        (Button.START, "pin.hint_save"),
+        (Button.BACK, "pin.hint_back"),
+    )
+
     def __init__(self, context: Context) -> None:
-        self.context = context
+        super().__init__(context)
         self.before = context.canvas.corners
         self.corners = [round(value) for value in self.before or STRAIGHT]
         self.chosen = self.step = 0
-        self.sentence, self.sentence_left = "", 0.0
-        self.prompts = context.prompts(
-            [
-                (Button.FIRE, "pin.hint_next"),
-                (Button.X, "pin.hint_step"),
-                (Button.Y, "pin.hint_reset"),
-                (Button.START, "pin.hint_save"),
-                (Button.BACK, "pin.hint_back"),
-            ],
-            BOX.bottom + 76,
-            solid=True,
-        )
+
+    @property
+    def prompts(self) -> ButtonPrompts:
+        """The prompts, on a black plate."""
+        return self.context.prompts(self.hints, self.prompts_y, solid=True)
 
     def on_enter(self) -> None:
         """Apply the pin; on failure, show the reason."""
@@ -82,14 +83,9 @@ class CornerPinPage:
         """Discard unsaved changes."""
         self._restore()
 
-    def handle(self, event: InputEvent) -> StackOperation:
+    def press(self, event: InputEvent) -> StackOperation:
         """Directions move the corner; FIRE selects the next one."""
-        event = self.prompts.as_button(event)
         match event.button:
-            case Button.BACK:
-                self.context.sounds.play("back")
-                self._restore()
-                return Pop()
             case Button.START:
                 return self._save()
             case Button.FIRE:
@@ -108,14 +104,8 @@ class CornerPinPage:
                 self._move(*DIRECTIONS[button])
         return None
 
-    def update(self, seconds: float) -> StackOperation:
-        self.sentence_left -= seconds
-        if self.context.idle > IDLE:
-            self._restore()
-            return Home()
-        return None
-
-    def draw(self, screen: pygame.Surface) -> None:
+    def show(self, screen: pygame.Surface) -> None:
+        """Draw the grid and the selected corner."""
         words, x, y = self.context.words, BOX.centerx, BOX.y
         screen.blit(grid(), (0, 0))
         handle(self.chosen).draw(screen)
@@ -126,8 +116,11 @@ class CornerPinPage:
             screen, x, y + 252
         )
         text(words("pin.step", step=STEPS[self.step]), LABEL, MIST, "head").draw(screen, x, y + 340)
-        if self.sentence_left > 0.0:
-            caption(self.sentence, ALARM, size=32).draw(screen, 960, BOX.y - 70)
+
+    def draw_foot(self, screen: pygame.Surface) -> None:
+        """Draw the message above the box."""
+        if self.message:
+            caption(self.message, ALARM, size=32).draw(screen, 960, BOX.y - 70)
         self.prompts.draw(screen)
 
     def _move(self, across: int, down: int) -> None:
@@ -154,7 +147,8 @@ class CornerPinPage:
             return True
         except OperatorError as trouble:
             log.warning("%s", english().long_sentence(trouble.message))
-            self._say(self.context.words.sentence(trouble.message))
+            self.show_message(self.context.words.sentence(trouble.message), wrong=True)
+            self.context.sounds.play("back")
             return False
 
     def _restore(self) -> None:
@@ -167,19 +161,12 @@ class CornerPinPage:
         """Save the pin, or show that it could not be saved."""
         canvas, settings = self.context.canvas, self.context.settings
         settings.corners = [round(value) for value in canvas.corners]
-        try:
-            settings.save(folders().config)
-        except NotSaved as trouble:
-            log.warning("%s", trouble)
-            self._say(self.context.words("app.unsaved"))
+        if not self.save():
+            self.context.sounds.play("back")
             return None
         self.before = canvas.corners
         self.context.sounds.play("accept")
         return Pop()
-
-    def _say(self, sentence: str) -> None:
-        self.sentence, self.sentence_left = sentence, SENTENCE_SECONDS
-        self.context.sounds.play("back")
 
 
 @cached

@@ -13,36 +13,38 @@ from pigaming_app.hardware.session import store
 from pigaming_app.hardware.vision.exposure import warning_of
 from pigaming_app.hardware.vision.markers import OLD_IDS, OpenCVMissing
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.calibration.height_page import DISC, GREY
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.mat.calibration.setup_page import site_of
 from pigaming_app.scenes.mat.session import session_if_any
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut_box
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import paragraph, text
-from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.input.events import Button
 
 BAR = pygame.Rect(560, 560, 800, 40)
 ROOM = 1040  # px, width of the text between the robot spot and its mirror image
 BAR_MM = 20.0  # mm at the right end of the bar
-IDLE = 300.0  # seconds without input until the title
 
 
-class DriftPage:
+class DriftPage(Page):
     """The page, for the camera of the settings."""
 
+    idle, closing = 300.0, (Button.FIRE, Button.START)
+    hints = ((Button.BACK, "calibrate.hint_back"),)
+
     def __init__(self, context: Context, site: CalibrationSite | None = None) -> None:
-        self.context, self.site = context, site or site_of(context)
+        super().__init__(context)
+        self.site = site or site_of(context)
         number = context.settings.camera if self.site.name == "real" else self.site.cameras()[0].number
         self.work = DriftCheck(
             self.site, number, partial(store.load, store.calibration_file(self.site.name), context.canvas.projection)
         )
-        self.clock = 0.0
-        self.prompts = context.prompts([(Button.BACK, "calibrate.hint_back")])
 
     def on_enter(self) -> None:
         """Start the check."""
@@ -54,21 +56,17 @@ class DriftPage:
         """Release the camera."""
         self.work.close()
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """Any button leads back."""
-        if self.prompts.as_button(event).button in (Button.BACK, Button.FIRE, Button.START):
-            self.context.sounds.play("back")
-            self.on_leave()
-            return Pop()
-        return None
+    def leave(self) -> StackOperation:
+        self.on_leave()
+        return super().leave()
 
-    def update(self, seconds: float) -> StackOperation:
-        self.clock += seconds
+    def advance(self, seconds: float) -> StackOperation:
         self.site.advance(seconds)
         self.work.pump()
-        return Home() if self.context.idle > IDLE else None
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    def show(self, screen: pygame.Surface) -> None:
+        """Draw it on black: the camera sees the picture."""
         words, work = self.context.words, self.work
         screen.fill((0, 0, 0))
         text(words("robots.check"), TITLE, ICE, "head").draw(screen, 960, 160)
@@ -85,7 +83,6 @@ class DriftPage:
             work.fault = missing.message
         self._draw_picture(screen)
         self._draw_spot(screen)
-        self.prompts.draw(screen)
 
     def _draw_spot(self, screen: pygame.Surface) -> None:
         """Show the size of a robot's marker here, a check of the measured mat width."""

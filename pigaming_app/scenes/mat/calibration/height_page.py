@@ -1,5 +1,6 @@
 """The height page: a robot is placed on spot after spot, and its positions give the height of the camera."""
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -7,47 +8,45 @@ import pygame
 
 from pigaming_app.hardware.calibration.height_procedure import PLACES, STILL, HeightProcedure
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
 from pigaming_app.scenes.mat.calibration.result_page import CalibrationResult, ResultPage
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, GlowCanvas, dim
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import text
-from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.input.events import Button
 
 DISC = 72  # px: the light must cover a lid, 70 mm above the mat, at an angle
 GREY = (128, 128, 128)
 NEAR, FAR = 86, 128  # px from the middle: ends of the four aiming lines
 
 
-class HeightPage:
+class HeightPage(Page):
     """The page. `finding`: a calibration without camera position; `retry`: makes the page that repeats it."""
+
+    idle = math.inf
+    prompts_y = 1040
+    hints = ((Button.BACK, "calibrate.hint_stop"),)
 
     def __init__(self, context: Context, finding: CalibrationResult, retry: Callable[[], Scene]) -> None:
         assert finding.ground is not None
-        self.context, self.finding, self.retry = context, finding, retry
+        super().__init__(context)
+        self.finding, self.retry = finding, retry
         self.work = HeightProcedure(finding.site, finding.number, finding.ground)
         self.work.begin()
         self.seen_count = 0
-        self.prompts = context.prompts([(Button.BACK, "calibrate.hint_stop")], 1040)
-
-    def on_enter(self) -> None:
-        pass
 
     def on_leave(self) -> None:
         """Release the camera."""
         self.work.close()
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """BACK aborts."""
-        if self.prompts.as_button(event).button is Button.BACK:
-            self.context.sounds.play("back")
-            self.on_leave()
-            return Pop()
-        return None
+    def leave(self) -> StackOperation:
+        self.on_leave()
+        return super().leave()
 
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         """Poll for the robot on the next spot; after the last, show the result."""
         work = self.work
         self.finding.site.advance(seconds)
@@ -63,6 +62,7 @@ class HeightPage:
         return Swap(ResultPage(self.context, result, self.retry))
 
     def draw(self, screen: pygame.Surface) -> None:
+        """Draw it on black: the camera sees the picture."""
         place, words = self.work.place, self.context.words
         screen.fill((0, 0, 0))
         for i, (x, y) in enumerate(PLACES):

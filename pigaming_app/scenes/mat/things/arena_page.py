@@ -17,12 +17,13 @@ from pigaming_app.hardware.session.things_on_mat import load_layout, save_layout
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
+from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.mat.things.outlines import COLORS, HALO, draw_thing, frame
 from pigaming_app.scenes.mat.things.playable import PlayableArenas
 from pigaming_app.scenes.mat.things.steps import draw_steps
 from pigaming_app.scenes.mat.things.sweep_page import SweepPage
+from pigaming_app.scenes.pages.page import NOWHERE, Hints, Page
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.things.spec import MOST
 from pigaming_app.storage.messages import OperatorMessage
@@ -31,38 +32,31 @@ from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST
 from pigaming_app.ui.draw.text import text, wrap
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button, Device, InputEvent
-from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
-from pigaming_app.ui.widgets.focus import Focus, FocusSpot
+from pigaming_app.ui.widgets.focus import FocusSpot
 
-IDLE = 600.0  # s without input until the title
 TITLE_Y, HINTS_Y, FOOT_Y, FOOT_SIZE = 42, 102, 1054, 30  # px, outside the arena
 LINE_W, PITCH = 1180, 56  # px, of the sentences on the mat
 
 log = logging.getLogger("pigaming")
 
 
-class ArenaPage:
+class ArenaPage(Page):
     """The page. `devices`: those of the seats, which may act on it; nobody seated: all."""
+
+    idle = 600.0
+    prompts_y, prompts_room = HINTS_Y, 1600
 
     def __init__(
         self, context: Context, devices: Callable[[], Sequence[Device | None]] = lambda: (), scan_now: bool = False
     ) -> None:
-        self.context, self.session = context, session_of(context)
+        self.session = session_of(context)
         self.access = Access(context, devices)
+        super().__init__(context, gate=self.access)
         self.rig: Rig | None = None
         self.layout, self.changed = Layout(), False
         self.fault: OperatorMessage | None = None
         self.arenas: PlayableArenas | None = None
-        self.focus: Focus | None = None
         self._scan_now = scan_now
-        self._prompts = {
-            kind: context.prompts(hints, HINTS_Y, 1600, device=lambda: self.access.hint_device)
-            for kind, hints in (
-                (None, [SCAN, LEAVE]),
-                (ThingKind.TALL, [SCAN, REMOVE, LEAVE]),
-                (ThingKind.FLAT, [SCAN, REMOVE, TURN, LEAVE]),
-            )
-        }
 
     def on_enter(self) -> None:
         """Open the camera; also after a scan."""
@@ -94,16 +88,10 @@ class ArenaPage:
             log.warning("%s", error)
             self.context.sounds.play("error")
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """Directions and the mouse select a thing, X removes it, Y changes a flat one; FIRE scans, BACK leaves."""
-        admitted = self.access.admit(self._row.as_button(event))
-        if admitted is None:
-            return None
-        event, thing = admitted, self.selected
+    def press(self, event: InputEvent) -> StackOperation:
+        """Directions and the mouse select a thing, X removes it, Y changes a flat one; FIRE scans."""
+        thing = self.selected
         match event.button:
-            case Button.BACK:
-                self.context.sounds.play("back")
-                return Pop()
             case Button.FIRE | Button.START:
                 return self._scan()
             case Button.X if thing:
@@ -112,34 +100,27 @@ class ArenaPage:
             case Button.Y if thing and thing.kind is ThingKind.FLAT:
                 self._take(self.layout.replaced(thing, thing.as_mud(not thing.mud)), True)
                 self.context.sounds.play("accept")
-            case _ if self.focus and self.focus.handle(event):
+            case _ if self.focus.handle(event):
                 self.context.sounds.play("move")
         return None
 
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         if self.rig is not None:
             self.session.advance(seconds)
-        if self.focus:
-            self.focus.update(seconds)
-        if self._scan_now:
-            self._scan_now = False
-            return self._scan()
-        if self.access.update(seconds):
-            self.context.sounds.play("back")
-            return Pop()
-        return Home() if self.context.idle > IDLE else None
+        now, self._scan_now = self._scan_now, False
+        return self._scan() if now else None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    def show(self, screen: pygame.Surface) -> None:
+        """Draw the arena on black, as it lies on the mat."""
         words, things = self.context.words, self.layout.things
         screen.fill((0, 0, 0))
         frame().draw(screen)
         text(words("things.title"), LABEL, ICE, "head", "l", 1000).draw(screen, 176, TITLE_Y)
         count = words("things.one" if len(things) == 1 else "things.count", count=len(things))
         text(count, LABEL, FOCUS, "head", "r", 560).draw(screen, 1744, TITLE_Y)
-        self._row.draw(screen)
         self._draw_things(screen)
         self._draw_lines(screen)
-        if self.focus and (thing := self.selected):
+        if thing := self.selected:
             blocks = int(self.focus.name) in self._culprits
             line, color = ("things.blocking_line", ALARM) if blocks else (f"things.{thing.use}_line", MIST)
             text(words(line), FOOT_SIZE, color, "body", "c", 1600).draw(screen, 960, FOOT_Y)
@@ -149,7 +130,7 @@ class ArenaPage:
     @property
     def selected(self) -> Thing | None:
         """The selected thing."""
-        return self.layout.things[int(self.focus.name)] if self.focus else None
+        return self.layout.things[int(self.focus.name)] if self.layout.things else None
 
     # ---- inside
 
@@ -159,9 +140,10 @@ class ArenaPage:
         return self.arenas.culprits if self.arenas else set()
 
     @property
-    def _row(self) -> ButtonPrompts:
+    def hints(self) -> Hints:
         thing = self.selected
-        return self._prompts[thing.kind if thing else None]
+        change = [] if thing is None else [REMOVE, TURN] if thing.kind is ThingKind.FLAT else [REMOVE]
+        return [SCAN, *change, LEAVE]
 
     def _scan(self) -> StackOperation:
         """Begin a scan, if there is a camera; else try to open it again."""
@@ -184,10 +166,9 @@ class ArenaPage:
 
     def _take(self, layout: Layout, changed: bool) -> None:
         """Show a layout, and try all arenas with it."""
-        name = self.focus.name if self.focus else None
         self.layout, self.changed = layout, self.changed or changed
         spots = [FocusSpot(str(i), _box(thing)) for i, thing in enumerate(layout.things)]
-        self.focus = Focus(spots, name) if spots else None
+        self.focus.set_spots(spots or [NOWHERE])
         if self.arenas is not None:
             self.arenas.end()
         self.arenas = PlayableArenas([thing.spec for thing in layout.things]) if spots else None

@@ -13,21 +13,26 @@ from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.hardware.session.things_on_mat import with_choices
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.text import text
-from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.input.events import Button
 
 CENTRE = 960, 540
 STEPS = 48  # of the ring
 
 
-class SweepPage:
+class SweepPage(Page):
     """One scan. `advance`: advances the session, or a match whose robots stand, by some seconds.
 
     `done` gets the result: a layout in which the operator's choices are kept, or a fault.
     """
+
+    idle = math.inf
+    prompts_y, closing = 1020, (Button.START, Button.STOP)
+    hints = ((Button.BACK, "things.hint_stop"),)
 
     def __init__(
         self,
@@ -39,11 +44,11 @@ class SweepPage:
         done: "Callable[[RigScan, Layout | None], None]",
     ) -> None:
         assert session.ground is not None
-        self.context, self.session, self.before, self.advance, self.done = context, session, before, advance, done
+        super().__init__(context)
+        self.session, self.before, self.advance_rig, self.done = session, before, advance, done
         self.work = RigScan(rig, session.ground, before)
         self._pattern: Pattern | None = None
         self._picture = pygame.Surface((1920, 1080))
-        self.prompts = context.prompts([(Button.BACK, "things.hint_stop")], 1020)
 
     def on_enter(self) -> None:
         self.context.hush()
@@ -52,18 +57,10 @@ class SweepPage:
         """End the scan."""
         self.work.close()
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """BACK, START and STOP abort."""
-        event = self.prompts.as_button(event)
-        if event.button in (Button.BACK, Button.START, Button.STOP):
-            self.context.sounds.play("back")
-            return Pop()
-        return None
-
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         """Follow the scan; hand over its result."""
         self.context.idle = 0.0
-        self.advance(seconds)
+        self.advance_rig(seconds)
         self.work.step()
         scan = self.work.scan
         if not scan.finished:
