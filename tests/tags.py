@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from pigaming_app.ai.learning.training import Training
+from pigaming_app.ai.learning.training import TableTraining
 from pigaming_app.ai.qlearning import table_files
 from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.ai.registry import new_match
@@ -47,7 +47,7 @@ def write_ghost(folder: Path) -> None:
 
 
 def write_table(folder: Path) -> None:
-    training = Training(RECIPES[2], 1, fast=False, minutes=0.1)
+    training = TableTraining(RECIPES[2], 1, fast=False, minutes=0.1)
     training.run(600)
     (folder / "ROBI.npz").write_bytes(table_files.encode(training.trained("ROBI")))
 

@@ -2,6 +2,7 @@
 
 import ast
 import re
+from collections import Counter
 from importlib import import_module
 from pathlib import Path
 from typing import get_type_hints
@@ -39,3 +40,15 @@ def test_options_leave_the_command_line_as_dataclasses() -> None:
     kinds = [get_type_hints(import_module(f"pigaming_app.jobs.{job.module}").run)["options"] for job in PLAIN]
     assert len(kinds) > 15
     assert all(kind.__dataclass_params__.frozen for kind in kinds)
+
+
+def test_no_class_name_stands_for_two_things() -> None:
+    names = Counter(
+        node.name
+        for path in PACKAGE.rglob("*.py")
+        if "micropython" not in path.parts  # programs of another interpreter
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.ClassDef)
+    )
+    assert len(names) > 800
+    assert [name for name, count in names.items() if count > 1] == []

@@ -30,14 +30,14 @@ EXPECTED = 60e6  # bytes of the extra "train": pip announces a large file only o
 LAST = 0.95  # share at which everything is fetched, and still to be unpacked
 
 
-class Progress:
+class FetchProgress:
     """Prints the share that is fetched: bytes in the folder of pip's temporary files, of all expected."""
 
     def __init__(self, folder: Path) -> None:
         self.folder, self.announced, self.most, self._over = folder, 0.0, 0.0, Event()
         self._thread = Thread(target=self._print, daemon=True)
 
-    def __enter__(self) -> "Progress":
+    def __enter__(self) -> "FetchProgress":
         self._thread.start()
         return self
 
@@ -78,7 +78,7 @@ def fetch(extra: str) -> str:
 
 def _install(place: Path, extra: str) -> str:
     before, complete = packages([site_packages(place)]), installed_groups(place) | {ARCADE}
-    with TemporaryDirectory(dir=place) as folder, Progress(Path(folder)) as progress:
+    with TemporaryDirectory(dir=place) as folder, FetchProgress(Path(folder)) as progress:
         os.environ.update(dict.fromkeys(("TMPDIR", "TEMP", "TMP"), folder))
         try:
             environment.install(place, complete | {extra}, progress.announce)

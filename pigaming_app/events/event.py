@@ -7,7 +7,7 @@ from functools import cached_property
 from pigaming_app.events import standings
 from pigaming_app.events.journal import Added, Corrected, Entry, Postponed, Recorded, Substituted, Withdrawn
 from pigaming_app.events.progress import Progress
-from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Outcome, Standing, check_spec
+from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Result, Standing, check_spec
 
 
 @dataclass(frozen=True)
@@ -48,12 +48,12 @@ class Event:
         return tuple(progress.next_match(one) for one in self.fixtures if one.number not in progress.outcomes)
 
     @cached_property
-    def outcomes(self) -> dict[int, Outcome]:
+    def outcomes(self) -> dict[int, Result]:
         """The results by number of the match; walkovers have the note WALKOVER."""
         return dict(self.progress.outcomes)
 
     @property
-    def played(self) -> Mapping[int, tuple[Outcome, ...]]:
+    def played(self) -> Mapping[int, tuple[Result, ...]]:
         """Every match that was played, by number: the match itself, then its extra matches."""
         return self.progress.played
 
@@ -86,11 +86,11 @@ class Event:
         """True if there is nothing left to play."""
         return not self.open
 
-    def record(self, outcome: Outcome) -> "Event":
+    def record(self, outcome: Result) -> "Event":
         """With the result of an open match."""
         return self.after(Recorded(outcome))
 
-    def correct(self, outcome: Outcome) -> "Event":
+    def correct(self, outcome: Result) -> "Event":
         """With another result of a match that has been played; its note gives the reason."""
         return self.after(Corrected(outcome))
 

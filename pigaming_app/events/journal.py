@@ -2,20 +2,20 @@
 
 from msgspec import Struct
 
-from pigaming_app.events.spec import Entrant, Outcome
+from pigaming_app.events.spec import Entrant, Result
 from pigaming_app.storage.schema import Line
 
 
 class Recorded(Struct, frozen=True, tag_field="entry", tag="result"):
     """The result of a match."""
 
-    outcome: Outcome
+    outcome: Result
 
 
 class Corrected(Struct, frozen=True, tag_field="entry", tag="correction"):
     """A result in place of a recorded one; its note gives the reason."""
 
-    outcome: Outcome
+    outcome: Result
 
 
 class Added(Struct, frozen=True, tag_field="entry", tag="late"):

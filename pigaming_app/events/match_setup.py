@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from pigaming_app.events.event import Event
-from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Outcome
+from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Result
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import ALLIES, ALONE, FREE, Row, Setup, Variant
 from pigaming_app.games.registry import games
@@ -67,12 +67,12 @@ def variant_of(spec: EventSpec, game: str) -> Variant:
     return variants[name]
 
 
-def outcome_of(fixture: Fixture, rows: Iterable[Row], note: str = "") -> Outcome:
+def outcome_of(fixture: Fixture, rows: Iterable[Row], note: str = "") -> Result:
     """The outcome of a match; AIs on filled seats have no place."""
     own = [row for row in rows if row.seat < len(fixture.entrants)]
     names = {row.seat: fixture.entrants[row.seat] for row in own}
     places = sorted({row.place for row in own})
-    return Outcome(
+    return Result(
         fixture.number,
         tuple(tuple(sorted(names[row.seat] for row in own if row.place == place)) for place in places),
         {names[row.seat]: float(row.score) for row in own},

@@ -9,11 +9,11 @@ from dataclasses import dataclass, field, replace
 
 from pigaming_app.events.formats import knockout, sudden_death
 from pigaming_app.events.formats.draws import NEXT, SCHEDULES
-from pigaming_app.events.formats.field import Draw, Field
+from pigaming_app.events.formats.field import Draw, EntrantField
 from pigaming_app.events.formats.grouping import seated
 from pigaming_app.events.formats.sudden_death import Verdict
 from pigaming_app.events.journal import Added, Corrected, Entry, Postponed, Recorded, Substituted, Withdrawn
-from pigaming_app.events.spec import MOST, WALKOVER, Entrant, EventSpec, Fixture, Format, Outcome, Round, check_name
+from pigaming_app.events.spec import MOST, WALKOVER, Entrant, EventSpec, Fixture, Format, Result, Round, check_name
 
 SEED_STEP = 10_000  # between the seeds of two events, more than an event has matches
 
@@ -27,8 +27,8 @@ class Progress:
     late: frozenset[str] = frozenset()
     withdrawn: frozenset[str] = frozenset()
     rounds: tuple[Round, ...] = ()
-    outcomes: Mapping[int, Outcome] = field(default_factory=dict)  # by fixture, walkovers included
-    played: Mapping[int, tuple[Outcome, ...]] = field(default_factory=dict)  # by fixture: the match, then extra ones
+    outcomes: Mapping[int, Result] = field(default_factory=dict)  # by fixture, walkovers included
+    played: Mapping[int, tuple[Result, ...]] = field(default_factory=dict)  # by fixture: the match, then extra ones
     postponed: Mapping[int, int] = field(default_factory=dict)  # times, by fixture
 
     def after(self, entry: Entry) -> "Progress":
@@ -73,10 +73,10 @@ class Progress:
             return Verdict(before[0].places)
         return sudden_death.verdict(fixture, before, knockout.wins(fixture, self.spec.advance))
 
-    def as_field(self) -> Field:
+    def as_field(self) -> EntrantField:
         """What a draw may look at."""
         names = tuple(entrant.name for entrant in self.entrants)
-        return Field(self.spec, names, self.late, self.withdrawn, self.rounds, self.outcomes)
+        return EntrantField(self.spec, names, self.late, self.withdrawn, self.rounds, self.outcomes)
 
     def drawn(self) -> "Progress":
         """With every round that can be drawn now."""
@@ -134,7 +134,7 @@ class Progress:
                     else:
                         away = tuple(sorted({*fixture.entrants} - {*here}))
                         places = (here, away) if here else (away,)
-                        outcomes[fixture.number] = Outcome(fixture.number, places, note=WALKOVER)
+                        outcomes[fixture.number] = Result(fixture.number, places, note=WALKOVER)
                 fixtures.append(fixture)
             rounds.append(replace(drawn, fixtures=tuple(fixtures)))
         return replace(progress, rounds=tuple(rounds), outcomes={**outcomes, **progress.outcomes})
@@ -149,15 +149,15 @@ class Progress:
             return self
         away = tuple(name for name in tied if name not in here)
         places = (here, away) if here else tuple((name,) for name in away)
-        progress = self._after_match(fixture, Outcome(fixture.number, places, note=WALKOVER))
+        progress = self._after_match(fixture, Result(fixture.number, places, note=WALKOVER))
         return progress._without_extra_match(fixture)
 
-    def _recorded(self, outcome: Outcome) -> "Progress":
+    def _recorded(self, outcome: Result) -> "Progress":
         fixture = self._open_fixture(outcome.fixture)
         progress = self._after_match(fixture, checked(outcome, self.next_match(fixture)))
         return progress if self.spec.format in SCHEDULES else progress.drawn()
 
-    def _after_match(self, fixture: Fixture, outcome: Outcome) -> "Progress":
+    def _after_match(self, fixture: Fixture, outcome: Result) -> "Progress":
         """With one more match of a fixture. Its result has the places that all of them together decide."""
         number = fixture.number
         played = (*self.played.get(number, ()), outcome)
@@ -168,7 +168,7 @@ class Progress:
             return progress
         return replace(progress, outcomes={**self.outcomes, number: replace(played[0], places=decided.places)})
 
-    def _corrected(self, outcome: Outcome) -> "Progress":
+    def _corrected(self, outcome: Result) -> "Progress":
         number = outcome.fixture
         if number not in self.played:
             raise ValueError(f"match {number} has not been played")
@@ -242,7 +242,7 @@ class Progress:
             raise ValueError(f"{name} has withdrawn")
 
 
-def checked(outcome: Outcome, fixture: Fixture) -> Outcome:
+def checked(outcome: Result, fixture: Fixture) -> Result:
     """The outcome with equal places in one order. Raises ValueError unless it has every entrant of the match once."""
     named = sorted(name for place in outcome.places for name in place)
     if named != sorted(fixture.entrants) or not all(outcome.places):

@@ -98,7 +98,7 @@ class Fixture:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class Result:
     """Result of a fixture. `places`: the entrants of each place, best first; equal ones together, sorted by name."""
 
     fixture: int

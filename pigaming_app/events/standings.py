@@ -10,10 +10,10 @@ from collections.abc import Callable, Mapping, Sequence
 
 from pigaming_app.events import tie_breaks
 from pigaming_app.events.formats import grand_prix, knockout, scoring
-from pigaming_app.events.formats.field import Field
+from pigaming_app.events.formats.field import EntrantField
 from pigaming_app.events.progress import Progress
-from pigaming_app.events.spec import WALKOVER, Format, Outcome, Standing
-from pigaming_app.events.tie_breaks import Game, Table, Values
+from pigaming_app.events.spec import WALKOVER, Format, Result, Standing
+from pigaming_app.events.tie_breaks import CountedMatch, Table, Values
 
 TieBreak = Callable[[Table, Sequence[str]], Values]
 TIE_BREAKS: Mapping[Format, Mapping[str, TieBreak]] = {
@@ -83,7 +83,7 @@ def team_standings(progress: Progress) -> tuple[Standing, ...]:
     )
 
 
-def _table(field: Field) -> Table:
+def _table(field: EntrantField) -> Table:
     """The matches as the format counts them. In a round robin a walkover counts as played."""
     form = field.spec.format
     points, unplayed = dict.fromkeys(field.entrants, 0.0), dict.fromkeys(field.entrants, 0.0)
@@ -100,7 +100,7 @@ def _table(field: Field) -> Table:
                 unplayed[name] += value
             continue
         first = outcome.places[0][0] if len(outcome.places[0]) == 1 and not walkover else ""
-        games.append(Game(gained, first))
+        games.append(CountedMatch(gained, first))
         for name in gained:
             met[name] += 1
     complete = [drawn for drawn in field.rounds if all(one.number in field.outcomes for one in drawn.fixtures)]
@@ -112,20 +112,20 @@ def _table(field: Field) -> Table:
     return Table({name: scoring.exact(value) for name, value in points.items()}, games, missed, unplayed)
 
 
-def _void(field: Field, outcome: Outcome) -> bool:
+def _void(field: EntrantField, outcome: Result) -> bool:
     """True if a result of a round robin does not count: somebody withdrew before half of the matches."""
     if field.spec.format != Format.ROUND_ROBIN or not field.withdrawn:
         return False
     return any(name in field.withdrawn and _left_early(field, name) for place in outcome.places for name in place)
 
 
-def _left_early(field: Field, name: str) -> bool:
+def _left_early(field: EntrantField, name: str) -> bool:
     own = [one.number for drawn in field.rounds for one in drawn.fixtures if name in one.entrants]
     played = sum(number in field.outcomes and field.outcomes[number].note != WALKOVER for number in own)
     return 2 * played < len(own)
 
 
-def _grand_prix(outcome: Outcome) -> dict[str, float]:
+def _grand_prix(outcome: Result) -> dict[str, float]:
     """Points by place; a walkover is a first place."""
     if outcome.note == WALKOVER:
         return {name: share * grand_prix.POINTS[0] for name, share in scoring.points(outcome).items()}
@@ -136,7 +136,7 @@ def _grand_prix(outcome: Outcome) -> dict[str, float]:
     return found
 
 
-def _knockout(field: Field) -> tuple[Standing, ...]:
+def _knockout(field: EntrantField) -> tuple[Standing, ...]:
     lost = knockout.defeats(field)
     last = dict.fromkeys(field.entrants, 0)  # round of the last match
     ended = dict.fromkeys(field.entrants, 0.0)  # place in it
@@ -178,7 +178,7 @@ def _refined(tie_break: TieBreak, table: Table, group: list[str]) -> list[list[s
     return parts if len(parts) == 1 else [finer for part in parts for finer in _refined(tie_break, table, part)]
 
 
-def _row(field: Field, place: int, name: str, points: float, values: Mapping[str, float]) -> Standing:
+def _row(field: EntrantField, place: int, name: str, points: float, values: Mapping[str, float]) -> Standing:
     won = played = 0
     for outcome in field.outcomes.values():
         if outcome.note != WALKOVER and any(name in tied for tied in outcome.places):

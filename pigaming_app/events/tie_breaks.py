@@ -18,7 +18,7 @@ Values = dict[str, float]
 
 
 @dataclass(frozen=True)
-class Game:
+class CountedMatch:
     """A match as it counts: points of each entrant, and all who take part."""
 
     points: Mapping[str, float]
@@ -30,7 +30,7 @@ class Table:
     """All matches that count, and the sum of the points of everybody, with those of byes and walkovers."""
 
     points: Mapping[str, float]
-    games: Sequence[Game]
+    games: Sequence[CountedMatch]
     missed: Mapping[str, int]  # rounds without an opponent: byes, walkovers and missed ones
     unplayed: Mapping[str, float]  # points of byes and walkovers
 
@@ -92,13 +92,13 @@ def place_counts(place: int) -> "Callable[[Table, Sequence[str]], Values]":
     return count
 
 
-def _place(game: Game, name: str) -> int:
+def _place(game: CountedMatch, name: str) -> int:
     if name not in game.points:
         return 0
     return 1 + sum(points > game.points[name] for points in game.points.values())
 
 
-def _opponents(table: Table, game: Game, name: str) -> float:
+def _opponents(table: Table, game: CountedMatch, name: str) -> float:
     """Mean of the opponents' points."""
     others = [table.points[other] for other in game.points if other != name]
     return sum(others) / len(others) if others else 0.0

@@ -7,7 +7,7 @@ import numpy as np
 
 from pigaming_app.gym.matches import Matches
 from pigaming_app.gym.options import task_of
-from pigaming_app.gym.picture import Camera, checked_mode
+from pigaming_app.gym.picture import MatchCamera, checked_mode
 from pigaming_app.gym.spaces import action_space, observation_space
 
 SEEDS = 2**63  # seeds that are drawn lie below
@@ -31,7 +31,7 @@ class SeatEnv(gymnasium.Env[Any, Any]):
         self.observation_space, self.action_space = observation_space(self.task), action_space(self.task)
         self.matches = Matches(self.task, 1)
         self._seeded = False
-        self._camera = Camera(self.matches, 0)
+        self._camera = MatchCamera(self.matches, 0)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Begin the next episode. `seed` determines it and all that follow; `options` is not used."""

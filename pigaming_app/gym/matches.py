@@ -14,7 +14,7 @@ from pigaming_app.ai.learning.cast import Cast
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.games.registry import games
 from pigaming_app.gym.loop import Loop, loop_of
-from pigaming_app.gym.options import Task
+from pigaming_app.gym.options import EnvironmentTask
 from pigaming_app.gym.rewards import TALLIES
 from pigaming_app.sim.record import copy, dtype, packed, unpack
 from pigaming_app.sim.world import ROBOTS
@@ -25,7 +25,7 @@ STRIDE = np.uint64(0x9E3779B97F4A7C15)  # of a seed's sequence, as in splitmix64
 class Matches:
     """`count` matches. Observations are (count, learners, inputs), rewards (count, learners), `over` is (count,)."""
 
-    def __init__(self, task: Task, count: int) -> None:
+    def __init__(self, task: EnvironmentTask, count: int) -> None:
         self.task, self.count = task, count
         self.encoding = ENCODINGS[task.game]
         self.cast = Cast(task.opponents, task.fast)
@@ -133,12 +133,12 @@ def raw(rows: Any) -> Any:
     return rows.view(f"V{rows.dtype.itemsize}")
 
 
-def action_shape(task: Task) -> tuple[int]:
+def action_shape(task: EnvironmentTask) -> tuple[int]:
     """The length of one learner's action."""
     return (4,) if task.continuous else (len(ENCODINGS[task.game].heads),)
 
 
-def action_type(task: Task) -> Any:
+def action_type(task: EnvironmentTask) -> Any:
     return np.float64 if task.continuous else np.int64
 
 

@@ -30,7 +30,7 @@ class OptionError(ValueError):
 
 
 @dataclass(frozen=True)
-class Task:
+class EnvironmentTask:
     """What an environment plays."""
 
     setup: Setup  # with seed 0
@@ -73,7 +73,7 @@ def task_of(
     starts: int = STARTS,
     compiled: bool | None = None,
     **unknown: Any,
-) -> Task:
+) -> EnvironmentTask:
     """A task from the options of an environment (see `pigaming_app.gym`). Raises OptionError."""
     if unknown:
         raise OptionError(f"no option '{next(iter(unknown))}' here; see help(pigaming_app.gym)")
@@ -109,7 +109,7 @@ def task_of(
         reason = "an opponent runs only uncompiled" if can_compile() else f"numba is missing: {installing('train')}"
         raise OptionError(f"compiled: {reason}")
     fast = may_compile if compiled is None else bool(compiled)
-    return Task(setup, found, learners, kinds, ticks, bool(continuous), weights, starts, fast)
+    return EnvironmentTask(setup, found, learners, kinds, ticks, bool(continuous), weights, starts, fast)
 
 
 def arenas_of(game: str, arena: str | Sequence[str] | None) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from pettingzoo import ParallelEnv
 from pigaming_app.gym.environment import SEEDS
 from pigaming_app.gym.matches import Matches
 from pigaming_app.gym.options import number, task_of
-from pigaming_app.gym.picture import Camera, checked_mode
+from pigaming_app.gym.picture import MatchCamera, checked_mode
 from pigaming_app.gym.spaces import action_space, observation_space
 
 
@@ -41,7 +41,7 @@ class MatchEnv(ParallelEnv[str, Any, Any]):
         self.action_spaces = {agent: action_space(self.task) for agent in self.possible_agents}
         self.matches = Matches(self.task, 1)
         self._seeded = False
-        self._camera = Camera(self.matches, 0)
+        self._camera = MatchCamera(self.matches, 0)
 
     def observation_space(self, agent: str) -> Any:
         return self.observation_spaces[agent]

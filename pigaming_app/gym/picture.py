@@ -23,7 +23,7 @@ def checked_mode(mode: str | None) -> str | None:
     return mode
 
 
-class Camera:
+class MatchCamera:
     """Draws match i of an environment; until its first picture it does nothing."""
 
     def __init__(self, matches: Matches, i: int) -> None:

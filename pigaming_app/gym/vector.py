@@ -10,7 +10,7 @@ from gymnasium.vector.utils import batch_space
 from pigaming_app.gym.environment import SEEDS
 from pigaming_app.gym.matches import Matches
 from pigaming_app.gym.options import OptionError, number, task_of
-from pigaming_app.gym.picture import Camera, checked_mode
+from pigaming_app.gym.picture import MatchCamera, checked_mode
 from pigaming_app.gym.spaces import action_space, observation_space
 
 
@@ -54,7 +54,7 @@ class SeatVectorEnv(VectorEnv[Any, Any, Any]):
         self._seeded = False
         self._ended = np.zeros(self.matches.count, np.bool_)
         self._steps = np.zeros(self.matches.count, np.int64)  # of the present episode
-        self._cameras: list[Camera] = []
+        self._cameras: list[MatchCamera] = []
 
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
@@ -115,7 +115,7 @@ class SeatVectorEnv(VectorEnv[Any, Any, Any]):
         if not self.render_mode:
             return None
         if not self._cameras:
-            self._cameras = [Camera(self.matches, i) for i in range(self.matches.count)]
+            self._cameras = [MatchCamera(self.matches, i) for i in range(self.matches.count)]
         return tuple(camera.picture() for camera in self._cameras)
 
     def close_extras(self, **_: Any) -> None:

@@ -22,7 +22,7 @@ from pigaming_app.hardware.emulator.arena import ARENA_AT
 from pigaming_app.hardware.emulator.camera import TRAITS
 from pigaming_app.hardware.emulator.objects import BODY_HEIGHT, LID_HEIGHT, MARKER, FlatObject, body, lid
 from pigaming_app.hardware.emulator.optics import SENSOR, Optics, TrueLens
-from pigaming_app.hardware.emulator.renderer import CameraScene, SceneRenderer
+from pigaming_app.hardware.emulator.renderer import ExposureSetup, SceneRenderer
 from pigaming_app.hardware.session.lighting import DISC, GREY, busy_floor
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, SearchWindow
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -85,7 +85,7 @@ def samples(
                 FlatObject(lid(number), LID_HEIGHT, poses, slant=slant),
             ]
             truths.append((x, y))
-        picture = painter.paint(CameraScene(image, tuple(things), 0.1, 1.0, shot))
+        picture = painter.paint(ExposureSetup(image, tuple(things), 0.1, 1.0, shot))
         for number, (x, y) in zip(numbers, truths, strict=True):
             edge = scale * _edge(optics, x, y)
             at = (optics.sensor(np.array([(x, y)]), LID_HEIGHT)[0] + 0.5) * scale - 0.5

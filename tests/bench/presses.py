@@ -23,7 +23,7 @@ from pigaming_app.jobs.bench.memory import resident_mb
 from pigaming_app.scenes.attract.scene import Attract
 from pigaming_app.scenes.events.poster import drawn, encoded
 from pigaming_app.scenes.flow.stack import Home, Stack
-from pigaming_app.scenes.lab.background import Background
+from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.preloaded import modules
@@ -91,7 +91,7 @@ def rounds(presses: int, each: int = 12, seed: int = 1) -> Iterator[Usage]:
     arcade = Arcade(Controls(canvas.to_canvas))
     context, title = arcade.context, Title(arcade.context)
     context.canvas, arcade.stack = canvas, Stack(title)
-    background = context.shared(Background)
+    background = context.shared(LabBackground)
     background.compiler = background.network_compiler = Compiler(IDLE)
     background.preloaded()
     background.lab = lab = Lab(context)

@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 from pigaming_app import ASSETS
 from pigaming_app.ai.learning.league import wilson
 from pigaming_app.ai.learning.settings import changed
-from pigaming_app.ai.learning.training import Training, contest
+from pigaming_app.ai.learning.training import TableTraining, contest
 from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.scenes.files import save_table
@@ -101,14 +101,14 @@ def bar(count: int, seeds: int) -> str:
     return "█" * round(50 * count / seeds)
 
 
-def trained(recipe: Recipe, seed: int, fast: bool) -> Training:
+def trained(recipe: Recipe, seed: int, fast: bool) -> TableTraining:
     """A robot after MATCHES matches."""
-    learner = Training(recipe, seed, fast=fast)
+    learner = TableTraining(recipe, seed, fast=fast)
     learner.run(MATCHES * round(learner.minutes * 60 * HZ))
     return learner
 
 
-def row(seed: int, one: Training, two: Training) -> Row:
+def row(seed: int, one: TableTraining, two: TableTraining) -> Row:
     """Results of the robots of two rewards."""
     first, second, opponent = one.checkpoint().kind, two.checkpoint().kind, BRAINS["pitanks"]["classic"]
     meetings = ((first, opponent), (second, opponent), (first, second))

@@ -446,7 +446,7 @@ def test_an_extra_that_cannot_be_fetched_leaves_the_environment_ready(furnished,
 
 
 def test_the_bar_is_not_full_after_a_small_file_with_a_large_one_to_come(tmp_path):
-    with fetch.Progress(tmp_path) as progress:
+    with fetch.FetchProgress(tmp_path) as progress:
         for name, size, least, most in (("numba", 3.8, 0.05, 0.07), ("llvmlite", 56.0, 0.94, fetch.LAST)):
             before = progress.most
             progress.announce(name, "1.0", f"{size} MB")

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from random import Random
 
 from pigaming_app.events.event import Event
-from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Format, Outcome
+from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Format, Result
 
 
 def new_event(form: Format, count: int, **more) -> Event:
@@ -17,35 +17,35 @@ def seed_of(name: str) -> int:
     return int(name[1:])
 
 
-def ranked(fixture: Fixture, *order: str) -> Outcome:
+def ranked(fixture: Fixture, *order: str) -> Result:
     """The entrants in this order, each with a place of its own."""
-    return Outcome(fixture.number, tuple((name,) for name in order), extra=fixture.extra)
+    return Result(fixture.number, tuple((name,) for name in order), extra=fixture.extra)
 
 
-def level(fixture: Fixture) -> Outcome:
+def level(fixture: Fixture) -> Result:
     """All entrants on one place."""
-    return Outcome(fixture.number, (fixture.entrants,), extra=fixture.extra)
+    return Result(fixture.number, (fixture.entrants,), extra=fixture.extra)
 
 
-def best_seed_wins(fixture: Fixture) -> Outcome:
+def best_seed_wins(fixture: Fixture) -> Result:
     return ranked(fixture, *sorted(fixture.entrants, key=seed_of))
 
 
-def by_chance(seed: int, ties: bool = True) -> Callable[[Fixture], Outcome]:
+def by_chance(seed: int, ties: bool = True) -> Callable[[Fixture], Result]:
     """Random places, sometimes equal ones."""
     random = Random(seed)
 
-    def outcome(fixture: Fixture) -> Outcome:
+    def outcome(fixture: Fixture) -> Result:
         order = random.sample(fixture.entrants, len(fixture.entrants))
         if ties and random.random() < 0.2:
             places = (tuple(order[:2]), *((name,) for name in order[2:]))
-            return Outcome(fixture.number, places, extra=fixture.extra)
+            return Result(fixture.number, places, extra=fixture.extra)
         return ranked(fixture, *order)
 
     return outcome
 
 
-def played(event: Event, outcome: Callable[[Fixture], Outcome] = best_seed_wins, rounds: int = 1000) -> Event:
+def played(event: Event, outcome: Callable[[Fixture], Result] = best_seed_wins, rounds: int = 1000) -> Event:
     """The event after this many rounds, or at its end."""
     while event.open and event.round <= rounds:
         event = event.record(outcome(event.open[0]))

@@ -6,7 +6,7 @@ import pytest
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import parse, to_text
-from pigaming_app.events.spec import Advance, Entrant, EventSpec, Format, Outcome
+from pigaming_app.events.spec import Advance, Entrant, EventSpec, Format, Result
 from tests.events.examples import best_seed_wins, by_chance, new_event, played
 
 
@@ -45,7 +45,7 @@ def _changed(event: Event, random: Random, outcome, step: int) -> Event:
             number = random.choice([*event.outcomes])
             fixture = next(one for one in event.fixtures if one.number == number)
             places = outcome(fixture).places
-            return event.correct(Outcome(number, places, note="corrected"))
+            return event.correct(Result(number, places, note="corrected"))
         case 1:
             return event.add(Entrant(f"P{100 + step}"))
         case 2 if step % 3 == 0:
@@ -71,22 +71,22 @@ def test_a_result_names_everybody_of_the_match_once(places):
     event = new_event(Format.ROUND_ROBIN, 4)
     assert {*event.open[0].entrants} == {"P1", "P4"}
     with pytest.raises(ValueError, match=r"^match 1 is between P1, P4, each with one place$"):
-        event.record(Outcome(1, places))
+        event.record(Result(1, places))
 
 
 def test_a_result_of_no_match_is_refused():
     with pytest.raises(ValueError, match=r"^there is no match 99$"):
-        new_event(Format.SWISS, 4).record(Outcome(99, ()))
+        new_event(Format.SWISS, 4).record(Result(99, ()))
 
 
 def test_a_correction_needs_a_note_and_a_played_match():
     event = new_event(Format.SWISS, 4)
     with pytest.raises(ValueError, match=r"^match 1 has not been played$"):
-        event.correct(Outcome(1, (("P1",), ("P3",)), note="?"))
+        event.correct(Result(1, (("P1",), ("P3",)), note="?"))
     event = event.record(best_seed_wins(event.open[0]))
     with pytest.raises(ValueError, match=r"^a correction needs a note$"):
-        event.correct(Outcome(1, (("P3",), ("P1",))))
-    event = event.correct(Outcome(1, (("P3",), ("P1",)), note="pads were swapped"))
+        event.correct(Result(1, (("P3",), ("P1",))))
+    event = event.correct(Result(1, (("P3",), ("P1",)), note="pads were swapped"))
     assert event.standings[0].entrant == "P3"
     assert len(event.outcomes) == 1
 
@@ -94,9 +94,9 @@ def test_a_correction_needs_a_note_and_a_played_match():
 def test_a_swiss_round_that_has_begun_stays_after_a_correction():
     event = played(new_event(Format.SWISS, 8), rounds=1)
     begun = event.record(best_seed_wins(event.open[0]))
-    corrected = begun.correct(Outcome(1, (("P5",), ("P1",)), note="mixed up"))
+    corrected = begun.correct(Result(1, (("P5",), ("P1",)), note="mixed up"))
     assert corrected.fixtures == begun.fixtures
-    fresh = event.correct(Outcome(1, (("P5",), ("P1",)), note="mixed up"))
+    fresh = event.correct(Result(1, (("P5",), ("P1",)), note="mixed up"))
     assert {"P1", "P3"} not in [{*one.entrants} for one in fresh.open]
 
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from pigaming_app.events.spec import Entrant, Format, Outcome
-from pigaming_app.events.tie_breaks import Game, Table, head_to_head
+from pigaming_app.events.spec import Entrant, Format, Result
+from pigaming_app.events.tie_breaks import CountedMatch, Table, head_to_head
 from tests.events.examples import best_seed_wins, new_event, played, ranked
 
 # Round robin of four, worked by hand. P1 beats P2 and P3, loses to P4; P2 beats P3 and P4; P3 beats P4.
@@ -62,7 +62,7 @@ def test_head_to_head_counts_again_among_those_who_are_still_level():
 
 def met(*pairs):
     """The table of these matches, each of a winner and a loser."""
-    return Table({}, [Game({one: 1.0, other: 0.0}, one) for one, other in pairs], {}, {})
+    return Table({}, [CountedMatch({one: 1.0, other: 0.0}, one) for one, other in pairs], {}, {})
 
 
 def test_of_several_matches_with_one_the_mean_counts_head_to_head():
@@ -104,7 +104,7 @@ def test_sonneborn_berger_counts_the_points_of_beaten_opponents_and_half_of_ties
     while event.open:
         fixture = event.open[0]
         tied = {*fixture.entrants} == {"P1", "P3"}
-        event = event.record(Outcome(fixture.number, (fixture.entrants,)) if tied else best_seed_wins(fixture))
+        event = event.record(Result(fixture.number, (fixture.entrants,)) if tied else best_seed_wins(fixture))
     values = {row.entrant: row.tie_breaks["sonneborn_berger"] for row in event.standings}
     assert values == {"P1": 1.25, "P2": 0.5, "P3": 0.75}
 
@@ -126,7 +126,7 @@ def test_who_leaves_a_round_robin_late_loses_the_rest():
 @pytest.mark.parametrize("form", [Format.SWISS, Format.ROUND_ROBIN])
 def test_matches_of_four_count_by_the_share_of_beaten_opponents(form):
     event = new_event(form, 4, seats=4, rounds=1)
-    event = event.record(Outcome(1, (("P2",), ("P1", "P4"), ("P3",))))
+    event = event.record(Result(1, (("P2",), ("P1", "P4"), ("P3",))))
     assert {row.entrant: round(row.points, 6) for row in event.standings} == {
         "P2": 1.0, "P1": 0.5, "P4": 0.5, "P3": 0.0
     }  # fmt: skip

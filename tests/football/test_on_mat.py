@@ -5,7 +5,7 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.hardware.proof import testbed, trials
-from pigaming_app.jobs.bench.robots import TARGETS, Job, on_mat
+from pigaming_app.jobs.bench.robots import TARGETS, MatMatch, on_mat
 from tests.football.pitch import overlap
 from tests.football.test_ball import SLOP
 
@@ -23,7 +23,7 @@ def test_real_robots_play_the_projected_ball_and_keep_out_of_the_walls(monkeypat
         return depth(state, x, y)
 
     monkeypatch.setattr(trials, "entered", noted)
-    match = Job("football", "bumpers", 30.0, 7, 0.5, brain="level5", carried=True)
+    match = MatMatch("football", "bumpers", 30.0, 7, 0.5, brain="level5", carried=True)
     run = on_mat(match, testbed.Testbed(5, 30.0).ground)
     assert run.deepest_mm < TARGETS["wall_entry_mm"]
     assert 30.0 <= run.seconds - run.paused < 31.0

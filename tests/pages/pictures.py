@@ -19,12 +19,12 @@ from typing import Any, cast
 
 import pygame
 
-from pigaming_app.ai.learning.training import Training
+from pigaming_app.ai.learning.training import TableTraining
 from pigaming_app.ai.registry import BRAINS, new_match
 from pigaming_app.games.match import Match
 from pigaming_app.games.setup import make_setup
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.scenes.lab.progress import PETALS, Progress
+from pigaming_app.scenes.lab.progress import PETALS, TrainingProgress
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.robots.marker_discs import MarkerDiscs
@@ -96,8 +96,8 @@ def lab() -> pygame.Surface:
     """The Lab with a robot that has learned for some matches."""
     arcade = Arcade(Controls())
     scene = Lab(arcade.context, fast=False)
-    training = Training(scene.table.recipe, LAB_SEED, fast=False)
-    progress = scene.table.progress = Progress(training)
+    training = TableTraining(scene.table.recipe, LAB_SEED, fast=False)
+    progress = scene.table.progress = TrainingProgress(training)
     scene.table.training = training
     arcade.open(scene)
     scene.draw(arcade.screen)
@@ -116,7 +116,7 @@ def lab() -> pygame.Surface:
     return pygame.transform.smoothscale(arcade.screen, SIZE)
 
 
-def examine(progress: Progress) -> None:
+def examine(progress: TrainingProgress) -> None:
     """One evaluation, to its end."""
     progress._exam_time = 0.0
     exam = progress.exam_due()

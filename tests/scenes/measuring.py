@@ -142,7 +142,7 @@ def measuring(patch: pytest.MonkeyPatch) -> Iterator[Screen]:
 def leave_black(patch: pytest.MonkeyPatch) -> None:
     """Render surfaces without their drawing, for tests of what is drawn and where: it takes a quarter of the time."""
     patch.setattr(glow, "add_glow", _no_steps)
-    patch.setattr(glow.Sheet, "downscale", _no_steps)
+    patch.setattr(glow.Supersampled, "downscale", _no_steps)
 
 
 def _no_steps(*_: Any) -> Steps[None]:

@@ -25,11 +25,11 @@ from pigaming_app.hardware.scan.things import ThingKind
 from pigaming_app.scenes.controls.controls_test import ControlsTest
 from pigaming_app.scenes.controls.remap_page import RemapPage
 from pigaming_app.scenes.editor import store
-from pigaming_app.scenes.editor.checker import Verdict
+from pigaming_app.scenes.editor.checker import CheckResult
 from pigaming_app.scenes.editor.gallery.drawing_page import DrawingPage
 from pigaming_app.scenes.editor.gallery.page import Gallery
 from pigaming_app.scenes.editor.model.problems import Problem
-from pigaming_app.scenes.editor.naming import NamePage as ArenaName
+from pigaming_app.scenes.editor.naming import ArenaNamePage as ArenaName
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.events.choice import EventsPage
@@ -37,7 +37,7 @@ from pigaming_app.scenes.events.manage.corrections import Correction, ResultsLis
 from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import NextMatch
-from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
 from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
@@ -51,7 +51,7 @@ from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.kiosk.day_report import figures as day_figures
 from pigaming_app.scenes.kiosk.operator.figures_page import FiguresPage
 from pigaming_app.scenes.kiosk.operator.page import OperatorPage
-from pigaming_app.scenes.lab.background import Background
+from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.network.fetch_page import FetchPage
 from pigaming_app.scenes.ladder.choice import LadderChoice
 from pigaming_app.scenes.ladder.climber import Climber
@@ -61,7 +61,7 @@ from pigaming_app.scenes.ladder.strengths import Strengths
 from pigaming_app.scenes.ladder.summit import Summit
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
-from pigaming_app.scenes.lobby.seats import Seats
+from pigaming_app.scenes.lobby.seats import LobbySeats
 from pigaming_app.scenes.mat.robots.menu import RobotsMenu
 from pigaming_app.scenes.options import games_page
 from pigaming_app.scenes.options.new_game import NewGame
@@ -84,7 +84,7 @@ from pigaming_app.storage.plugins.found import Plugin, found
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.input.events import Button, Device, InputEvent
-from pigaming_app.ui.input.phones.network import Network, PhonesUnavailable
+from pigaming_app.ui.input.phones.network import NetworkInterface, PhonesUnavailable
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.events import drawn
 from tests.scenes.mat.calibration import drawn as calibration_drawn
@@ -178,8 +178,8 @@ def one_button(arcade: Arcade) -> Scene:
     return lobby("pitanks", 3, 1)(arcade)
 
 
-def seats(game: str) -> Seats:
-    found = Seats(team_mode=games()[game].default.team_mode, rivals=AIS[game].rivals)
+def seats(game: str) -> LobbySeats:
+    found = LobbySeats(team_mode=games()[game].default.team_mode, rivals=AIS[game].rivals)
     for device in KEYS[:2]:
         found.join(device)
     found.add_ai()
@@ -309,7 +309,7 @@ def event_table(
 
 
 def event_podium(arcade: Arcade, wide: bool = False) -> Scene:
-    scene = PodiumPage(arcade.context, event(Format.ROUND_ROBIN, 4, 2, 99, wide=wide))
+    scene = EventPodiumPage(arcade.context, event(Format.ROUND_ROBIN, 4, 2, 99, wide=wide))
     scene.age = 9.0
     return scene
 
@@ -374,7 +374,7 @@ def join_by_phone(arcade: Arcade, trouble: str = "") -> Scene:
 
 def phones_page(arcade: Arcade, trouble: str = "") -> Scene:
     page = PhonesPage(with_phones(arcade, trouble).context)
-    page.networks = [Network("Intel(R) Wi-Fi 6E AX210 160MHz", "192.168.100.200")]
+    page.networks = [NetworkInterface("Intel(R) Wi-Fi 6E AX210 160MHz", "192.168.100.200")]
     arcade.context.settings.phones_network = page.networks[0].name
     return page
 
@@ -422,7 +422,7 @@ def editor(game: str, problem: str = "", said: str = "") -> Callable[[Arcade], S
                 task._thread.join()
         scene.bench.selected = scene.tools.items(drawing)[-1]
         found = [Problem(problem, 800.0, 450.0, 60.0, "", problem != "gap", problem)] if problem else []
-        scene.bench.checker.verdict = Verdict(drawing, found, done=True)
+        scene.bench.checker.verdict = CheckResult(drawing, found, done=True)
         if said:
             scene.say(said, name=WIDEST)
             scene.sentence_left = 999.0
@@ -452,7 +452,7 @@ def drawn_arenas(arcade: Arcade, game: str, page: bool = False) -> Scene:
 def fetch_page(arcade: Arcade, state: str) -> Scene:
     """What networks need is being fetched, or was not."""
     fetch: Any = SimpleNamespace(state=state, share=0.4, start=lambda: None)
-    arcade.context.shared(Background).network_fetch = fetch
+    arcade.context.shared(LabBackground).network_fetch = fetch
     return FetchPage(arcade.context, lambda: pygame.Surface((1920, 1080)), lambda: None)
 
 

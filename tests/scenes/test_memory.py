@@ -26,7 +26,7 @@ from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.sprites.effects import beam, wave
 from pigaming_app.ui.draw import PLAYERS, surface_cache
 from pigaming_app.ui.draw.frame_budget import Steps, Unfinished, budget, resumable
-from pigaming_app.ui.draw.surface_cache import Entry, SurfaceCache, surfaces
+from pigaming_app.ui.draw.surface_cache import CacheEntry, SurfaceCache, surfaces
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.bench.memory import press
@@ -127,7 +127,7 @@ def test_no_sprite_of_a_match_is_ever_made_twice(arcade: Arcade, game: str, monk
     made: list[tuple[int, Hashable]] = []
     keep = SurfaceCache._insert
 
-    def noted(cache: SurfaceCache, entry: Entry) -> None:
+    def noted(cache: SurfaceCache, entry: CacheEntry) -> None:
         made.append((id(entry.table), entry.key))
         keep(cache, entry)
 

@@ -16,7 +16,7 @@ from pigaming_app.scenes.lobby import match_setup_view as choice
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
-from pigaming_app.scenes.lobby.seats import Seats
+from pigaming_app.scenes.lobby.seats import LobbySeats
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.replays.page import ReplaysPage
@@ -41,9 +41,9 @@ MOUSE = Device("mouse")
 PLACES = [(x, y) for x in range(60, 1900, 115) for y in range(40, 1060, 85)]
 
 
-def filled() -> Seats:
+def filled() -> LobbySeats:
     """Two people, two AIs, two teams."""
-    seats = Seats(teams=True)
+    seats = LobbySeats(teams=True)
     for device in KEYS[:2]:
         seats.join(device)
     seats.add_ai()

@@ -48,7 +48,7 @@ class Bench:
 
 
 @record
-class Hand:
+class TeamRobot:
     """A robot of the team, the own one first."""
 
     x: float
@@ -74,7 +74,7 @@ class Model:
 
     lots: Annotated[list[Lot], LOTS]
     benches: Annotated[list[Bench], MACHINES]
-    hands: Annotated[list[Hand], ROBOTS]
+    hands: Annotated[list[TeamRobot], ROBOTS]
     helpers: Annotated[list[Helper], WORKERS]
     lot_count: int
     hand_count: int

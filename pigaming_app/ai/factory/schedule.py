@@ -10,7 +10,17 @@ All times are in seconds from now.
 from math import sqrt
 from typing import Annotated
 
-from pigaming_app.ai.factory.floor_model import CLEARED, NEVER, PROCESS, Bench, Hand, Model, copy_model, survey, work
+from pigaming_app.ai.factory.floor_model import (
+    CLEARED,
+    NEVER,
+    PROCESS,
+    Bench,
+    Model,
+    TeamRobot,
+    copy_model,
+    survey,
+    work,
+)
 from pigaming_app.games.factory.observation import FactoryObservation, SlotView
 from pigaming_app.games.factory.state import DONE, EXIT, INPUT, MACHINE_SLOTS, MACHINES, OUTPUT
 from pigaming_app.sim.kernel import kernel
@@ -98,7 +108,7 @@ def best_machine(
 
 
 @kernel
-def lift(obs: FactoryObservation, plan: Plan, model: Model, hand: Hand, k: int) -> None:
+def lift(obs: FactoryObservation, plan: Plan, model: Model, hand: TeamRobot, k: int) -> None:
     """Let a hand drive to lot k and lift it; a machine whose output this empties goes on."""
     lot = model.lots[k]
     slot = obs.slots[lot.lies]
@@ -123,7 +133,7 @@ def begin_work(model: Model, bench: Bench, k: int, at: float) -> None:
 
 
 @kernel
-def set_down(obs: FactoryObservation, plan: Plan, model: Model, hand: Hand) -> bool:
+def set_down(obs: FactoryObservation, plan: Plan, model: Model, hand: TeamRobot) -> bool:
     """Let a hand put down its lot, in the announced slot if it can; False if there is no place."""
     k, wish = hand.lot - 1, hand.into - 1
     lot = model.lots[k]

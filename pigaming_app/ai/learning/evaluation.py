@@ -6,7 +6,7 @@ compiles the Lab's kernels.
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.learning.rollout import Batch
-from pigaming_app.ai.learning.training import ARENA, GAME, MINUTES, Training, training_setup
+from pigaming_app.ai.learning.training import ARENA, GAME, MINUTES, TableTraining, training_setup
 from pigaming_app.ai.qlearning.recipe import Recipe
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.sim.world import HZ
@@ -72,7 +72,7 @@ class Evaluation:
 
 def compile_all() -> None:
     """Compile or load the kernels of training and of every kind of evaluation. Raises ImportError without numba."""
-    training = Training(Recipe(), 1, fast=True)
+    training = TableTraining(Recipe(), 1, fast=True)
     training.run(1)
     learned, handmade = training.checkpoint().kind, BRAINS[GAME][HANDMADE]
     for one, other in ((learned, handmade), (learned, learned)):

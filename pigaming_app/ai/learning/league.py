@@ -149,7 +149,7 @@ def names(brains: Sequence[str]) -> dict[str, str]:
     return {brain: stem if [*stems.values()].count(stem) == 1 else brain for brain, stem in stems.items()}
 
 
-class Ending(NamedTuple):
+class DuelEnd(NamedTuple):
     """End of one match of a duel: ranking key (higher is better) and score of each side."""
 
     left: float
@@ -158,7 +158,7 @@ class Ending(NamedTuple):
     right_score: int
 
 
-def play_duel(setups: Sequence[Setup], left: str, right: str, fast: bool | None) -> tuple[Duel, list[Ending]]:
+def play_duel(setups: Sequence[Setup], left: str, right: str, fast: bool | None) -> tuple[Duel, list[DuelEnd]]:
     """Play these matches, every other one with the sides swapped; returns the duel and each match's end, in order.
 
     Allies play each match twice, once with either brain.
@@ -185,7 +185,7 @@ def play_duel(setups: Sequence[Setup], left: str, right: str, fast: bool | None)
     for batch in batches:
         batch.play(bound(game, ticks))
     seconds = perf_counter() - began
-    ends = [Ending(0.0, 0.0, 0, 0)] * matches
+    ends = [DuelEnd(0.0, 0.0, 0, 0)] * matches
     if allies:
         ends = [*_allied_ends(game, *batches)]
     else:
@@ -251,7 +251,7 @@ def _both_ways(setups: Sequence[Setup], brains: list[str]) -> Iterator[tuple[Seq
             yield half, order
 
 
-def _ends(game: str, batch: Batch, swapped: bool) -> Iterator[Ending]:
+def _ends(game: str, batch: Batch, swapped: bool) -> Iterator[DuelEnd]:
     """End of every match, as seen by `left`."""
     rules, states = games()[game], batch.ended()
     check(game, states)
@@ -259,16 +259,16 @@ def _ends(game: str, batch: Batch, swapped: bool) -> Iterator[Ending]:
         left, right = ((rules.ranking_key(state, seat), _score(state, seat)) for seat in (0, 1))
         if swapped:
             left, right = right, left
-        yield Ending(left[0], right[0], left[1], right[1])
+        yield DuelEnd(left[0], right[0], left[1], right[1])
 
 
-def _allied_ends(game: str, lefts: Batch, rights: Batch) -> Iterator[Ending]:
+def _allied_ends(game: str, lefts: Batch, rights: Batch) -> Iterator[DuelEnd]:
     """End of every match of allies, played by `left` and by `right`."""
     rules, states = games()[game], (lefts.ended(), rights.ended())
     check(game, [*states[0], *states[1]])
     for left, right in zip(*states, strict=True):
         keys = rules.ranking_key(left, 0), rules.ranking_key(right, 0)
-        yield Ending(*keys, _score(left, 0), _score(right, 0))
+        yield DuelEnd(*keys, _score(left, 0), _score(right, 0))
 
 
 def _score(state: MatchState, seat: int) -> int:
@@ -286,7 +286,7 @@ def wilson(wins: int, matches: int, z: float = 1.959964) -> tuple[float, float]:
     return max(0.0, (centre - spread) / whole), min(1.0, (centre + spread) / whole)
 
 
-def _points(ends: Sequence[Ending]) -> tuple[float, float]:
+def _points(ends: Sequence[DuelEnd]) -> tuple[float, float]:
     """Points of both sides over these matches: 1 for a win, 1/2 for a tie."""
     won = sum(1.0 if end.left > end.right else 0.5 if end.left == end.right else 0.0 for end in ends)
     return won, len(ends) - won

@@ -77,7 +77,7 @@ class Checkpoint:
     experiences: int
 
 
-class Training:
+class TableTraining:
     """A table in training. `run` may be called from one worker thread while other threads only read."""
 
     def __init__(
@@ -194,9 +194,9 @@ class Training:
         self._seen = self._matches
 
 
-def resumed(saved: Trained, fast: bool | None = None) -> Training:
+def resumed(saved: Trained, fast: bool | None = None) -> TableTraining:
     """Resume a saved training with a fresh match. Raises ArenaError."""
-    return Training(saved.recipe, saved.seed, saved.arena, fast, saved.rows[0], saved.minutes)
+    return TableTraining(saved.recipe, saved.seed, saved.arena, fast, saved.rows[0], saved.minutes)
 
 
 def fresh_table(seed: int) -> QTable:

@@ -40,7 +40,7 @@ class NetworkError(BrainFileError):
 
 
 @dataclass(frozen=True)
-class Curve:
+class TrainingCurve:
     """The course of a training: numbers by row and column, such as updates and shares of wins."""
 
     columns: Annotated[tuple[Text, ...], Meta(max_length=20)] = ()
@@ -66,7 +66,7 @@ class TrainedNetwork:
     seed: int
     updates: Count
     decisions: Count  # of the learner's robots, over the whole training
-    curve: Curve = Curve()
+    curve: TrainingCurve = TrainingCurve()
     licence: Text = LICENCE
     engine: Text = ""  # hash of the engine it was trained with; "": the present one
     handicap: Handicap = NO_HANDICAP

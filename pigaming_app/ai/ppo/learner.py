@@ -59,7 +59,7 @@ class Hyper:
 STANDARD = Hyper()
 
 
-class Network:
+class PolicyNetwork:
     """A network with two hidden layers, Padé's tanh, and Adam (arXiv:1412.6980).
 
     `weights`: three float32 matrices (inputs + 1, units); the last row holds the biases.
@@ -195,8 +195,8 @@ class Learner:
 
     def __init__(self, inputs: int, counts: Sequence[int], hyper: Hyper, random: np.random.Generator) -> None:
         self.counts, self.hyper, self.random = tuple(counts), hyper, random
-        self.policy = Network(inputs, sum(counts), 0.01, random)
-        self.value = Network(inputs, 1, 1.0, random)
+        self.policy = PolicyNetwork(inputs, sum(counts), 0.01, random)
+        self.value = PolicyNetwork(inputs, 1, 1.0, random)
 
     def update(self, data: Sequence[Any], share: float, threads: Executor) -> float:
         """Improve both networks on a set of decisions; returns the mean entropy of the policy.

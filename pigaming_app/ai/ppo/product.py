@@ -4,7 +4,7 @@ from dataclasses import asdict
 from typing import Any
 
 from pigaming_app.ai.networks.encoding import UNIT
-from pigaming_app.ai.networks.files import Curve, TrainedNetwork
+from pigaming_app.ai.networks.files import TrainedNetwork, TrainingCurve
 from pigaming_app.ai.networks.policy import Handicap
 from pigaming_app.ai.ppo.task import LineUp, Task
 from pigaming_app.ai.ppo.training import Training, columns
@@ -25,7 +25,7 @@ def trained_network(training: Training, name: str) -> TrainedNetwork:
         updates=training.updates,
         decisions=training.decisions,
         handicap=Handicap(sharpness=training.task.sharpness),
-        curve=Curve(columns(training.task), tuple(points[:: -(-len(points) // POINTS) or 1])),
+        curve=TrainingCurve(columns(training.task), tuple(points[:: -(-len(points) // POINTS) or 1])),
     )
 
 

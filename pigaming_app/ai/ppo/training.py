@@ -15,10 +15,10 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
-from pigaming_app.ai.ppo.learner import Hyper, Learner, Network, advantages
+from pigaming_app.ai.ppo.learner import Hyper, Learner, PolicyNetwork, advantages
 from pigaming_app.ai.ppo.shard import Experience, Shard, ShardState
 from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
-from pigaming_app.ai.ppo.win_rates import Score, win_rates
+from pigaming_app.ai.ppo.win_rates import DuelScore, win_rates
 
 POOL = 40  # earlier copies of a learner at most
 POOLED_EVERY = (15, 60)  # updates between two copies, by learner: the exploiter's finds must not be forgotten
@@ -89,7 +89,7 @@ class Training:
         self.entropy = self.learners[player].update(joined, share, threads)
         self.decisions += len(joined[0])
 
-    def measure(self, matches: int, threads: Executor) -> dict[str, Score]:
+    def measure(self, matches: int, threads: Executor) -> dict[str, DuelScore]:
         """Play `matches` matches against each rival, and note the results."""
         scores = win_rates(self.task, packed_layers(self.layers()), matches, threads)
         ends = [count for score in scores.values() for count in score]
@@ -137,7 +137,7 @@ class Training:
             arrays |= {f"matches{k}": state.matches, f"minds{k}": state.minds}
         return numbers, arrays | {f"pool{k}": pool for k, pool in enumerate(self.pools)}
 
-    def _networks(self) -> dict[str, Network]:
+    def _networks(self) -> dict[str, PolicyNetwork]:
         """All networks in training, by name."""
         policies = {f"policy{k}": learner.policy for k, learner in enumerate(self.learners)}
         return policies | {f"value{k}": learner.value for k, learner in enumerate(self.learners)}
@@ -160,7 +160,7 @@ class Training:
 
 def columns(task: Task) -> tuple[str, ...]:
     """The numbers of a training's points."""
-    ends = (f"{rival}_{end}" for rival in task.rivals for end in Score._fields)
+    ends = (f"{rival}_{end}" for rival in task.rivals for end in DuelScore._fields)
     return "updates", "decisions", "seconds", "entropy", *ends
 
 

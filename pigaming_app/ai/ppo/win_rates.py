@@ -21,7 +21,7 @@ from pigaming_app.storage.plugins.endless import overseer
 SEED = 1_000_000  # of the first match; no training plays it
 
 
-class Score(NamedTuple):
+class DuelScore(NamedTuple):
     """Ends of matches."""
 
     wins: int
@@ -29,7 +29,7 @@ class Score(NamedTuple):
     losses: int
 
 
-def win_rates(task: Task, network: Any, matches: int, threads: Executor) -> dict[str, Score]:
+def win_rates(task: Task, network: Any, matches: int, threads: Executor) -> dict[str, DuelScore]:
     """Ends of `matches` duels against each rival of a task, for a network as a row of packed weights.
 
     Arenas and variants take turns, and every other match is played with the sides swapped.
@@ -38,7 +38,7 @@ def win_rates(task: Task, network: Any, matches: int, threads: Executor) -> dict
     return dict(zip(task.rivals, results, strict=True))
 
 
-def _duels(task: Task, network: Any, rival: str, matches: int) -> Score:
+def _duels(task: Task, network: Any, rival: str, matches: int) -> DuelScore:
     rules, arenas = games()[task.game], [*dict.fromkeys(task.arenas)]
     variants = [rules.variants[name] for name in dict.fromkeys(task.variants)]
     cast, player = cast_of(task)
@@ -77,4 +77,4 @@ def _duels(task: Task, network: Any, rival: str, matches: int) -> Score:
     check(task.game, ends)
     leads = [rules.ranking_key(end, i % 2) - rules.ranking_key(end, 1 - i % 2) for i, end in enumerate(ends)]
     wins, losses = sum(lead > 0 for lead in leads), sum(lead < 0 for lead in leads)
-    return Score(wins, matches - wins - losses, losses)
+    return DuelScore(wins, matches - wins - losses, losses)

@@ -4,13 +4,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 
-from pigaming_app.events.spec import EventSpec, Outcome, Round
+from pigaming_app.events.spec import EventSpec, Result, Round
 
 Pair = frozenset[str]
 
 
 @dataclass(frozen=True)
-class Field:
+class EntrantField:
     """The event so far. `entrants`: all by their seeding, late ones last; `outcomes`: by fixture, with walkovers."""
 
     spec: EventSpec
@@ -18,7 +18,7 @@ class Field:
     late: frozenset[str]  # entrants since the first round
     withdrawn: frozenset[str]
     rounds: tuple[Round, ...]
-    outcomes: Mapping[int, Outcome]
+    outcomes: Mapping[int, Result]
 
     @property
     def present(self) -> tuple[str, ...]:
@@ -39,7 +39,7 @@ class Field:
 
 
 @dataclass(frozen=True)
-class Match:
+class MatchUp:
     """A match that is drawn: its entrants, in the order of the seats if `seated`."""
 
     entrants: tuple[str, ...]
@@ -51,7 +51,7 @@ class Match:
 class Draw:
     """The matches of one round, in order of play, and the byes."""
 
-    matches: tuple[Match, ...]
+    matches: tuple[MatchUp, ...]
     byes: tuple[str, ...] = ()
 
 

@@ -7,14 +7,14 @@ In heats of two, an odd one out has a bye, in turn from the last seed up, with t
 
 from random import Random
 
-from pigaming_app.events.formats.field import Draw, Field, Match, meetings
+from pigaming_app.events.formats.field import Draw, EntrantField, MatchUp, meetings
 from pigaming_app.events.formats.grouping import mixed, serpentine
 
 POINTS = (10.0, 6.0, 3.0, 1.0)  # of each place
 BYE = (POINTS[0] + POINTS[1]) / 2
 
 
-def rounds(field: Field) -> list[Draw]:
+def rounds(field: EntrantField) -> list[Draw]:
     """The rounds that are not drawn yet, of everybody who is there. Late entrants have missed the first one."""
     spec, names = field.spec, field.present
     draws: list[Draw] = []
@@ -30,7 +30,7 @@ def rounds(field: Field) -> list[Draw]:
             order.remove(byes[0])
             rests[byes[0]] += 1
         groups = mixed(serpentine(order, spec.seats), met)
-        draws.append(Draw(tuple(Match(group) for group in groups), tuple(byes)))
+        draws.append(Draw(tuple(MatchUp(group) for group in groups), tuple(byes)))
         for pair, times in meetings(iter(groups)).items():
             met[pair] = met.get(pair, 0) + times
     return draws

@@ -17,15 +17,15 @@ A late entrant has missed one round, and so begins in the losers' bracket.
 from collections.abc import Sequence
 from itertools import zip_longest
 
-from pigaming_app.events.formats.field import Draw, Field, Match
+from pigaming_app.events.formats.field import Draw, EntrantField, MatchUp
 from pigaming_app.events.formats.grouping import mixed, neighbours, serpentine
-from pigaming_app.events.spec import Advance, Fixture, Outcome
+from pigaming_app.events.spec import Advance, Fixture, Result
 
 WINNERS, LOSERS, FINAL = "winners", "losers", "final"
 OUT = 2  # defeats
 
 
-def next_round(field: Field) -> Draw | None:
+def next_round(field: EntrantField) -> Draw | None:
     """The next round; None once the event is decided."""
     lost = defeats(field)
     unbeaten = [name for name in field.present if lost[name] == 0]
@@ -34,15 +34,15 @@ def next_round(field: Field) -> Draw | None:
         return None
     if len(unbeaten) <= 1 and len(beaten) <= 2 and len(unbeaten) + len(beaten) == 2:
         finals = bool(unbeaten) or any(one.stage == FINAL for drawn in field.rounds for one in drawn.fixtures)
-        return Draw((Match((*unbeaten, *beaten), FINAL if finals else LOSERS),))
-    matches: list[Match] = []
+        return Draw((MatchUp((*unbeaten, *beaten), FINAL if finals else LOSERS),))
+    matches: list[MatchUp] = []
     byes: list[str] = []
     if len(unbeaten) > 1 and len(beaten) <= len(unbeaten):
         groups, byes = _winners(field, unbeaten)
-        matches += [Match(group, WINNERS) for group in groups]
+        matches += [MatchUp(group, WINNERS) for group in groups]
     if len(beaten) > 1:
         groups, rested = _losers(field, beaten)
-        matches += [Match(group, LOSERS) for group in groups]
+        matches += [MatchUp(group, LOSERS) for group in groups]
         byes += rested
     return Draw(tuple(matches), tuple(byes))
 
@@ -53,7 +53,7 @@ def wins(fixture: Fixture, advance: Advance) -> int:
     return -(-len(fixture.entrants) // share)
 
 
-def through(fixture: Fixture, outcome: Outcome, advance: Advance) -> frozenset[str]:
+def through(fixture: Fixture, outcome: Result, advance: Advance) -> frozenset[str]:
     """Who wins a match that is decided; nobody if all have withdrawn."""
     found: list[str] = []
     for place in outcome.places:
@@ -63,7 +63,7 @@ def through(fixture: Fixture, outcome: Outcome, advance: Advance) -> frozenset[s
     return frozenset(found)
 
 
-def defeats(field: Field) -> dict[str, int]:
+def defeats(field: EntrantField) -> dict[str, int]:
     """Lost matches of everybody; a missed first round is one."""
     lost = {name: int(name in field.late) for name in field.entrants}
     for drawn in field.rounds:
@@ -82,7 +82,7 @@ def bracket(size: int) -> list[int]:
     return seeds
 
 
-def places_in_bracket(field: Field) -> dict[str, int]:
+def places_in_bracket(field: EntrantField) -> dict[str, int]:
     """Place of everybody in the bracket of the first round, from 0; of late entrants behind it."""
     starters = [name for name in field.entrants if name not in field.late]
     size = 1 << (len(starters) - 1).bit_length()
@@ -90,7 +90,7 @@ def places_in_bracket(field: Field) -> dict[str, int]:
     return place | {name: size + i for i, name in enumerate(sorted(field.late, key=field.entrants.index))}
 
 
-def _winners(field: Field, names: Sequence[str]) -> tuple[list[tuple[str, ...]], list[str]]:
+def _winners(field: EntrantField, names: Sequence[str]) -> tuple[list[tuple[str, ...]], list[str]]:
     if field.spec.seats > 2:
         return mixed(serpentine(names, field.spec.seats), field.meetings()), []
     place = places_in_bracket(field)
@@ -105,7 +105,7 @@ def _winners(field: Field, names: Sequence[str]) -> tuple[list[tuple[str, ...]],
     return groups, [slot[0] for slot in slots.values() if len(slot) == 1]
 
 
-def _losers(field: Field, names: Sequence[str]) -> tuple[list[tuple[str, ...]], list[str]]:
+def _losers(field: EntrantField, names: Sequence[str]) -> tuple[list[tuple[str, ...]], list[str]]:
     met = field.meetings()
     if field.spec.seats > 2:
         return mixed(serpentine(names, field.spec.seats), met), []

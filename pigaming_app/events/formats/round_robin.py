@@ -13,14 +13,14 @@ design would need.
 from functools import lru_cache
 from random import Random
 
-from pigaming_app.events.formats.field import Draw, Field, Match, meetings
+from pigaming_app.events.formats.field import Draw, EntrantField, MatchUp, meetings
 from pigaming_app.events.formats.grouping import mixed, serpentine, sizes
 
 CYCLES = 1  # by default
 PATIENCE = 3  # times the rounds of a perfect design
 
 
-def rounds(field: Field) -> list[Draw]:
+def rounds(field: EntrantField) -> list[Draw]:
     """The rounds that are not drawn yet. Late entrants have missed the first one and play from the second one on."""
     cycles = field.spec.rounds or CYCLES
     first = tuple(name for name in field.entrants if name not in field.late)
@@ -66,7 +66,7 @@ def _pairs(names: tuple[str, ...], seats: int, cycles: int) -> list[Draw]:
                 if max(pair) > len(names):
                     byes.append(names[min(pair) - 1])
                 else:
-                    matches.append(Match((names[one - 1], names[other - 1]), seated=True))
+                    matches.append(MatchUp((names[one - 1], names[other - 1]), seated=True))
             draws.append(Draw(tuple(matches), tuple(byes)))
     return draws
 
@@ -84,7 +84,7 @@ def _groups(names: tuple[str, ...], seats: int, cycles: int) -> list[Draw]:
         if draws:
             Random(len(draws)).shuffle(order)
         groups = mixed(serpentine(order, seats), met)
-        draws.append(Draw(tuple(Match(group) for group in groups)))
+        draws.append(Draw(tuple(MatchUp(group) for group in groups)))
         for pair, times in meetings(iter(groups)).items():
             met[pair] = met.get(pair, 0) + times
     return draws

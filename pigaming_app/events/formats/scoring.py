@@ -1,12 +1,12 @@
 """Points of a match, alike for two and for more: the share of the opponents that were beaten, a tie as half."""
 
-from pigaming_app.events.formats.field import Field
-from pigaming_app.events.spec import WALKOVER, Outcome
+from pigaming_app.events.formats.field import EntrantField
+from pigaming_app.events.spec import WALKOVER, Result
 
 BYE = 1.0  # points, as for a win (FIDE Handbook C.04.1, Basic rules for Swiss systems)
 
 
-def points(outcome: Outcome) -> dict[str, float]:
+def points(outcome: Result) -> dict[str, float]:
     """Points of each entrant, 0 to 1: between two 1, 1/2 or 0. Of a walkover all for whoever is there."""
     if outcome.note == WALKOVER:
         there = outcome.places[0] if len(outcome.places) > 1 else ()
@@ -21,7 +21,7 @@ def points(outcome: Outcome) -> dict[str, float]:
     return found
 
 
-def scores(field: Field) -> dict[str, float]:
+def scores(field: EntrantField) -> dict[str, float]:
     """Points of everybody so far, with those of byes."""
     total = dict.fromkeys(field.entrants, 0.0)
     for outcome in field.outcomes.values():

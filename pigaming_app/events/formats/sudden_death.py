@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from itertools import takewhile
 from random import Random
 
-from pigaming_app.events.spec import Fixture, Outcome
+from pigaming_app.events.spec import Fixture, Result
 
 LEVEL = 3
 SEED_STEP = 500  # between the seeds of two extra matches of one match, more than a knock-out has matches
@@ -26,7 +26,7 @@ class Verdict:
     lots: bool = False
 
 
-def verdict(fixture: Fixture, played: Sequence[Outcome], through: int) -> Verdict:
+def verdict(fixture: Fixture, played: Sequence[Result], through: int) -> Verdict:
     """What a match and its extra matches, in this order, have decided. `through`: how many go on."""
     places = played[0].places
     for extra in played[1:]:

@@ -18,14 +18,14 @@ from collections.abc import Collection, Iterable, Sequence
 from functools import lru_cache, reduce
 from math import ceil, log2
 
-from pigaming_app.events.formats.field import Draw, Field, Match
+from pigaming_app.events.formats.field import Draw, EntrantField, MatchUp
 from pigaming_app.events.formats.grouping import neighbours
 from pigaming_app.events.formats.scoring import scores
 
 MOST = 4096  # more than the sum of a criterion over all pairs
 
 
-def next_round(field: Field) -> Draw | None:
+def next_round(field: EntrantField) -> Draw | None:
     """The next round; None after the last one, or if there are less than two entrants."""
     names = field.present
     if len(field.rounds) >= (field.spec.rounds or default_rounds(len(field.entrants))) or len(names) < 2:
@@ -33,14 +33,14 @@ def next_round(field: Field) -> Draw | None:
     score, met = scores(field), field.meetings()
     order = sorted(names, key=lambda name: -score[name])
     if field.spec.seats > 2:
-        return Draw(tuple(Match(group) for group in neighbours(order, field.spec.seats, met)))
+        return Draw(tuple(MatchUp(group) for group in neighbours(order, field.spec.seats, met)))
     place, byes = {name: i for i, name in enumerate(order)}, field.byes()
     again = frozenset(
         (*sorted(place[name] for name in pair), times) for pair, times in met.items() if pair <= place.keys()
     )
     found = pairing(tuple(score[name] for name in order), again, tuple(byes[name] for name in order))
     return Draw(
-        tuple(Match((order[one], order[other])) for one, other in found if other < len(order)),
+        tuple(MatchUp((order[one], order[other])) for one, other in found if other < len(order)),
         tuple(order[one] for one, other in found if other == len(order)),
     )
 

@@ -37,7 +37,7 @@ class MotionDelay(NamedTuple):
     lag: float
 
 
-class Motion(NamedTuple):
+class DriveTrace(NamedTuple):
     """What a robot was commanded, s and px/s of left and right wheel, and its fixes, by the camera's own stamps."""
 
     robot: int

@@ -14,7 +14,7 @@ import numpy as np
 
 from pigaming_app.hardware.control.kinematics import Kinematics
 from pigaming_app.hardware.control.motion_check import MotionCheck
-from pigaming_app.hardware.control.motion_delay import Motion, network_delay
+from pigaming_app.hardware.control.motion_delay import DriveTrace, network_delay
 from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.safety import Health
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED
@@ -47,7 +47,7 @@ class DelayPort(Protocol):
 
     seconds: float
 
-    def due(self, now: float) -> Motion | None: ...
+    def due(self, now: float) -> DriveTrace | None: ...
 
     def learn(self, robot: int, delay: float, network: float, now: float) -> None: ...
 
@@ -376,7 +376,7 @@ class Rig:
         if motion is not None:
             self._learn_delay(motion)
 
-    def _learn_delay(self, motion: Motion) -> None:
+    def _learn_delay(self, motion: DriveTrace) -> None:
         """Correct the camera's delay by the motion of a robot; correlating it takes several milliseconds."""
         delay = motion.delay()
         with self._lock:

@@ -18,7 +18,7 @@ from pigaming_app.hardware.emulator.firmware import Firmware
 from pigaming_app.hardware.emulator.objects import LID_HEIGHT, SHEET, FlatObject, Placing
 from pigaming_app.hardware.emulator.optics import CANVAS, SENSOR, Floats, Optics
 from pigaming_app.hardware.emulator.radio import EmulatedRadio, RadioChannel
-from pigaming_app.hardware.emulator.renderer import CameraScene, SceneRenderer
+from pigaming_app.hardware.emulator.renderer import ExposureSetup, SceneRenderer
 from pigaming_app.hardware.emulator.robots import STEP, EmulatedRobot, push_apart, random_parameters
 from pigaming_app.hardware.emulator.things.contact import Obstacle, obstacles, push_off
 from pigaming_app.hardware.emulator.things.prism import Prism
@@ -165,7 +165,7 @@ class EmulatedArena:
         if now >= self.camera.due:
             self.camera.expose(self._scene(now), now - 0.5 * (self.camera.shutter + self.camera.traits.readout - STEP))
 
-    def _scene(self, now: float) -> CameraScene:
+    def _scene(self, now: float) -> ExposureSetup:
         if now >= self._next_gain:
             self._next_gain += EXPOSURE_PERIOD
             self._drift_gain = 1.0 + self._exposure_jitter * self._exposure_random.uniform(-1.0, 1.0)
@@ -173,4 +173,4 @@ class EmulatedArena:
         for i in range(0 if self.cleared else len(self.robots)):
             things += self._seen(i)
         gain, light = self.gain * self._drift_gain * self.camera.brightness, (now - self.begin) / LIGHT_TURN
-        return CameraScene(self._shown, tuple(things), light, gain, self.camera.exposed, self.camera.boost)
+        return ExposureSetup(self._shown, tuple(things), light, gain, self.camera.exposed, self.camera.boost)

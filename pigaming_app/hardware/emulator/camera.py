@@ -11,7 +11,7 @@ from random import Random
 from typing import NamedTuple
 
 from pigaming_app.hardware.emulator.optics import SENSOR, TrueLens
-from pigaming_app.hardware.emulator.renderer import CameraScene, SceneRenderer
+from pigaming_app.hardware.emulator.renderer import ExposureSetup, SceneRenderer
 from pigaming_app.hardware.signals import CameraFrame, Clock
 
 QUEUE = 4  # arrived pictures that wait to be read
@@ -65,7 +65,7 @@ TRAITS = {
 class Exposure(NamedTuple):
     """A picture in transit."""
 
-    scene: CameraScene
+    scene: ExposureSetup
     arrives: float  # s
 
 
@@ -88,7 +88,7 @@ class EmulatedCamera:
         self._in_transit: deque[Exposure] = deque(maxlen=ceil(2.0 * timing.fps * timing.delay) + QUEUE)
         self.last: CameraFrame | None = None  # the newest delivered frame
 
-    def expose(self, scene: CameraScene, middle: float) -> None:
+    def expose(self, scene: ExposureSetup, middle: float) -> None:
         """End an exposure; `middle` is the middle of its time, s."""
         timing, random = self.timing, self._random
         self.exposed += 1

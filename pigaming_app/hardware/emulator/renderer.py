@@ -27,7 +27,7 @@ KEPT = 32  # windows whose light is kept while the same picture is projected
 Floats = NDArray[np.float32]
 
 
-class CameraScene(NamedTuple):
+class ExposureSetup(NamedTuple):
     """Everything that determines one exposure."""
 
     image: Image  # (1080, 1920), the projected picture
@@ -116,7 +116,7 @@ class SceneRenderer:
             self._tall[patch.rows, patch.columns] = patch.height
         self._age = self.refresh
 
-    def paint(self, scene: CameraScene) -> Image:
+    def paint(self, scene: ExposureSetup) -> Image:
         """Render a picture of the camera's size, grey."""
         import cv2
 
@@ -128,7 +128,7 @@ class SceneRenderer:
             picture = np.asarray(cv2.imdecode(packed, cv2.IMREAD_GRAYSCALE))
         return picture
 
-    def _painted(self, scene: CameraScene) -> Image:
+    def _painted(self, scene: ExposureSetup) -> Image:
         """Render a picture of the whole sensor, (1080, 1920) grey."""
         random = np.random.default_rng((self._seed, scene.number))
         windows = [(thing, self._window(thing)) for thing in scene.things]
@@ -144,7 +144,7 @@ class SceneRenderer:
 
     def _rendered(
         self,
-        scene: CameraScene,
+        scene: ExposureSetup,
         window: ImageRegion,
         things: list[tuple[FlatObject, ImageRegion]],
         random: np.random.Generator,
@@ -171,7 +171,7 @@ class SceneRenderer:
             return np.asarray(cv2.add(light, noise * np.float32(scene.noise), dtype=cv2.CV_8U))
         return np.asarray(cv2.add(light, noise, dtype=cv2.CV_8U))
 
-    def _overlay(self, scene: CameraScene, patch: Patch, window: ImageRegion, room: Floats, light: Floats) -> None:
+    def _overlay(self, scene: ExposureSetup, patch: Patch, window: ImageRegion, room: Floats, light: Floats) -> None:
         """Replace the light of a window by that of a patch with things."""
         top, bottom = max(patch.rows.start, window.top), min(patch.rows.stop, window.bottom)
         left, right = max(patch.columns.start, window.left), min(patch.columns.stop, window.right)
@@ -187,7 +187,7 @@ class SceneRenderer:
 
     def _lay(
         self,
-        scene: CameraScene,
+        scene: ExposureSetup,
         thing: FlatObject,
         place: ImageRegion,
         window: ImageRegion,
@@ -220,7 +220,7 @@ class SceneRenderer:
             lit[shade] = room[rows, columns][shade]
         region += texture[..., 0] * lit - texture[..., 1] * region
 
-    def _lit(self, scene: CameraScene, height: float, window: ImageRegion, room: Floats) -> Floats:
+    def _lit(self, scene: ExposureSetup, height: float, window: ImageRegion, room: Floats) -> Floats:
         """Light on white paper on the mat, or at the height of a lid, in grey levels."""
         import cv2
 

@@ -118,7 +118,7 @@ class Module:
         self.values = dict(self.saved)
 
 
-class Carrier:
+class EmulatedCarrier:
     """A module on a USB carrier, a SerialPort: AT commands by API frames, or as text after +++ where AP is 0.
 
     `open` gives the port a baud rate; at another one than the module's it answers nothing.

@@ -21,7 +21,7 @@ from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.emulator.things.prism import Prism
 from pigaming_app.hardware.emulator.things.random_scene import scene
 from pigaming_app.hardware.scan.procedure import Scan
-from pigaming_app.hardware.scan.things import Layout, Outline, Thing, ThingKind
+from pigaming_app.hardware.scan.things import Outline, Thing, ThingKind, ThingLayout
 from pigaming_app.hardware.session.emulated import calibrated
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureState
 from pigaming_app.storage.messages import OperatorMessage
@@ -86,7 +86,7 @@ class ThingsBed:
             away = robots[robot] if robot < len(robots) else (-3000.0, -3000.0 + 400.0 * robot, 0.0)
             self.arena.place(robot, away)
 
-    def scan(self, before: Layout | None = None) -> Scan:
+    def scan(self, before: ThingLayout | None = None) -> Scan:
         """Scan the mat: the projected pictures, the camera's frames, and the computation."""
         scan, arena = Scan(self.ground, self.arena.clock, before), self.arena
         began = arena.clock()

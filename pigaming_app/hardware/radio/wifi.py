@@ -44,7 +44,7 @@ class WifiRobot(NamedTuple):
 
 
 @dataclass
-class Session:
+class WifiConnection:
     """Connection to a robot since its start."""
 
     announced: Announcement
@@ -69,7 +69,7 @@ class WifiNetwork:
         self.dropped = 0  # datagrams that were not for us, forged, repeated or out of order
         self._clock, self._host = clock, host
         self._socket: socket.socket | None = None
-        self._sessions: dict[int, Session] = {}  # by address of the robot, 1 to 4
+        self._sessions: dict[int, WifiConnection] = {}  # by address of the robot, 1 to 4
         self._strangers: dict[Address, tuple[WifiRobot, float]] = {}  # robots not driven, in order of their calls, s
         self._void: set[bytes] = set()  # nonces of robots that have restarted since
         self._reports = bytearray()
@@ -105,7 +105,7 @@ class WifiNetwork:
                 beside.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 0)
         return port
 
-    def _connect(self, session: Session) -> None:
+    def _connect(self, session: WifiConnection) -> None:
         """Give a session a socket of its own; none where two at one port are refused, or ambiguous as on Windows."""
         if session.own is not None:
             if session.own.getpeername() == session.address:
@@ -258,7 +258,7 @@ class WifiNetwork:
             if known is not None and now - known.reported < SILENT:
                 self._note_stranger(robot, sender, "taken")
                 return True
-            begun = Session(robot, sender, robot.counter, counter, now)
+            begun = WifiConnection(robot, sender, robot.counter, counter, now)
             if known is not None:
                 begun.replaces, begun.own = known.announced.nonce, known.own
             self._sessions[robot.address] = begun

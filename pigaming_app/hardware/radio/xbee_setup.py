@@ -28,7 +28,7 @@ Value = TypeVar("Value")
 Steps = Generator[None, None, Value]
 
 
-class Network(NamedTuple):
+class RadioNetwork(NamedTuple):
     """Channel and PAN; only radios with the same two receive each other."""
 
     channel: int
@@ -46,12 +46,12 @@ class Carrier(NamedTuple):
     name: str
 
 
-def network_of(arena: int, channel: int = 0, pan: int = 0) -> Network:
+def network_of(arena: int, channel: int = 0, pan: int = 0) -> RadioNetwork:
     """The network of an arena; 0: the channel or PAN that follows from its id."""
-    return Network(channel or FIRST_OF_BOTH + arena % BOTH, pan or OWN_PANS | arena)
+    return RadioNetwork(channel or FIRST_OF_BOTH + arena % BOTH, pan or OWN_PANS | arena)
 
 
-def parameters(number: int, network: Network, mode: str, baud: int) -> dict[str, int]:
+def parameters(number: int, network: RadioNetwork, mode: str, baud: int) -> dict[str, int]:
     """AT parameters of the radio of the computer (`number` 0, `mode` of the settings) or of a robot, 1 to 4.
 
     Raises ValueError for a number or a baud rate that does not exist.

@@ -21,7 +21,7 @@ from pigaming_app.hardware.scan.heights import Map, Rectified, Surface, surface
 from pigaming_app.hardware.scan.outlines import find_things, robot_shadows
 from pigaming_app.hardware.scan.patterns import PATTERNS, SETS, STEPS, Pattern
 from pigaming_app.hardware.scan.projector_place import Place, projector_place
-from pigaming_app.hardware.scan.things import Layout, ProjectorPlace, Thing, largest
+from pigaming_app.hardware.scan.things import ProjectorPlace, Thing, ThingLayout, largest
 from pigaming_app.hardware.signals import CameraFrame, Clock
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector, opencv
 from pigaming_app.sim.robot import RADIUS
@@ -49,11 +49,11 @@ class Scan:
     """
 
     def __init__(
-        self, ground: GroundPlane, clock: Clock, before: Layout | None = None, known: Sequence[Place] = ()
+        self, ground: GroundPlane, clock: Clock, before: ThingLayout | None = None, known: Sequence[Place] = ()
     ) -> None:
         self.ground, self.clock = ground, clock
         self.fault: OperatorMessage | None = None
-        self.layout: Layout | None = None
+        self.layout: ThingLayout | None = None
         self.expected: ExpectedLight | None = None  # of the scanned mat, for `ThingsWatch`
         self.robots: list[Place] = []  # arena px, on the mat during the scan
         self.left_out = 0  # things found beyond those that an arena has room for
@@ -167,7 +167,7 @@ class Scan:
         for things in find_things(whole, pictures, projector, self.robots):
             found = things
             yield
-        layout = Layout(largest(found), projector)
+        layout = ThingLayout(largest(found), projector)
         self.left_out = len(found) - len(layout.things)
         covered = robot_shadows(self.robots, self.ground, projector)
         self.expected = ExpectedLight(pictures, whole, projector, covered)
@@ -191,7 +191,7 @@ class ScanTask(CameraTask):
         site: CalibrationSite,
         number: int,
         ground: GroundPlane,
-        before: Layout | None = None,
+        before: ThingLayout | None = None,
         known: Sequence[Place] = (),
     ) -> None:
         super().__init__(site, number)

@@ -11,7 +11,7 @@ from pigaming_app.hardware.calibration.ground_plane import GroundPlane
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.scan.patterns import Pattern
 from pigaming_app.hardware.scan.procedure import Scan
-from pigaming_app.hardware.scan.things import Layout
+from pigaming_app.hardware.scan.things import ThingLayout
 
 KNOWN = 1.0  # s without sight, up to which a robot counts as standing where it was seen
 BLIND = 6.0  # s without any frame
@@ -23,7 +23,7 @@ log = logging.getLogger("pigaming")
 class RigScan:
     """One scan, from its creation to `close`. Call `step` with every frame of the screen."""
 
-    def __init__(self, rig: Rig, ground: GroundPlane, before: Layout) -> None:
+    def __init__(self, rig: Rig, ground: GroundPlane, before: ThingLayout) -> None:
         known = [(seen.x, seen.y) for seen in rig.sense() if seen.age < KNOWN]
         self.rig, self.scan = rig, Scan(ground, rig.clock, before, known)
         self._pattern: Pattern | None = None

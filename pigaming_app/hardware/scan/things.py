@@ -92,19 +92,19 @@ class ProjectorPlace:
 
 
 @dataclass(frozen=True)
-class Layout:
+class ThingLayout:
     """Everything found on a mat. `without` removes one thing; all else is kept."""
 
     things: Annotated[tuple[Thing, ...], Meta(max_length=MOST)] = ()
     projector: ProjectorPlace | None = None
 
-    def without(self, thing: Thing) -> "Layout":
+    def without(self, thing: Thing) -> "ThingLayout":
         """The layout with one thing removed, as the player does by hand."""
-        return Layout(tuple(other for other in self.things if other is not thing), self.projector)
+        return ThingLayout(tuple(other for other in self.things if other is not thing), self.projector)
 
-    def replaced(self, thing: Thing, new: Thing) -> "Layout":
+    def replaced(self, thing: Thing, new: Thing) -> "ThingLayout":
         """The layout with another thing in the place of one."""
-        return Layout(tuple(new if other is thing else other for other in self.things), self.projector)
+        return ThingLayout(tuple(new if other is thing else other for other in self.things), self.projector)
 
 
 class LayoutError(OperatorError):
@@ -127,7 +127,7 @@ def moved_outwards(corners: Outline, by: float) -> Outline:
     return np.asarray(corners + 2.0 * by * bisector / share)
 
 
-def to_toml(layout: Layout) -> str:
+def to_toml(layout: ThingLayout) -> str:
     """Serialize a layout, rounded to a hundredth of a px and a tenth of a mm."""
     things = tuple(
         replace(
@@ -141,7 +141,7 @@ def to_toml(layout: Layout) -> str:
     return schema.to_toml({"version": VERSION, **schema.to_plain(replace(layout, things=things))})
 
 
-def read(text: str) -> Layout:
+def read(text: str) -> ThingLayout:
     """Parse a layout. Raises LayoutError."""
     try:
         entries = parse_toml(text)
@@ -150,7 +150,7 @@ def read(text: str) -> Layout:
     if entries.get("version") != VERSION:
         raise LayoutError(OperatorMessage("version_things", theirs=quote(entries.get("version")), ours=VERSION))
     try:
-        layout = schema.typed(entries, Layout)
+        layout = schema.typed(entries, ThingLayout)
     except ParseError as error:
         raise LayoutError(OperatorMessage("damaged_things", detail=error)) from error
     if any(not (is_convex(thing.outline) or is_convex(thing.outline[::-1])) for thing in layout.things):

@@ -183,7 +183,7 @@ class EmulatedSession:
 
         radio = self.arena.radio
         module = radio.modules[number - 1] if number else radio.module
-        return Carrier(xbee.Carrier(module, self.arena.clock).open, self.arena.clock, "EMU0")
+        return Carrier(xbee.EmulatedCarrier(module, self.arena.clock).open, self.arena.clock, "EMU0")
 
     def tick(self) -> None:
         self.advance(DT)

@@ -11,7 +11,7 @@ from pathlib import Path
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, to_toml
 from pigaming_app.hardware.control.rig import UNMEASURED
 from pigaming_app.hardware.radio.packets import LAST_ARENA
-from pigaming_app.hardware.scan.things import Layout, LayoutError
+from pigaming_app.hardware.scan.things import LayoutError, ThingLayout
 from pigaming_app.hardware.scan.things import read as read_layout
 from pigaming_app.hardware.scan.things import to_toml as layout_to_toml
 from pigaming_app.sim.drivetrain import Drivetrain, DrivetrainError, parse
@@ -53,17 +53,17 @@ def things_file(site: str) -> Path:
     return folders().config / ("things.toml" if site == "real" else f"things-{site}.toml")
 
 
-def load_things(path: Path) -> Layout:
+def load_things(path: Path) -> ThingLayout:
     """Load the things on a mat; an empty layout if nothing was saved. Raises LayoutError."""
     try:
         return read_layout(read_text(path))
     except FileNotFoundError:
-        return Layout()
+        return ThingLayout()
     except (OSError, ParseError) as error:
         raise LayoutError(OperatorMessage("damaged_things", detail=describe_error(error))) from error
 
 
-def save_things(layout: Layout, path: Path) -> None:
+def save_things(layout: ThingLayout, path: Path) -> None:
     """Save the things on a mat, keeping the previous ones as `.bak`. Raises NotSaved."""
     write_with_backup(path, layout_to_toml(layout))
 

@@ -2,7 +2,7 @@
 
 import logging
 
-from pigaming_app.hardware.scan.things import Layout, LayoutError, ThingKind
+from pigaming_app.hardware.scan.things import LayoutError, ThingKind, ThingLayout
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.robot_session import RobotSession
@@ -11,17 +11,17 @@ from pigaming_app.sim.things.spec import ThingSpec
 log = logging.getLogger("pigaming")
 
 
-def load_layout(session: RobotSession) -> Layout:
+def load_layout(session: RobotSession) -> ThingLayout:
     """The things that were scanned last; none if there is no file. Raises LayoutError.
 
     A new emulated mat is empty, whatever stood on the one before.
     """
     layout = store.load_things(store.things_file(_site(session)))
     empty = isinstance(session, EmulatedSession) and not session.arena.things
-    return Layout((), layout.projector) if empty else layout
+    return ThingLayout((), layout.projector) if empty else layout
 
 
-def save_layout(session: RobotSession, layout: Layout) -> None:
+def save_layout(session: RobotSession, layout: ThingLayout) -> None:
     """Save the things on the mat. Raises NotSaved."""
     store.save_things(layout, store.things_file(_site(session)))
 
@@ -35,7 +35,7 @@ def things_in_play(session: RobotSession) -> tuple[ThingSpec, ...]:
         return ()
 
 
-def with_choices(found: Layout, before: Layout) -> Layout:
+def with_choices(found: ThingLayout, before: ThingLayout) -> ThingLayout:
     """The layout with the operator's choices of mud for those flat things that were there before."""
     muddy = [thing for thing in before.things if thing.mud]
     for thing in found.things:

@@ -9,7 +9,7 @@ drive become later or earlier, so do those that stand.
 from collections import deque
 from collections.abc import Mapping, Sequence
 
-from pigaming_app.hardware.control.motion_delay import Motion, common_delay
+from pigaming_app.hardware.control.motion_delay import DriveTrace, common_delay
 from pigaming_app.hardware.signals import Fix
 from pigaming_app.hardware.tracking.ekf import PoseFilter
 from pigaming_app.sim.plant import Twist
@@ -58,13 +58,15 @@ class CameraDelay:
         while seen[0].captured < captured - WINDOW:
             seen.popleft()
 
-    def due(self, now: float) -> Motion | None:
+    def due(self, now: float) -> DriveTrace | None:
         """Motion of the next robot to be measured, or None if it is not yet time."""
         if now < self._next:
             return None
         self._next, self._turn = now + PERIOD, (self._turn + 1) % len(self._filters)
         robot = self._turn
-        return Motion(robot, tuple(self._sent[robot]), tuple(self._seen[robot]), self._filters[robot].drivetrain.base)
+        return DriveTrace(
+            robot, tuple(self._sent[robot]), tuple(self._seen[robot]), self._filters[robot].drivetrain.base
+        )
 
     def learn(self, robot: int, delay: float, network: float, now: float) -> None:
         """Use a measurement of a robot that drives; `network`: s by which commands reach it later than usual."""

@@ -67,7 +67,7 @@ class Unproven(Exception):
     """A proof failed; the text is one sentence."""
 
 
-class Job(NamedTuple):
+class MatMatch(NamedTuple):
     """One match on the mat. `brain`: of all robots; None: random button mashing. `carried`: the robots are set down on
     their places, else they drive there. `variant`: None for the game's default."""
 
@@ -125,7 +125,7 @@ def reached(figures: dict[str, float]) -> dict[str, bool]:
     }
 
 
-def jobs() -> list[Job]:
+def jobs() -> list[MatMatch]:
     """Twenty minutes of matches: all games, many arenas, both frame rates; PiTanks by its default and party rules.
 
     The last match of PiTanks and of each plug-in is played by its best level, all others by random button mashing.
@@ -138,11 +138,13 @@ def jobs() -> list[Job]:
         round_ = i // len(games())
         variant = "party" if game == "pitanks" and round_ % 2 else None
         brain = BEST if game in with_best and i + len(games()) >= count else None
-        result.append(Job(game, places[round_ % len(places)], RATES[i % 4 == 3], i + 1, brain=brain, variant=variant))
+        result.append(
+            MatMatch(game, places[round_ % len(places)], RATES[i % 4 == 3], i + 1, brain=brain, variant=variant)
+        )
     return result
 
 
-def on_mat(job: Job, ground: GroundPlane | None = None) -> MatchResult:
+def on_mat(job: MatMatch, ground: GroundPlane | None = None) -> MatchResult:
     """Play a match on its own emulated mat, which is calibrated first unless a `ground` is given."""
     rules = games()[job.game].variants[job.variant] if job.variant else games()[job.game].default
     one, two, three, four = (Seat(job.brain or "random", team) for team in rules.teams)
@@ -224,7 +226,7 @@ def _scans(scanned: Mapping[bool, Future[things.ThingsResult]], note: Callable[[
     }
 
 
-def _match(job: Job, future: Future[MatchResult], note: Callable[[str], None]) -> MatchResult:
+def _match(job: MatMatch, future: Future[MatchResult], note: Callable[[str], None]) -> MatchResult:
     """The result of a match. Raises Unproven."""
     run = _result(future, f"{job.game} in {job.arena}, seed {job.seed}")
     note(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import outcome_of, setup_of
-from pigaming_app.events.spec import DEFAULT_AI, Fixture, Format, Outcome
+from pigaming_app.events.spec import DEFAULT_AI, Fixture, Format, Result
 from pigaming_app.games.game import Row
 from pigaming_app.games.match import standings
 from pigaming_app.games.registry import games
@@ -35,7 +35,7 @@ class HeadlessRun:
         """Raises ChoiceError for brains, arenas or rules that do not exist."""
         self._line_ups = {game: self._line_up(event, game, fast) for game in dict.fromkeys(event.spec.games)}
 
-    def play(self, event: Event) -> list[Outcome]:
+    def play(self, event: Event) -> list[Result]:
         """Play the next matches, at least one if any is open: those of one game, with one game's loop."""
         for (game, extra), fixtures in groupby(event.open, lambda fixture: (fixture.game, fixture.extra > 0)):
             if extra:
@@ -43,7 +43,7 @@ class HeadlessRun:
             return self.play_these(event, [*fixtures][: BATCH if self._line_ups[game].fast else 1])
         return []
 
-    def play_these(self, event: Event, fixtures: Sequence[Fixture]) -> list[Outcome]:
+    def play_these(self, event: Event, fixtures: Sequence[Fixture]) -> list[Result]:
         """Play these fixtures, all of one game. Raises ChoiceError or ArenaError."""
         game = fixtures[0].game
         setups = [setup_of(event, fixture, DEFAULT_AI) for fixture in fixtures]

@@ -15,7 +15,7 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files, resume
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
-from pigaming_app.events.spec import Outcome
+from pigaming_app.events.spec import Result
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.jobs import arcade
 from pigaming_app.jobs.events.files import FileOption, loaded
@@ -89,7 +89,7 @@ def _in_window(options: PlayEventOptions, event: Event) -> int:
     return arcade.show(replace(plain, first_scene=lambda context: page_of(context, RunningEvent(options.file, event))))
 
 
-def _recorded(outcomes: list[Outcome], event: Event) -> Event:
+def _recorded(outcomes: list[Result], event: Event) -> Event:
     """The event with these outcomes, as far as another process has not been faster. Raises ValueError."""
     for outcome in outcomes:
         before = len(event.played.get(outcome.fixture, ()))
@@ -98,7 +98,7 @@ def _recorded(outcomes: list[Outcome], event: Event) -> Event:
     return event
 
 
-def _longest(event: Event, outcomes: list[Outcome]) -> float:
+def _longest(event: Event, outcomes: list[Result]) -> float:
     """Length of these matches one after the other, s."""
     numbers = {outcome.fixture for outcome in outcomes}
     return sum(seconds_of(event, fixture) for fixture in event.fixtures if fixture.number in numbers)

@@ -9,7 +9,7 @@ from importlib import metadata
 from pathlib import Path
 
 from pigaming_app import __version__
-from pigaming_app.jobs.kiosk.supervisor import Ending
+from pigaming_app.jobs.kiosk.supervisor import RunEnd
 from pigaming_app.storage.log import CRASH_FILE, FILE
 from pigaming_app.storage.restarts import Restart, append_restart
 from pigaming_app.storage.safe_files import write_atomic
@@ -37,7 +37,7 @@ def crash_log_size(data: Path) -> int:
         return 0
 
 
-def keep_report(data: Path, ending: Ending, evidence: Evidence, now: datetime) -> None:
+def keep_report(data: Path, ending: RunEnd, evidence: Evidence, now: datetime) -> None:
     """Write a report, delete the oldest ones, and add a line to the restarts. Raises OSError."""
     folder = data / FOLDER
     name = f"crash-{now:%Y%m%d-%H%M%S}-{now.microsecond // 1000:03}"
@@ -56,7 +56,7 @@ def keep_report(data: Path, ending: Ending, evidence: Evidence, now: datetime) -
                 old.unlink(missing_ok=True)
 
 
-def _lines(data: Path, ending: Ending, evidence: Evidence, when: str) -> Iterator[str]:
+def _lines(data: Path, ending: RunEnd, evidence: Evidence, when: str) -> Iterator[str]:
     yield f"PiGaming {__version__}, {when}"
     yield f"{ending.reason}: {ending.detail}, after {ending.seconds:.1f} s and {ending.beats} frames"
     yield f"Python {platform.python_version()}, {platform.platform()}"

@@ -7,7 +7,7 @@ from datetime import datetime
 from pigaming_app.jobs.kiosk.crash_reports import Evidence, crash_log_size, keep_report
 from pigaming_app.jobs.kiosk.process import ArcadeProcess
 from pigaming_app.jobs.kiosk.safe_start import SafeStart
-from pigaming_app.jobs.kiosk.supervisor import Child, Ending, Limits, Supervisor
+from pigaming_app.jobs.kiosk.supervisor import Child, Limits, RunEnd, Supervisor
 from pigaming_app.storage.safe_mode import VARIABLE
 from pigaming_app.storage.settings import folders
 
@@ -27,7 +27,7 @@ def supervise(command: Sequence[str], limits: Limits | None = None) -> int:
         safe_start.start()
         return ArcadeProcess(command, {VARIABLE: "1"} if safe_start.safe else {})
 
-    def report(child: Child, ending: Ending) -> None:
+    def report(child: Child, ending: RunEnd) -> None:
         assert isinstance(child, ArcadeProcess)
         safe_start.restart()
         keep_report(data, ending, Evidence(tuple(child.errors), child.picture, stacks_from), datetime.now())

@@ -25,7 +25,7 @@ class Limits:
 
 
 @dataclass(frozen=True)
-class Ending:
+class RunEnd:
     """The end of a run. `code`: exit code, minus the signal if one ended it; None: it hung for `silent` s."""
 
     code: int | None
@@ -78,7 +78,7 @@ class Supervisor:
     def __init__(
         self,
         start: Callable[[], Child],
-        report: Callable[[Child, Ending], None],
+        report: Callable[[Child, RunEnd], None],
         limits: Limits,
         watch: Callable[[int], None] = lambda _: None,
         clock: Callable[[], float] = time.monotonic,
@@ -114,7 +114,7 @@ class Supervisor:
             crashes = 1 if ending.seconds >= self._limits.stable else crashes + 1
             self._sleep(self._limits.delays[min(crashes, len(self._limits.delays)) - 1])
 
-    def _watch(self, child: Child) -> Ending:
+    def _watch(self, child: Child) -> RunEnd:
         """Wait for the end of an arcade; kill it if it hangs."""
         began = last = self._clock()
         beats, silent = 0, 0.0
@@ -130,9 +130,9 @@ class Supervisor:
                 break
             self._also_watch(child.beats)
             self._sleep(self._limits.poll)
-        return Ending(code, self._clock() - began, child.beats, silent)
+        return RunEnd(code, self._clock() - began, child.beats, silent)
 
-    def _try_to_report(self, child: Child, ending: Ending) -> None:
+    def _try_to_report(self, child: Child, ending: RunEnd) -> None:
         try:
             self._report(child, ending)
         except Exception:  # the arcade starts again, whatever is wrong with the disk

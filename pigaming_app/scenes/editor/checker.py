@@ -20,7 +20,7 @@ Task = TypeVar("Task")
 
 
 @dataclass(frozen=True)
-class Verdict:
+class CheckResult:
     """What is known about a drawing. `arena`: None until it is parsed, or if something blocks; `done`: that is all."""
 
     drawing: Drawing
@@ -78,7 +78,7 @@ class Checker:
 
     def __init__(self, tools: Tools, name: str) -> None:
         self.tools, self.name = tools, name
-        self.verdict: Verdict | None = None
+        self.verdict: CheckResult | None = None
         self._asked: Drawing | None = None
         self._finder = LatestTask("arena checker", self._find)
         self._planner = LatestTask("arena planner", self._plan)
@@ -89,7 +89,7 @@ class Checker:
             self._asked = drawing
             self._finder.give((drawing, plan))
 
-    def of(self, drawing: Drawing) -> Verdict | None:
+    def of(self, drawing: Drawing) -> CheckResult | None:
         """The verdict on a drawing, as far as it is known."""
         verdict = self.verdict
         return verdict if verdict and verdict.drawing == drawing else None
@@ -102,12 +102,12 @@ class Checker:
     def _find(self, task: tuple[Drawing, bool]) -> None:
         """Publish the problems of a drawing."""
         drawing, plan = task
-        found = Verdict(drawing, problems(games()[self.tools.game], drawing))
+        found = CheckResult(drawing, problems(games()[self.tools.game], drawing))
         self.verdict = replace(found, done=found.blocked)
         if plan and not found.blocked:
             self._planner.give(found)
 
-    def _plan(self, found: Verdict) -> None:
+    def _plan(self, found: CheckResult) -> None:
         """Publish the arena, then the plans of AIs, unless there is another drawing by then."""
         try:
             arena = parse(self.tools.game, found.drawing.text(), self.name)
@@ -117,7 +117,7 @@ class Checker:
             log.warning("%s", error)
             self._publish(replace(found, problems=[*found.problems, unknown(str(error))], done=True))
 
-    def _publish(self, verdict: Verdict) -> None:
+    def _publish(self, verdict: CheckResult) -> None:
         if self._asked == verdict.drawing:
             self.verdict = verdict
 

@@ -13,7 +13,7 @@ from pigaming_app.scenes.pages import name_page
 LENGTH, IDLE = 9, 120.0  # letters, s
 
 
-class NamePage(name_page.NamePage):
+class ArenaNamePage(name_page.NamePage):
     """Prompts for the name of an arena that is called `before`, and proposes one. `enter(title)` saves it."""
 
     def __init__(self, context: Context, game: str, before: str, title: str, enter: Callable[[str], None]) -> None:

@@ -23,7 +23,7 @@ from pigaming_app.scenes.editor.board import (
 from pigaming_app.scenes.editor.marks import draw_problems, draw_routes
 from pigaming_app.scenes.editor.model.edits import changed_items
 from pigaming_app.scenes.editor.model.symmetry import Symmetry
-from pigaming_app.scenes.editor.naming import NamePage
+from pigaming_app.scenes.editor.naming import ArenaNamePage
 from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.toolbar import Tile, ToolBar
@@ -303,7 +303,7 @@ class Editor:
             self.save(self.title)
             return None
         self._play("accept")
-        return Push(NamePage(self.context, self.game, self.bench.name, "", self.save))
+        return Push(ArenaNamePage(self.context, self.game, self.bench.name, "", self.save))
 
     def save(self, title: str) -> None:
         """Save the arena under a title. It is then the one that the lobby proposes."""

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pigaming_app.games.arenas import is_own_name, own_arenas
 from pigaming_app.games.drawing.values import Drawing
 from pigaming_app.scenes.editor import store
-from pigaming_app.scenes.editor.checker import Checker, Verdict
+from pigaming_app.scenes.editor.checker import Checker, CheckResult
 from pigaming_app.scenes.editor.hand import Hand, grip_at, item_at
 from pigaming_app.scenes.editor.model.edits import removed, replaced, with_copies
 from pigaming_app.scenes.editor.model.history import History
@@ -47,7 +47,7 @@ class Workbench:
         return self.hand.drawing if self.hand else self.history.now
 
     @property
-    def verdict(self) -> Verdict | None:
+    def verdict(self) -> CheckResult | None:
         """What is known about the current drawing; while something is in hand, about what was checked last."""
         return self.checker.verdict if self.hand else self.checker.of(self.history.now)
 

@@ -24,7 +24,7 @@ PLAYED, OPEN, NEXT, LATER = "played", "open", "next", "later"  # states of a mat
 
 
 @dataclass(frozen=True)
-class Box:
+class BracketBox:
     """One match. `names`: of its entrants, empty where it is open who they are; `through`: which of them came first, or
     advance; `state`: see PLAYED. Lines lead from a box to those whose `come` has one of its `go`. `note`: stands above.
     """
@@ -51,7 +51,7 @@ class Column:
 
     stage: str
     round: int
-    boxes: tuple[Box, ...]
+    boxes: tuple[BracketBox, ...]
     whole: bool = True
 
 
@@ -59,7 +59,7 @@ Page = tuple[Column, ...]
 Render = Callable[[tuple[str, ...], tuple[bool, ...], str], LitImage]
 
 
-def pages_of(sides: Sequence[Sequence[Box]]) -> list[Page]:
+def pages_of(sides: Sequence[Sequence[BracketBox]]) -> list[Page]:
     """The pages of a bracket, each side on pages of its own. A round begins a new page if it would be torn apart
     otherwise; both finals share a column.
     """
@@ -106,7 +106,7 @@ def draw_bracket(
                 text(box.note, BODY, MIST, "body", "l", W).draw(screen, place.x, place.y - NOTE_UP)
 
 
-def placed(column: Column, index: int) -> Iterator[tuple[Box, pygame.Rect]]:
+def placed(column: Column, index: int) -> Iterator[tuple[BracketBox, pygame.Rect]]:
     """The boxes of a column with their places: each in the middle of its share of the height."""
     high = [box.height for box in column.boxes]
     spare = (BOTTOM - TOP - sum(high)) / len(high)
@@ -150,7 +150,7 @@ def way(w: int, rise: int) -> LitImage:
     return layer.render()
 
 
-def _filled(boxes: list[Box]) -> Iterator[tuple[Box, ...]]:
+def _filled(boxes: list[BracketBox]) -> Iterator[tuple[BracketBox, ...]]:
     """The boxes of a round in as few columns as possible, about equally filled."""
     room, columns, high = BOTTOM - TOP, 1, 0
     for box in boxes:
@@ -163,7 +163,7 @@ def _filled(boxes: list[Box]) -> Iterator[tuple[Box, ...]]:
 
 
 def _ways(
-    before: Column, after: Column, places: dict[Box, pygame.Rect]
+    before: Column, after: Column, places: dict[BracketBox, pygame.Rect]
 ) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
     """From each match to the next one of those who advance from it: ends of the lines, px."""
     for box in before.boxes:

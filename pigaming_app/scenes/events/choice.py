@@ -13,7 +13,7 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
 from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.next_page import NextMatch
-from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.page import SetupPage
@@ -125,7 +125,7 @@ class EventsPage(Page):
 def page_of(context: Context, running: RunningEvent) -> Scene:
     """The page with which an event goes on; one of AIs alone does so by itself."""
     if running.event.over:
-        return PodiumPage(context, running)
+        return EventPodiumPage(context, running)
     return NextMatch(context, running, show=all(entrant.brain for entrant in running.event.entrants))
 
 

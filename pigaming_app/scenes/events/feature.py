@@ -76,9 +76,9 @@ def page(context: Context, game: str) -> Scene:
 
 
 def board_pages(context: Context) -> Sequence[BoardPage]:
-    from pigaming_app.scenes.events.board.event_page import EventPage
+    from pigaming_app.scenes.events.board.event_page import EventBoardPage
 
-    return [EventPage(context)]
+    return [EventBoardPage(context)]
 
 
 def next_match(context: Context, scenes: Sequence[Scene]) -> str:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from pigaming_app.events.spec import Outcome
+from pigaming_app.events.spec import Result
 from pigaming_app.ui.draw import BODY, LABEL, text_width
 from pigaming_app.ui.draw.text import fit_text
 
@@ -19,7 +19,7 @@ def versus(names: Sequence[str]) -> str:
     return " – ".join(shortened(name) for name in names)
 
 
-def places_line(outcome: Outcome, room: float) -> str:
+def places_line(outcome: Result, room: float) -> str:
     """A result in one line of at most `room` px at BODY size, with names as long as possible."""
     line = ""
     for most in range(480, 60, -20):
@@ -32,7 +32,7 @@ def places_line(outcome: Outcome, room: float) -> str:
     return line
 
 
-def places_of(outcome: Outcome) -> list[tuple[int, tuple[str, ...]]]:
+def places_of(outcome: Result) -> list[tuple[int, tuple[str, ...]]]:
     """Each place with those who share it: after two second ones comes a fourth."""
     found, ahead = [], 0
     for names in outcome.places:

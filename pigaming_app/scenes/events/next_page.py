@@ -19,10 +19,10 @@ from pigaming_app.events.spec import DEFAULT_AI, Entrant, Fixture
 from pigaming_app.scenes.events import next_view as view
 from pigaming_app.scenes.events.drivers import stood_in
 from pigaming_app.scenes.events.names import shortened
-from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent, lots_line
-from pigaming_app.scenes.events.seats import Seats
+from pigaming_app.scenes.events.seats import EventSeats
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import Access
@@ -58,7 +58,7 @@ class NextMatch:
         self, context: Context, running: RunningEvent, notice: str = "", show: bool = False, again: bool = False
     ) -> None:
         self.context, self.running, self.show = context, running, show
-        self.seats, self._seated = Seats(context, running), self.fixture
+        self.seats, self._seated = EventSeats(context, running), self.fixture
         if again:
             self.seats.keep()
         self.quick: QuickMatches | None = None  # matches of AIs in the background
@@ -141,7 +141,7 @@ class NextMatch:
         self.message_left -= seconds
         self.queue.work(2.0)
         if self.fixture is None:
-            return Swap(PodiumPage(self.context, self.running)) if self.message_left <= 0.0 else None
+            return Swap(EventPodiumPage(self.context, self.running)) if self.message_left <= 0.0 else None
         if self.going:
             return self._begin()
         if self.quick:

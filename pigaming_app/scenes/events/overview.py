@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from pigaming_app.events.event import Event
 from pigaming_app.events.formats import knockout
 from pigaming_app.events.formats.knockout import FINAL, LOSERS, WINNERS
-from pigaming_app.events.spec import WALKOVER, Fixture, Format, Outcome, Standing
+from pigaming_app.events.spec import WALKOVER, Fixture, Format, Result, Standing
 from pigaming_app.scenes.events import bracket_view, table_view
-from pigaming_app.scenes.events.bracket_view import LATER, NEXT, OPEN, PLAYED, Box, Page
+from pigaming_app.scenes.events.bracket_view import LATER, NEXT, OPEN, PLAYED, BracketBox, Page
 from pigaming_app.scenes.events.running import stage_name
 from pigaming_app.scenes.events.table_view import TableRow
 from pigaming_app.ui.i18n import Words
@@ -62,7 +62,7 @@ def overview(words: Words, event: Event, playing: int | None = None) -> Overview
     )
 
 
-def _sides(words: Words, event: Event, upcoming: int | None) -> list[list[Box]]:
+def _sides(words: Words, event: Event, upcoming: int | None) -> list[list[BracketBox]]:
     """All matches that are drawn; of a knock-out also those to come: the winners' side with the finals, the losers'."""
     if event.spec.format is not Format.KNOCKOUT:
         return [[_box(event, event, fixture, upcoming) for fixture in event.fixtures]]
@@ -74,7 +74,7 @@ def _sides(words: Words, event: Event, upcoming: int | None) -> list[list[Box]]:
     return [side for side in (order[WINNERS] + order[FINAL], order[LOSERS]) if side]
 
 
-def _box(event: Event, shown: Event, fixture: Fixture, upcoming: int | None) -> Box:
+def _box(event: Event, shown: Event, fixture: Fixture, upcoming: int | None) -> BracketBox:
     """A match of the event, or one to come from its outlook `shown`."""
     outcome = event.outcomes.get(fixture.number)
     drawn = fixture.number <= len(event.fixtures)
@@ -89,7 +89,7 @@ def _box(event: Event, shown: Event, fixture: Fixture, upcoming: int | None) -> 
         certain = fixture.stage == FINAL or (fixture.stage == WINNERS and event.spec.seats == 2)
         names = tuple(name if certain and is_settled(event, shown, fixture, name) else "" for name in names)
         come = come if certain else frozenset()
-    return Box(
+    return BracketBox(
         fixture.number, fixture.stage, fixture.round, names, tuple(name in best for name in names), state, go, come
     )
 
@@ -109,15 +109,15 @@ def is_settled(event: Event, shown: Event, fixture: Fixture, name: str) -> bool:
     return all(one.number in event.outcomes for one in before)
 
 
-def _made_up(event: Event, fixture: Fixture) -> Outcome:
+def _made_up(event: Event, fixture: Fixture) -> Result:
     order = fixture.entrants
     if fixture.stage == FINAL:
         lost = knockout.defeats(event.progress.as_field())
         order = tuple(sorted(order, key=lambda name: -lost[name]))
-    return Outcome(fixture.number, tuple((name,) for name in order), extra=fixture.extra)
+    return Result(fixture.number, tuple((name,) for name in order), extra=fixture.extra)
 
 
-def through(event: Event, fixture: Fixture, outcome: Outcome) -> tuple[str, ...]:
+def through(event: Event, fixture: Fixture, outcome: Result) -> tuple[str, ...]:
     """Who goes on from a match of a knock-out, or has won another."""
     if event.spec.format is Format.KNOCKOUT:
         return tuple(knockout.through(fixture, outcome, event.spec.advance))

@@ -31,7 +31,7 @@ NAME_ROOM = STEP_W + APART - 20  # px
 SIGN_W = 72  # px, for the sign of an AI before its name
 
 
-class PodiumPage(Page):
+class EventPodiumPage(Page):
     """The podium of an event that is over."""
 
     idle, lockout = math.inf, 1.5

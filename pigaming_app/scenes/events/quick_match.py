@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from subprocess import Popen
 
     from pigaming_app.events.event import Event
-    from pigaming_app.events.spec import Fixture, Outcome
+    from pigaming_app.events.spec import Fixture, Result
 
 COMMAND = (sys.executable, "-m", "pigaming_app.scenes.events.quick_match")
 
@@ -32,7 +32,7 @@ class QuickMatches:
     def __init__(self, event: "Event", fixtures: "Sequence[Fixture]") -> None:
         self.left = len(fixtures)
         self._ended = False  # by hand
-        self._outcomes: SimpleQueue[Outcome] = SimpleQueue()
+        self._outcomes: SimpleQueue[Result] = SimpleQueue()
         self._process: Popen[bytes] = launch(COMMAND, answers=True)
         self._thread = Thread(target=self._talk, args=(pickle.dumps((event, tuple(fixtures))),), daemon=True)
         self._thread.start()
@@ -42,7 +42,7 @@ class QuickMatches:
         """True when there is no outcome to come; `left` is then 0, unless the process has failed."""
         return not self._thread.is_alive() and self._outcomes.empty()
 
-    def next_outcome(self) -> "Outcome | None":
+    def next_outcome(self) -> "Result | None":
         """The next outcome, once; None if it is not there yet."""
         try:
             outcome = self._outcomes.get_nowait()
@@ -85,7 +85,7 @@ def serve() -> None:
         output.flush()
 
 
-def play(event: "Event", fixture: "Fixture", person: str = "human") -> "Outcome":
+def play(event: "Event", fixture: "Fixture", person: str = "human") -> "Result":
     """Play a match of AIs to its end; `person` drives for people. Raises ValueError if a brain or arena is missing."""
     from pigaming_app.ai.registry import new_match
     from pigaming_app.events.match_setup import outcome_of, setup_of

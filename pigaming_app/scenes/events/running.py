@@ -12,7 +12,7 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.formats import knockout
 from pigaming_app.events.journal import Added
 from pigaming_app.events.match_setup import setup_of
-from pigaming_app.events.spec import MOST, Fixture, Outcome
+from pigaming_app.events.spec import MOST, Fixture, Result
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.events.names import shortened
 from pigaming_app.storage.safe_files import NotSaved
@@ -107,7 +107,7 @@ def round_name(words: Words, event: Event, fixture: Fixture) -> str:
     return stage_name(words, fixture.stage, fixture.round, ((one.stage, one.round) for one in event.fixtures))
 
 
-def lots_line(words: Words, event: Event, outcome: Outcome) -> str:
+def lots_line(words: Words, event: Event, outcome: Result) -> str:
     """Who goes on by lot, in one line, if lots were drawn after this match; else nothing."""
     if not outcome.extra or not event.lots(outcome.fixture) or outcome != event.played[outcome.fixture][-1]:
         return ""

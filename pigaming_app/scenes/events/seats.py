@@ -16,7 +16,7 @@ from pigaming_app.ui.widgets.labels import black_out, pulse
 from pigaming_app.ui.widgets.player_card import ask_bar, ready_bar
 
 
-class Seats:
+class EventSeats:
     """The seats of the first open match. `claims`: the devices that have taken one, by seat."""
 
     def __init__(self, context: Context, running: RunningEvent) -> None:

@@ -12,7 +12,7 @@ Box = tuple[int, int, int, int]  # x, y, width, height, px on a canvas of 1920 x
 
 
 @dataclass(frozen=True)
-class Part:
+class BoardPart:
     """A part of a page. It is painted again when its content differs from that shown in the same box.
 
     `paint` draws on a black surface of the box's size. It may raise `Unfinished` and is then called again later.
@@ -28,7 +28,7 @@ class BoardPage(Protocol):
 
     name: str
 
-    def parts(self, scenes: Sequence[Scene]) -> Sequence[Part] | None:
+    def parts(self, scenes: Sequence[Scene]) -> Sequence[BoardPart] | None:
         """Its parts now, with these scenes on the stack; boxes must not overlap. None: it has nothing to show.
 
         Called a few times a second: it must take less than a millisecond.

@@ -23,7 +23,7 @@ class BatteryFigures:
 
 
 @dataclass(frozen=True)
-class Session:
+class ArcadeSession:
     """What an arcade did on a day: from its first record to its last one, or while it runs to now or to midnight."""
 
     begin: datetime
@@ -45,7 +45,7 @@ class DayReport:
     starts: int = 0
     crashes: int = 0
     failures: int = 0
-    sessions: tuple[Session, ...] = ()  # by their begin
+    sessions: tuple[ArcadeSession, ...] = ()  # by their begin
     batteries: dict[int, BatteryFigures] = field(default_factory=dict)  # by robot
     skipped: int = 0
 
@@ -151,7 +151,7 @@ def figures(day: date, records: Sequence[Record], skipped: int = 0, going_on: Co
     )
 
 
-def _sessions(day: date, records: Sequence[Record], going_on: Collection[str]) -> list[Session]:
+def _sessions(day: date, records: Sequence[Record], going_on: Collection[str]) -> list[ArcadeSession]:
     """The sessions of arcades with names."""
     found: dict[str, list[Record]] = {}
     for record in records:
@@ -162,7 +162,7 @@ def _sessions(day: date, records: Sequence[Record], going_on: Collection[str]) -
     for name, own in found.items():
         ends = [last] if name in going_on else [record.at + _length(record) for record in own]
         sessions.append(
-            Session(min(record.at for record in own), max(ends), name not in ended and name not in going_on)
+            ArcadeSession(min(record.at for record in own), max(ends), name not in ended and name not in going_on)
         )
     return sessions
 
@@ -184,18 +184,18 @@ def _later(data: Path, day: date, arcades: Collection[str]) -> set[str]:
     return found
 
 
-def _nameless(program: Sequence[ProgramEvent]) -> list[Session]:
+def _nameless(program: Sequence[ProgramEvent]) -> list[ArcadeSession]:
     """The sessions of arcades without names: an end is that of the latest start. The last start may still run."""
     sessions, begun = [], list[datetime]()
     for event in program:
         if event.what == "start":
             begun.append(event.at)
         elif event.what == "end" and begun:
-            sessions.append(Session(begun.pop(), event.at, False))
+            sessions.append(ArcadeSession(begun.pop(), event.at, False))
     bounds = [event.what for event in program if event.what != "failure"]
     running = begun.pop() if bounds[-1:] == ["start"] else None
-    sessions += [Session(begin, begin, True) for begin in begun]
-    return sessions if running is None else [*sessions, Session(running, running, False)]
+    sessions += [ArcadeSession(begin, begin, True) for begin in begun]
+    return sessions if running is None else [*sessions, ArcadeSession(running, running, False)]
 
 
 def to_csv(report: DayReport) -> str:

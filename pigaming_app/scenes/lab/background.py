@@ -11,7 +11,7 @@ from pigaming_app.scenes.lab.extra_fetch import ExtraFetch
 COMPILE_NETWORKS = (sys.executable, "-m", "pigaming_app.ai.ppo.lab.process", "compile")
 
 
-class Background(Service):
+class LabBackground(Service):
     """What works for the Lab while it is not shown, and the Lab as it was left: its robot is kept."""
 
     def __init__(self, context: Context) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.learning.evaluation import HANDMADE, Evaluation
 from pigaming_app.ai.learning.policy_summary import Direction, direction
-from pigaming_app.ai.learning.training import GAME, Checkpoint, Training
+from pigaming_app.ai.learning.training import GAME, Checkpoint, TableTraining
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.scenes.brain.rose import PETALS
 from pigaming_app.scenes.lab.learning_curve import Measure
@@ -33,10 +33,10 @@ class TrainingState:
     knowing: float = 0.0  # 0: only explores, 1: only exploits
 
 
-class Progress:
+class TrainingProgress:
     """Progress of one training. Call only while holding the right to access the training."""
 
-    def __init__(self, training: Training) -> None:
+    def __init__(self, training: TableTraining) -> None:
         self.training = training
         self.measures: list[Measure] = []
         self.plan: list[Direction | None] = [None] * PETALS
@@ -48,7 +48,7 @@ class Progress:
         self._sector = 0
         self._save_checkpoint()
 
-    def replace_training(self, training: Training) -> None:
+    def replace_training(self, training: TableTraining) -> None:
         """Continue with the same table in another implementation (compiled or interpreted)."""
         self.training = training
         if self._exam:
@@ -116,7 +116,7 @@ class Progress:
             self.checkpoints[matches] = self.training.checkpoint(str(matches))
 
 
-def knowing(training: Training) -> float:
+def knowing(training: TableTraining) -> float:
     """Progress from exploration to exploitation, 0..1, derived from the temperature."""
     recipe = training.recipe
     return min(1.0, max(0.0, (recipe.hot - training.temperature) / (recipe.hot - recipe.cold)))

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from pigaming_app.ai.brain.archive import BrainFileError
-from pigaming_app.ai.learning.training import Training
+from pigaming_app.ai.learning.training import TableTraining
 from pigaming_app.ai.networks.files import TrainedNetwork
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.files import is_network, load_network, load_table, save_network, save_table
@@ -55,7 +55,7 @@ def proposal() -> str:
     return next((name for name in PROPOSALS if name not in taken), PROPOSALS[0])
 
 
-def save_robot(training: Training, name: str) -> None:
+def save_robot(training: TableTraining, name: str) -> None:
     """Save a robot with a table under a name. Raises RobotFileError; an existing file is then left intact."""
     _save(lambda path: save_table(training.trained(name), path), name)
 

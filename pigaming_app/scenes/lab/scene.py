@@ -15,7 +15,7 @@ from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
-from pigaming_app.scenes.lab.background import Background
+from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.host import dimmed_background
 from pigaming_app.scenes.lab.knob import LIMIT
 from pigaming_app.scenes.lab.layout import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
@@ -23,7 +23,7 @@ from pigaming_app.scenes.lab.learning_curve import EVEN
 from pigaming_app.scenes.lab.network.fetch_page import FetchPage
 from pigaming_app.scenes.lab.network.kind_switch import KINDS, NETWORK, TABLE, kind_at, kind_rect
 from pigaming_app.scenes.lab.network.trainer import NetworkProgress, NetworkTrainer
-from pigaming_app.scenes.lab.progress import Progress
+from pigaming_app.scenes.lab.progress import TrainingProgress
 from pigaming_app.scenes.lab.saved_robots import RobotFileError
 from pigaming_app.scenes.lab.trainer import Trainer
 from pigaming_app.scenes.lab.view import SPEEDS, LabPage, LabState, speed_at, warming
@@ -48,13 +48,15 @@ class Lab:
 
     def __init__(self, context: Context, fast: bool | None = None) -> None:
         self.context = context
-        background = context.shared(Background)
+        background = context.shared(LabBackground)
         self.table = Trainer(FIRST, new_seed(), fast, background.compiler)
         self.network = NetworkTrainer(new_seed(), background.network_compiler)
         self.kind = TABLE
         self.names = dict.fromkeys(KINDS, "")  # under which each robot was saved or opened
-        self.was_behind: Progress | NetworkProgress | None = None  # the training behind the hand-made robot
-        self.celebrated: Progress | NetworkProgress | None = None  # the training whose overtaking was celebrated
+        self.was_behind: TrainingProgress | NetworkProgress | None = None  # the training behind the hand-made robot
+        self.celebrated: TrainingProgress | NetworkProgress | None = (
+            None  # the training whose overtaking was celebrated
+        )
         self.shown = LabState()
         self.page: LabPage | None = None
         self.seen = -1  # number of the last frame shown
@@ -306,7 +308,7 @@ class Lab:
         now.levels = [level(entry.value / scale) if entry else 0 for entry in plan]
         now.signs = [entry.action if entry else SIGNS[-1] for entry in plan]
 
-    def _celebrate(self, progress: Progress | NetworkProgress) -> None:
+    def _celebrate(self, progress: TrainingProgress | NetworkProgress) -> None:
         """Celebrate once per training that it overtook the hand-made robot."""
         share = self.page.curve.share if self.page else None
         if share is not None and share < EVEN:

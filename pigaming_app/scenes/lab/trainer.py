@@ -14,10 +14,10 @@ from typing import Any
 
 from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.ai.learning.evaluation import compile_all
-from pigaming_app.ai.learning.training import Checkpoint, Training, resumed
+from pigaming_app.ai.learning.training import Checkpoint, TableTraining, resumed
 from pigaming_app.ai.qlearning.recipe import Recipe
 from pigaming_app.ai.qlearning.table_files import Trained
-from pigaming_app.scenes.lab.progress import Progress, TrainingState
+from pigaming_app.scenes.lab.progress import TrainingProgress, TrainingState
 from pigaming_app.scenes.lab.saved_robots import RobotFileError, save_robot
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile
@@ -46,8 +46,8 @@ class Trainer:
         self._first = recipe
         self.recipe, self.speed = recipe, 0
         self.may_compile = can_compile() if fast is None else fast
-        self.training = Training(recipe, seed, fast=False)
-        self.progress = Progress(self.training)
+        self.training = TableTraining(recipe, seed, fast=False)
+        self.progress = TrainingProgress(self.training)
         self.compiling = False
         self._lock = threading.Lock()  # guards the training
         self._thread: threading.Thread | None = None
@@ -109,7 +109,7 @@ class Trainer:
     def begin(self, seed: int) -> None:
         """Restart from an empty table."""
         with self._lock:
-            self._train(Training(self.recipe, seed, fast=self.training.fast))
+            self._train(TableTraining(self.recipe, seed, fast=self.training.fast))
 
     def reset(self, seed: int) -> None:
         """Start again as for the first visitor."""
@@ -134,9 +134,9 @@ class Trainer:
 
     # ---- inside
 
-    def _train(self, training: Training) -> None:
+    def _train(self, training: TableTraining) -> None:
         self.training, self._backlog = training, 0.0
-        self.progress = Progress(training)
+        self.progress = TrainingProgress(training)
 
     @property
     def _active(self) -> bool:
@@ -203,7 +203,7 @@ class Trainer:
         with self._lock:
             old = self.training
             if old.fast != fast:
-                self.training = Training(self.recipe, old.seed, old.arena, fast, old.table, old.minutes)
+                self.training = TableTraining(self.recipe, old.seed, old.arena, fast, old.table, old.minutes)
                 self.progress.replace_training(self.training)
 
     def _run(self) -> None:

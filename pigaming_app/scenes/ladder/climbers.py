@@ -16,7 +16,7 @@ from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.arrows import Arrows, as_direction, draw_arrows
-from pigaming_app.ui.widgets.score_board import Board, BoardRow
+from pigaming_app.ui.widgets.score_board import BoardRow, ScoreBoard
 
 SPANS = {"results.today": 1, "results.ever": None}  # headings and their spans in days
 LINE_Y = 234  # px
@@ -75,7 +75,7 @@ class Climbers(Page):
         text(self._title(), LABEL, ICE, "head").draw(screen, 960, LINE_Y)
         for column, (title, days) in zip((0, 6), SPANS.items(), strict=True):
             rows = [self._row(row) for row in self.context.scores.best(table, days)]
-            board = Board(words(title), rows, words("best.first"), words("ladder.lost_column"))
+            board = ScoreBoard(words(title), rows, words("best.first"), words("ladder.lost_column"))
             board.draw(screen, *span(column, 6), self.turned)
 
     def _title(self) -> str:

@@ -19,7 +19,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, change_rules, last_choice, load_cached, playable_arenas
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import match_setup_view as choice
-from pigaming_app.scenes.lobby.seats import EMPTY, Seats
+from pigaming_app.scenes.lobby.seats import EMPTY, LobbySeats
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.results.high_score_tables import contest, format_score, table_of
 from pigaming_app.scenes.results.scene import SceneFactory
@@ -49,7 +49,7 @@ class MatchSetupPage(Page):
 
     title, idle = "setup.title", 60.0
 
-    def __init__(self, context: Context, game: str, seats: Seats, game_choice: SceneFactory | None = None) -> None:
+    def __init__(self, context: Context, game: str, seats: LobbySeats, game_choice: SceneFactory | None = None) -> None:
         self.access = Access(context, seats.devices)
         self.context, self.game, self.seats, self.game_choice = context, games()[game], seats, game_choice
         self.arenas = playable_arenas(game)

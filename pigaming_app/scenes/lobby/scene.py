@@ -23,7 +23,7 @@ from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
-from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, Seats
+from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, LobbySeats
 from pigaming_app.scenes.lobby.view import CODE, LobbyPage, LobbyState, level_words, problem, spots
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.ui.draw import PLAYERS
@@ -45,7 +45,9 @@ class Lobby:
     def __init__(self, context: Context, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
         self.context, self.game = context, game
         team_mode = games()[game].variants[last_choice(context, game).variant].team_mode
-        self.seats = Seats(context.settings.strength, team_mode=team_mode, rivals=AIS[game].rivals, mat=context.robots)
+        self.seats = LobbySeats(
+            context.settings.strength, team_mode=team_mode, rivals=AIS[game].rivals, mat=context.robots
+        )
         for seat, place in enumerate(self.seats.places):
             place.real = seat + 1 in context.settings.real and not context.robots_problem
         for seat, driver in enumerate(drivers):

@@ -31,7 +31,7 @@ class SeatState:
 
 
 @dataclass
-class Seats:
+class LobbySeats:
     """The four seats. `strength`: of the next AI, one of `rivals`; `sides`: team mode of the game.
 
     `mat`: a mat for real robots is available.

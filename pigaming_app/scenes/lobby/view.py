@@ -15,7 +15,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.device_words import steering
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.lobby import seat_card as card
-from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, Seats
+from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, LobbySeats
 from pigaming_app.ui.draw import FOCUS, LABEL, PLAYERS, Color, dim
 from pigaming_app.ui.draw.layers import backdrop, span
 from pigaming_app.ui.draw.sprites import HEADINGS, step
@@ -57,7 +57,7 @@ class LobbyPage:
     def __init__(
         self,
         context: Context,
-        seats: Seats,
+        seats: LobbySeats,
         now: LobbyState,
         fact: Callable[[], str],
         access: Access,
@@ -203,7 +203,7 @@ class LobbyPage:
         call_to_action(message, label, LABEL, pulse(self.now.clock, 5)).draw(screen, 960, MESSAGE_Y)
 
 
-def spots(seats: Seats, code_seat: int | None = None) -> list[FocusSpot]:
+def spots(seats: LobbySeats, code_seat: int | None = None) -> list[FocusSpot]:
     """Mouse targets: arrows and teams on the cards, the QR code, then the cards."""
     targets = []
     if code_seat is not None:
@@ -229,12 +229,12 @@ def level_words(words: Words, brain: str) -> tuple[str, str]:
     return words(f"lobby.{brain}"), ""
 
 
-def real_y(seats: Seats) -> int:
+def real_y(seats: LobbySeats) -> int:
     """Centre of the row of the real robot, px from the top of a card."""
     return card.REAL_Y if seats.teams else card.ROW_Y
 
 
-def problem(seats: Seats, words: Words) -> str:
+def problem(seats: LobbySeats, words: Words) -> str:
     """The reason why a match cannot start, or ""."""
     if seats.robots < (1 if seats.team_mode == ALLIES else 2):
         return words("lobby.more")

@@ -5,7 +5,7 @@ from typing import Any, Protocol, runtime_checkable
 
 import pygame
 
-from pigaming_app.scenes.features.board_page import Box, Part
+from pigaming_app.scenes.features.board_page import BoardPart, Box
 from pigaming_app.scenes.flow.stack import Scene
 
 BOX: Box = (60, 34, 1800, 1012)
@@ -24,11 +24,11 @@ class CameraPage:
 
     name = "camera"
 
-    def parts(self, scenes: Sequence[Scene]) -> Sequence[Part] | None:
+    def parts(self, scenes: Sequence[Scene]) -> Sequence[BoardPart] | None:
         """The newest picture."""
         scene = next((scene for scene in reversed(scenes) if isinstance(scene, CameraScene)), None)
         image = scene.camera_image if scene is not None else None
-        return None if image is None else [Part(BOX, Picture(image), lambda surface: _picture(image, surface))]
+        return None if image is None else [BoardPart(BOX, Picture(image), lambda surface: _picture(image, surface))]
 
 
 class Picture:

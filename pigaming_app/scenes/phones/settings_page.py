@@ -12,7 +12,7 @@ from pigaming_app.ui.draw import ALARM, FOCUS, MIST, STEEL, THIN, text_width
 from pigaming_app.ui.draw.layers import LEFT
 from pigaming_app.ui.draw.text import SMALLEST, fit_text, paragraph
 from pigaming_app.ui.input.events import InputEvent
-from pigaming_app.ui.input.phones.network import Network, PhonesUnavailable, networks
+from pigaming_app.ui.input.phones.network import NetworkInterface, PhonesUnavailable, networks
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.labels import sign
 from pigaming_app.ui.widgets.setting_row import SettingValue
@@ -27,7 +27,7 @@ class PhonesPage(SettingsPage):
     table, title = "phones", "options.phones"
 
     def __init__(self, context: Context) -> None:
-        self.networks: list[Network] = []
+        self.networks: list[NetworkInterface] = []
         self.host = context.shared(phone_host)
         super().__init__(context, ROWS)
 
@@ -89,7 +89,7 @@ class PhonesPage(SettingsPage):
         return Push(JoinByPhone(self.context, lambda: []))
 
 
-def shown(network: Network) -> str:
+def shown(network: NetworkInterface) -> str:
     """Name and address of a network; a long name is cut off rather than the address."""
     address = f": {network.address}"
     room = dials.VALUE_ROOM - text_width(address, SMALLEST, "body")

@@ -11,7 +11,7 @@ from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.recordings.store import StoreError
 from pigaming_app.scenes.replays import view
-from pigaming_app.scenes.replays.view import ROWS, Entry
+from pigaming_app.scenes.replays.view import ROWS, ReplayEntry
 from pigaming_app.scenes.replays.watch import ReplayScene
 from pigaming_app.ui.draw import ICE, LABEL, MIST
 from pigaming_app.ui.draw.text import text
@@ -30,9 +30,9 @@ class ReplaysPage(Page):
     title, idle = "replays.title", 60.0
 
     def __init__(self, context: Context) -> None:
-        self.entries = [Entry(path) for path in store.paths()]
+        self.entries = [ReplayEntry(path) for path in store.paths()]
         self.page, self.confirm_left = 0, 0.0
-        self.asked: Entry | None = None  # replay that a second press deletes
+        self.asked: ReplayEntry | None = None  # replay that a second press deletes
         super().__init__(context, Focus(self._spots()))
         self.warmup: dict[str, MatchRunner] = {}  # by game
 
@@ -116,11 +116,11 @@ class ReplaysPage(Page):
         return max(1, -(-len(self.entries) // ROWS))
 
     @property
-    def entry(self) -> Entry:
+    def entry(self) -> ReplayEntry:
         """The focused replay."""
         return self.entries[int(self.focus.name)]
 
-    def _shown(self) -> list[Entry]:
+    def _shown(self) -> list[ReplayEntry]:
         """The replays of this page."""
         return self.entries[self.page * ROWS : (self.page + 1) * ROWS]
 
@@ -148,7 +148,7 @@ class ReplaysPage(Page):
             self.focus = Focus(self._spots())
             self.context.sounds.play("move")
 
-    def _play(self, entry: Entry) -> StackOperation:
+    def _play(self, entry: ReplayEntry) -> StackOperation:
         replay = store.load(entry.path)
         if replay is None:
             self._say("replays.gone")
@@ -157,7 +157,7 @@ class ReplaysPage(Page):
         self.context.sounds.play("accept")
         return Push(ReplayScene(self.context, replay))
 
-    def _delete(self, entry: Entry) -> None:
+    def _delete(self, entry: ReplayEntry) -> None:
         """Ask at the first press, delete at the second."""
         if entry is not self.asked or self.confirm_left <= 0.0:
             self.asked, self.confirm_left = entry, CONFIRM_SECONDS

@@ -44,7 +44,7 @@ ROOM = 316  # px for the game and for the arena
 
 
 @dataclass
-class Entry:
+class ReplayEntry:
     """One file of the list. `replay` is None while it is unread, and if it is damaged."""
 
     path: Path
@@ -71,7 +71,7 @@ def cross_box(i: int) -> pygame.Rect:
     return pygame.Rect(RIGHT - CROSS - 8, TOP + PITCH * i + (HIGH - CROSS) // 2, CROSS, CROSS)
 
 
-def row(words: Words, entry: Entry, hot: bool) -> list[LitImage]:
+def row(words: Words, entry: ReplayEntry, hot: bool) -> list[LitImage]:
     """The parts of the row of a file that has been read, top left at (0, 0)."""
     replay = entry.replay
     if replay is None:

@@ -26,7 +26,7 @@ from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.arrows import as_direction, draw_arrows
-from pigaming_app.ui.widgets.score_board import Board, BoardRow
+from pigaming_app.ui.widgets.score_board import BoardRow, ScoreBoard
 
 WHERE_Y, LINE_Y = 112, 234  # px
 ROOM, WHERE_ROOM = 1360, 800  # px: maximum width of the conditions, and of game and arena
@@ -130,7 +130,7 @@ class HighScores(Page):
             for row in self.context.scores.best(board.table, board.days)
         ]
         title = words.counted(board.heading, board.table.length, goal=f"{board.table.length:g}")
-        Board(title, rows, words("best.first")).draw(screen, x, w, self.turned)
+        ScoreBoard(title, rows, words("best.first")).draw(screen, x, w, self.turned)
 
 
 def nearest(contest: ScoreTable, shelf: Sequence[ScoreTable]) -> ScoreTable:

@@ -43,7 +43,7 @@ SceneFactory = Callable[
 ]  # scene that follows a match, for these devices
 
 
-class Page(Protocol):
+class RevealedPage(Protocol):
     """The page without the votes."""
 
     ready_at: float  # s, when it is complete
@@ -84,7 +84,7 @@ class Results:
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
         self.ended = EndedMatch(setup, outcome, tuple(devices))
         self.ballot = RematchVote(context, seats, self.ended.humans, devices)
-        self.page: Page = (
+        self.page: RevealedPage = (
             PodiumPage(context, self.ended, finished, rounds) if rounds else ResultsPage(context, self.ended, finished)
         )
         own = [None if seat in ai_assisted else device for seat, device in enumerate(devices)]

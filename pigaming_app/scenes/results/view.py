@@ -51,7 +51,7 @@ FIRST, APART, WIPE = 0.25, 0.22, 0.3  # s: delay of the first row, delay from ro
 
 
 @dataclass(frozen=True)
-class Part:
+class RevealedPart:
     """A widget with its reveal: wiped in from the left over `takes` seconds."""
 
     lit: LitImage
@@ -74,7 +74,7 @@ class ResultsPage:
         self.winners = outcome.winners if finished else ()
         self.title_at = FIRST + APART * len(self.teams) + 0.15
         self.ready_at = self.title_at + 0.4
-        self.parts: list[Part] = []
+        self.parts: list[RevealedPart] = []
         self.plot: Plot
         self._rendering = self._render_parts()
 
@@ -122,27 +122,27 @@ class ResultsPage:
         self.colored = line(self._color(), RIGHT - LEFT if self.winners else SHORT)
         self.steel = line(STEEL, RIGHT - LEFT, THIN)
         yield True
-        self.parts.append(Part(self._where(), 0.1))
+        self.parts.append(RevealedPart(self._where(), 0.1))
         yield True
-        self.parts.append(Part(self._title(), self.title_at))
+        self.parts.append(RevealedPart(self._title(), self.title_at))
         yield True
-        self.parts.append(Part(self._columns(), 0.1))
+        self.parts.append(RevealedPart(self._columns(), 0.1))
         yield True
         y = TOP
         for i, team in enumerate(self.teams):
             begins = FIRST + APART * (len(self.teams) - 1 - i)
-            self.parts.append(Part(self._team(team, y), begins))
+            self.parts.append(RevealedPart(self._team(team, y), begins))
             y += PITCH * len(team)
             yield True
         if len(self.outcome.rows) < 4 and (records := self._records()):
-            self.parts.append(Part(records, self.ready_at))
+            self.parts.append(RevealedPart(records, self.ready_at))
             yield True
         x, w = span(6, 6)
         self.plot = self._plot(x, w)
         if is_allied(self.setup) and self.finished:
-            self.parts.append(Part(star_row(self.stars, x, TOP, w), self.title_at))
+            self.parts.append(RevealedPart(star_row(self.stars, x, TOP, w), self.title_at))
             yield True
-        self.parts.append(Part(self.plot.grid(), 0.1))
+        self.parts.append(RevealedPart(self.plot.grid(), 0.1))
         yield True
         self.lines = self.plot.lines()
         yield True

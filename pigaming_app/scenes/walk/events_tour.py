@@ -1,7 +1,7 @@
 """The part of the tour through the events: set-up, matches of AIs, table, corrections, poster, podium."""
 
 from pigaming_app.events.event import Event
-from pigaming_app.events.spec import Outcome
+from pigaming_app.events.spec import Result
 from pigaming_app.scenes.walk.steps import TourWalker, choose, home
 from pigaming_app.sim.world import HZ
 
@@ -107,5 +107,5 @@ def finish(walker: TourWalker) -> None:
 def ended(event: Event) -> Event:
     """The event with a result of every match, by the order of the seats."""
     while fixtures := event.open:
-        event = event.record(Outcome(fixtures[0].number, tuple((name,) for name in fixtures[0].entrants)))
+        event = event.record(Result(fixtures[0].number, tuple((name,) for name in fixtures[0].entrants)))
     return event

@@ -39,7 +39,7 @@ TILE_W, TILE_H = 160, 120  # px
 Shape = Callable[[pygame.Surface, int], object]  # paints on a band whose upper edge is at this y of its sheet, px
 
 
-class Sheet:
+class Supersampled:
     """A surface `ss` times as large as a canvas of w x h px. It keeps the shapes and is painted when it is scaled down,
     in bands of TILE_H canvas px, as a whole one of a page would take 33 MB and 50 ms to allocate.
     """
@@ -104,8 +104,8 @@ class GlowCanvas:
 
     def __init__(self, w: int, h: int, ss: int = 2) -> None:
         self.w, self.h, self.ss = w, h, ss
-        self.sheet, self.knockout = Sheet(w, h, ss), Sheet(w, h, ss, WHITE)
-        self.mask = Sheet(w, h, ss, (0, 0, 0, 0))  # what `solid` blacks out
+        self.sheet, self.knockout = Supersampled(w, h, ss), Supersampled(w, h, ss, WHITE)
+        self.mask = Supersampled(w, h, ss, (0, 0, 0, 0))  # what `solid` blacks out
         self.set_transform(0, 0)
 
     @property
@@ -138,7 +138,7 @@ class GlowCanvas:
         """A line with round joints and caps."""
         return self._line(self.sheet, points, color, width, closed)
 
-    def _line(self, sheet: Sheet, points: Points, color: Color, width: float, closed: bool = False) -> Self:
+    def _line(self, sheet: Supersampled, points: Points, color: Color, width: float, closed: bool = False) -> Self:
         at = [self._at(p) for p in points]
         w = max(1, round(width * self.k))
         for a, b in zip(at, at[1:] + at[:1] if closed else at[1:], strict=False):

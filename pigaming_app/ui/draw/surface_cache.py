@@ -23,7 +23,7 @@ Args = ParamSpec("Args")
 Result = TypeVar("Result")
 
 
-class Entry:
+class CacheEntry:
     """A cached result, the surfaces it keeps alive, and the game it was built for.
 
     `used`: value of the insertion counter at the last use.
@@ -31,7 +31,7 @@ class Entry:
 
     __slots__ = ("game", "key", "surfaces", "table", "used", "value")
 
-    def __init__(self, table: "dict[Hashable, Entry]", key: Hashable, value: object, game: str | None) -> None:
+    def __init__(self, table: "dict[Hashable, CacheEntry]", key: Hashable, value: object, game: str | None) -> None:
         self.table, self.key, self.value, self.game = table, key, value, game
         self.used = 0
         self.surfaces = tuple({id(surface): surface for surface in surfaces_in(value)}.values())
@@ -48,7 +48,7 @@ class SurfaceCache:
         self.budget = budget
         self.bytes = 0
         self._insertions = 0  # insertion counter
-        self._order: OrderedDict[Entry, None] = OrderedDict()  # least recently used first
+        self._order: OrderedDict[CacheEntry, None] = OrderedDict()  # least recently used first
         self._holders: dict[int, int] = {}  # entries that keep a surface alive, by id of the surface
         self._game: str | None = None  # game tag of new entries
 
@@ -57,7 +57,7 @@ class SurfaceCache:
 
     def cached(self, make: Callable[Args, Result]) -> Callable[Args, Result]:
         """Memoise a function of hashable arguments. A result larger than the whole budget is not cached."""
-        table: dict[Hashable, Entry] = {}
+        table: dict[Hashable, CacheEntry] = {}
         use = self._order.move_to_end
 
         @wraps(make)
@@ -72,7 +72,7 @@ class SurfaceCache:
             budget.claim()
             value = make(*args, **named)
             budget.note()
-            self._insert(Entry(table, key, value, self._game))
+            self._insert(CacheEntry(table, key, value, self._game))
             return value
 
         return lookup
@@ -100,7 +100,7 @@ class SurfaceCache:
         for entry in list(self._order):
             self._drop(entry)
 
-    def _insert(self, entry: Entry) -> None:
+    def _insert(self, entry: CacheEntry) -> None:
         if sum(map(pixel_bytes, entry.surfaces)) > self.budget:
             return
         if entry.key in entry.table:  # another thread was first
@@ -119,7 +119,7 @@ class SurfaceCache:
         while self.bytes > size:
             self._drop(next(iter(self._order)))
 
-    def _drop(self, entry: Entry) -> None:
+    def _drop(self, entry: CacheEntry) -> None:
         del self._order[entry], entry.table[entry.key]
         for surface in entry.surfaces:
             self._holders[id(surface)] -= 1

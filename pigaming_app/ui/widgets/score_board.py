@@ -28,7 +28,7 @@ class BoardRow:
 
 
 @dataclass(frozen=True)
-class Board:
+class ScoreBoard:
     """A table below its title. `column`: the name of the values; `empty`: shown in place of rows."""
 
     title: str

@@ -87,7 +87,7 @@ def test_it_is_on_for_seats_alone():
 
     assert Reflex().on == 0
     assert [switched(BRAINS["pitanks"][name]) for name in ("q1", "q2")] == [1, 1]
-    course = training.Training(training.RECIPES[1], 1, fast=False, minutes=0.1)
+    course = training.TableTraining(training.RECIPES[1], 1, fast=False, minutes=0.1)
     assert switched(course.checkpoint().kind) == 0
     assert course._ones[0].reflex.on == 0
 

@@ -15,7 +15,7 @@ from pigaming_app import ASSETS
 from pigaming_app.ai.brain.archive import check_sum
 from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.learning import training
-from pigaming_app.ai.learning.training import Training
+from pigaming_app.ai.learning.training import TableTraining
 from pigaming_app.ai.qlearning import table_files as tables
 from pigaming_app.ai.qlearning.player import player
 from pigaming_app.ai.qlearning.recipe import RECIPES
@@ -32,7 +32,7 @@ compiles = pytest.mark.skipif(not can_compile(), reason="numba is not installed"
 
 def short(fast=False, seed=1, recipe=RECIPES[2], table=None):
     """Matches of 6 s: 300 ticks, 60 decisions of each robot."""
-    return Training(recipe, seed, fast=fast, table=table, minutes=0.1)
+    return TableTraining(recipe, seed, fast=fast, table=table, minutes=0.1)
 
 
 @pytest.mark.long
@@ -46,7 +46,7 @@ def short(fast=False, seed=1, recipe=RECIPES[2], table=None):
     ],
 )
 def test_both_bodies_learn_the_same_table_to_the_last_bit(recipe):
-    plain, fast = (Training(recipe, 7, fast=fast, minutes=0.5) for fast in (False, True))
+    plain, fast = (TableTraining(recipe, 7, fast=fast, minutes=0.5) for fast in (False, True))
     for one in (plain, fast):
         one.run(4000)
     assert plain.experiences > 500

@@ -8,10 +8,10 @@ import pytest
 from pigaming_app.ai.networks.pitanks import GUN, OTHERS, SIZE
 from pigaming_app.ai.networks.policy import packed_layers
 from pigaming_app.ai.ppo.lab import lesson
-from pigaming_app.ai.ppo.lab.lesson import HELD, SECTORS, Lesson, Situations
+from pigaming_app.ai.ppo.lab.lesson import HELD, SECTORS, LabTraining, Situations
 from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin
 from pigaming_app.ai.ppo.lab.task import RIVAL, NetworkRecipe, reward_of
-from pigaming_app.ai.ppo.learner import Network
+from pigaming_app.ai.ppo.learner import PolicyNetwork
 from pigaming_app.ai.ppo.win_rates import win_rates
 from pigaming_app.sim.kernel import can_compile
 from tests.scenes.lab.plain_process import shrink
@@ -53,7 +53,7 @@ def test_each_knob_rewards_its_own_event_only(knob, gains, inputs, choices):
 
 
 def test_it_learns_step_by_step_and_reports(threads: Executor):
-    taught = Lesson(Begin(7, 3), threads)
+    taught = LabTraining(Begin(7, 3), threads)
     first = taught.report()
     assert (first.number, first.state.updates, first.state.matches) == (7, 0, 0.0)
     assert first.share is not None
@@ -73,10 +73,10 @@ def test_it_learns_step_by_step_and_reports(threads: Executor):
 
 
 def test_a_network_from_a_file_stays_as_it_is_until_its_value_function_is_learned(threads: Executor):
-    before = Lesson(Begin(0, 3), threads)
+    before = LabTraining(Begin(0, 3), threads)
     before.learn(NetworkRecipe())
     state = before.report().state._replace(matches=12.5, updates=40)
-    taught = Lesson(Begin(1, 4, state), threads)
+    taught = LabTraining(Begin(1, 4, state), threads)
     values = [matrix.copy() for matrix in taught.training.learner.value.weights]
     for _ in range(HELD):
         taught.learn(NetworkRecipe())
@@ -93,7 +93,7 @@ def test_a_network_from_a_file_stays_as_it_is_until_its_value_function_is_learne
 def test_the_plan_tells_left_from_right():
     """A policy that turns towards the opponent, and a value that falls from ahead to behind."""
     random = np.random.default_rng(1)
-    policy, value = Network(SIZE, 14, 0.01, random), Network(SIZE, 1, 1.0, random)
+    policy, value = PolicyNetwork(SIZE, 14, 0.01, random), PolicyNetwork(SIZE, 1, 1.0, random)
     for network in (policy, value):
         for matrix in network.weights:
             matrix[:] = 0.0
@@ -118,7 +118,7 @@ def test_the_plan_tells_left_from_right():
 @pytest.mark.skipif(not can_compile(), reason="numba is not installed")
 def test_it_beats_the_hand_made_robot_within_a_minute_at_the_speed_of_real_matches():
     with ThreadPoolExecutor(1) as threads:
-        taught = Lesson(Begin(0, 3), threads)
+        taught = LabTraining(Begin(0, 3), threads)
         assert taught.report().share < 0.2
         while taught.training.updates * lesson.LESSON < 60.0:
             taught.learn(NetworkRecipe())

@@ -5,7 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from pigaming_app.ai.ppo.learner import Hyper, Learner, Network, advantages, policy_slopes
+from pigaming_app.ai.ppo.learner import Hyper, Learner, PolicyNetwork, advantages, policy_slopes
 
 RANDOM = np.random.default_rng(1)
 
@@ -21,7 +21,7 @@ def numeric(function, array, index, step):
 
 
 def test_the_gradient_is_that_of_finite_differences():
-    network = Network(7, 3, 1.0, RANDOM)
+    network = PolicyNetwork(7, 3, 1.0, RANDOM)
     network.weights = [matrix.astype(float) for matrix in network.weights]
     network.weights[0] *= 3.0  # some units saturate
     x, slopes = np.ones((20, 8)), RANDOM.normal(size=(3, 20))

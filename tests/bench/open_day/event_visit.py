@@ -2,7 +2,7 @@
 
 from pigaming_app.scenes.events.choice import NEW, EventsPage
 from pigaming_app.scenes.events.next_page import NextMatch
-from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.setup.entrants_page import ADD_AI, LETTERS, EntrantsPage
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.setup.page import SetupPage
@@ -30,7 +30,7 @@ class EventVisit:
             LettersPage: self.letters,
             NextMatch: self.next_match,
             TablePage: lambda: stage.one_presses(Button.BACK),
-            PodiumPage: self.podium,
+            EventPodiumPage: self.podium,
         }
 
     @property

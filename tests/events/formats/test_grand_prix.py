@@ -6,7 +6,7 @@ import pytest
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.formats.grand_prix import shared
-from pigaming_app.events.spec import Entrant, EventSpec, Format, Outcome
+from pigaming_app.events.spec import Entrant, EventSpec, Format, Result
 from tests.events.examples import by_chance, new_event, played
 
 GAMES = ("pitanks", "factory", "race")
@@ -25,7 +25,7 @@ def test_equal_places_share_their_points():
     assert shared(1, 2) == 8.0
     assert shared(2, 3) == pytest.approx(10.0 / 3)
     event = new_event(Format.GRAND_PRIX, 4, games=("pitanks",), seats=4)
-    event = event.record(Outcome(1, (("P1",), ("P2", "P3"), ("P4",))))
+    event = event.record(Result(1, (("P1",), ("P2", "P3"), ("P4",))))
     assert [(row.place, row.entrant, row.points) for row in event.standings] == [
         (1, "P1", 10.0), (2, "P2", 4.5), (2, "P3", 4.5), (4, "P4", 1.0)
     ]  # fmt: skip
@@ -35,7 +35,7 @@ def test_more_first_places_count_among_equal_points():
     """Worked by hand: A 10 + 1 + 1 and B 6 + 3 + 3 are 12 each, but A has been first once."""
     event = new_event(Format.GRAND_PRIX, 4, games=("pitanks",), rounds=3, seats=4)
     for order in (("P2", "P1", "P3", "P4"), ("P3", "P4", "P1", "P2"), ("P4", "P3", "P1", "P2")):
-        event = event.record(Outcome(event.open[0].number, tuple((name,) for name in order)))
+        event = event.record(Result(event.open[0].number, tuple((name,) for name in order)))
     rows = [(row.entrant, row.points, row.tie_breaks["first"]) for row in event.standings]
     assert rows[2:] == [("P2", 12.0, 1.0), ("P1", 12.0, 0.0)]
 
@@ -64,7 +64,7 @@ def test_ais_fill_empty_seats_and_have_no_place():
 def test_points_of_a_team_are_those_of_its_entrants():
     entrants = tuple(Entrant(name, team=team) for name, team in (("A", "Red"), ("B", "Blue"), ("C", "Red")))
     event = Event(EventSpec("Teams", Format.GRAND_PRIX, ("pitanks",), entrants, seats=4))
-    event = event.record(Outcome(1, (("A",), ("B",), ("C",))))
+    event = event.record(Result(1, (("A",), ("B",), ("C",))))
     assert [(row.entrant, row.points, row.wins) for row in event.team_standings] == [
         ("Red", 13.0, 1), ("Blue", 6.0, 0)
     ]  # fmt: skip

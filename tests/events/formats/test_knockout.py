@@ -3,7 +3,7 @@
 import pytest
 
 from pigaming_app.events.formats.knockout import bracket
-from pigaming_app.events.spec import Advance, Entrant, Format, Outcome
+from pigaming_app.events.spec import Advance, Entrant, Format, Result
 from tests.events.examples import best_seed_wins, by_chance, new_event, pairs_of, played, ranked, seed_of
 
 
@@ -95,12 +95,12 @@ def test_a_late_entrant_begins_in_the_losers_bracket():
 
 def test_a_correction_draws_later_rounds_anew_until_they_have_begun():
     event = played(new_event(Format.KNOCKOUT, 4), rounds=1)
-    event = event.correct(Outcome(1, (("P4",), ("P1",)), note="wrong button"))
+    event = event.correct(Result(1, (("P4",), ("P1",)), note="wrong button"))
     assert stages(event, 2) == [("w", 2, 4), ("l", 1, 3)]
     event = event.record(best_seed_wins(event.open[0]))
     with pytest.raises(ValueError, match=r"^match 1 decides who goes on, and match 3 has been played since$"):
-        event.correct(Outcome(1, (("P1",), ("P4",)), note="right after all"))
-    event = event.correct(Outcome(1, (("P4",), ("P1",)), {"P4": 3.0}, note="score"))
+        event.correct(Result(1, (("P1",), ("P4",)), note="right after all"))
+    event = event.correct(Result(1, (("P4",), ("P1",)), {"P4": 3.0}, note="score"))
     assert event.outcomes[1].scores == {"P4": 3.0}
 
 

@@ -10,7 +10,7 @@ from pigaming_app.ai.registry import new_match
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import setup_of
-from pigaming_app.events.spec import Advance, Entrant, EventSpec, Format, Outcome
+from pigaming_app.events.spec import Advance, Entrant, EventSpec, Format, Result
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import decode, encode, verify
 from pigaming_app.scenes.events.quick_match import play
@@ -21,7 +21,7 @@ def of_four(*places: tuple[str, ...], advance: Advance = Advance.HALF) -> Event:
     """The first match of eight in matches of four, ended like this."""
     event = new_event(Format.KNOCKOUT, 8, seats=4, advance=advance)
     assert sorted(event.open[0].entrants) == ["P1", "P4", "P5", "P8"]
-    return event.record(Outcome(1, places))
+    return event.record(Result(1, places))
 
 
 def test_a_tie_is_played_off_before_anybody_goes_on():
@@ -60,9 +60,9 @@ def test_who_scores_first_has_the_place_and_the_others_play_on():
     event = of_four(("P8",), ("P5",), ("P1", "P4"), advance=Advance.HALF)
     assert 1 in event.outcomes
     event = of_four(("P1", "P4", "P5"), ("P8",))
-    event = event.record(Outcome(1, (("P5",), ("P1", "P4")), extra=1))
+    event = event.record(Result(1, (("P5",), ("P1", "P4")), extra=1))
     assert (sorted(event.open[0].entrants), event.open[0].extra) == (["P1", "P4"], 2)
-    event = event.record(Outcome(1, (("P4",), ("P1",)), extra=2))
+    event = event.record(Result(1, (("P4",), ("P1",)), extra=2))
     assert event.outcomes[1].places == (("P5",), ("P4",), ("P1",), ("P8",))
 
 
@@ -123,10 +123,10 @@ def test_a_correction_in_the_middle_replaces_the_match_and_its_extra_matches():
     event = new_event(Format.KNOCKOUT, 4)
     event = event.record(level(event.open[0]))
     event = event.record(level(event.open[0]))
-    corrected = event.correct(Outcome(1, (("P4",), ("P1",)), note="score"))
+    corrected = event.correct(Result(1, (("P4",), ("P1",)), note="score"))
     assert corrected.outcomes[1].places == (("P4",), ("P1",))
     assert [one.number for one in corrected.open] == [2]
-    again = corrected.correct(Outcome(1, (("P1", "P4"),), note="level after all"))
+    again = corrected.correct(Result(1, (("P1", "P4"),), note="level after all"))
     assert (again.open[0].number, again.open[0].extra) == (1, 1)
 
 
@@ -134,7 +134,7 @@ def test_a_tie_cannot_be_stated_once_a_match_that_depends_on_it_has_been_played(
     event = played(new_event(Format.KNOCKOUT, 4), rounds=1)
     event = event.record(best_seed_wins(event.open[0]))
     with pytest.raises(ValueError, match=r"^match 1 decides who goes on, and match 3 has been played since$"):
-        event.correct(Outcome(1, (("P1", "P4"),), note="level"))
+        event.correct(Result(1, (("P1", "P4"),), note="level"))
 
 
 def test_whoever_is_there_wins_the_extra_match_of_someone_who_leaves():

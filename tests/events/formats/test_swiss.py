@@ -7,7 +7,7 @@ from random import Random
 import pytest
 
 from pigaming_app.events.formats.swiss import default_rounds, pairing
-from pigaming_app.events.spec import Entrant, Format, Outcome
+from pigaming_app.events.spec import Entrant, Format, Result
 from tests.events.examples import by_chance, new_event, pairs_of, played
 
 
@@ -40,7 +40,7 @@ def test_an_odd_score_group_floats_its_last_one_down():
 def test_a_tie_is_half_a_point_each():
     """Worked by hand: a point P2, P3; half a point P1, P4, who have met; nothing P5, P6."""
     event = new_event(Format.SWISS, 6)
-    event = event.record(Outcome(event.open[0].number, (("P4", "P1"),)))
+    event = event.record(Result(event.open[0].number, (("P4", "P1"),)))
     event = played(event, rounds=1)
     assert [(row.entrant, row.points) for row in event.standings][2:4] == [("P1", 0.5), ("P4", 0.5)]
     assert pairs_of(event, 2) == [("P2", "P3"), ("P1", "P5"), ("P4", "P6")]

@@ -12,7 +12,7 @@ from pigaming_app.hardware.calibration.camera_task import SPOT  # noqa: E402
 from pigaming_app.hardware.calibration.ground_plane import MARKER  # noqa: E402
 from pigaming_app.hardware.emulator.arena import ARENA_AT, EmulatedArena  # noqa: E402
 from pigaming_app.hardware.emulator.objects import LID_HEIGHT, FlatObject, lid  # noqa: E402
-from pigaming_app.hardware.emulator.renderer import CameraScene  # noqa: E402
+from pigaming_app.hardware.emulator.renderer import ExposureSetup  # noqa: E402
 from pigaming_app.hardware.session.emulated import calibrated  # noqa: E402
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector  # noqa: E402
 from tests.hardware.tracking.blind_bed import TRUTH, BlindBed  # noqa: E402
@@ -42,7 +42,7 @@ def sights(arena):
             thing = FlatObject(lid(number), height, ((x, y, random.uniform(0.0, 6.0)),))
             for _ in range(7):
                 picture = arena.camera.painter.paint(
-                    CameraScene(page, (thing,), 0.1, 1.0, 100 + int(random.integers(1000)))
+                    ExposureSetup(page, (thing,), 0.1, 1.0, 100 + int(random.integers(1000)))
                 )
                 trials[-1] += detector.refine(picture, detector.detect(picture))
             trials[-1].append(None)

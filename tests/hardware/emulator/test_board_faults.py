@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from pigaming_app.hardware.emulator.wifi.boards import BoardConfig, Boards, Wheel
+from pigaming_app.hardware.emulator.wifi.boards import BoardConfig, Boards, WheelPins
 from pigaming_app.hardware.radio.packets import RESTARTED, drive_packet
 from pigaming_app.hardware.robot_files import PROGRAM
 from pigaming_app.hardware.signals import WheelCommand
@@ -15,8 +15,11 @@ from tests.hardware.emulator.one_board import ARENA, BACK, GO, ON, Arcade
 
 pytestmark = pytest.mark.usefixtures("micropython")
 DRIVERS = ("DRV8833", "TB6612", "L298N")
-IN_IN = {"board_esp32": (Wheel(25, 26), Wheel(32, 33)), "board_pico_w": (Wheel(10, 11), Wheel(12, 13))}
-ENABLE = {"board_esp32": (Wheel(26, 27, 25), Wheel(32, 33, 14)), "board_pico_w": (Wheel(11, 12, 10), Wheel(14, 15, 13))}
+IN_IN = {"board_esp32": (WheelPins(25, 26), WheelPins(32, 33)), "board_pico_w": (WheelPins(10, 11), WheelPins(12, 13))}
+ENABLE = {
+    "board_esp32": (WheelPins(26, 27, 25), WheelPins(32, 33, 14)),
+    "board_pico_w": (WheelPins(11, 12, 10), WheelPins(14, 15, 13)),
+}
 HERTZ = {"DRV8833": 20000, "TB6612": 20000, "L298N": 2000}
 TOP = 1200  # pulses a second of the board files' encoders
 STALLS = """

@@ -3,11 +3,11 @@
 import pytest
 
 from pigaming_app.hardware.emulator.arena import ARENA_ID, EmulatedArena
-from pigaming_app.hardware.emulator.xbee import Carrier as EmulatedCarrier
+from pigaming_app.hardware.emulator.xbee import EmulatedCarrier as EmulatedCarrier
 from pigaming_app.hardware.emulator.xbee import Module
 from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
-from pigaming_app.hardware.radio.xbee_setup import Carrier, Network, XBeeSetup, network_of, parameters
+from pigaming_app.hardware.radio.xbee_setup import Carrier, RadioNetwork, XBeeSetup, network_of, parameters
 from pigaming_app.storage.messages import OperatorError
 from tests.hardware.sentences import sentence
 from tests.hardware.wire import Time
@@ -49,7 +49,7 @@ def set_up(module, number, mode="api2", network=NETWORK, baud=57600, cable=None)
 
 def test_network_and_addresses_follow_from_the_arena():
     """4711 is 1267 (hex); channels are those that an XBee-PRO takes as well."""
-    assert Network(0x13, 0x5267) == NETWORK
+    assert RadioNetwork(0x13, 0x5267) == NETWORK
     assert {network_of(arena).channel for arena in range(1, 100)} == {*range(0x0C, 0x18)}
     assert network_of(4711, 0x1A, 0x3332) == (0x1A, 0x3332)
     assert str(NETWORK) == "CH 13, ID 5267"
@@ -73,7 +73,7 @@ def test_a_radio_in_any_mode_is_written_and_keeps_it(mode, baud, number, target)
 def test_a_refused_channel_is_one_sentence_and_nothing_is_saved(mode):
     module = Module(mode, 0, top_channel=0x17)
     with pytest.raises(OperatorError) as refusal:
-        set_up(module, 0, network=Network(0x1A, 1))
+        set_up(module, 0, network=RadioNetwork(0x1A, 1))
     assert sentence(refusal.value) == (
         "The radio at COM3 refuses CH 1A: choose another value. An XBee-PRO takes channels C to 17."
     )
@@ -85,8 +85,8 @@ def test_after_a_refusal_another_value_is_taken_at_once(mode):
     module = Module(mode, 0, top_channel=0x17)
     cable = Cable(module, Time())
     with pytest.raises(OperatorError):
-        set_up(module, 0, network=Network(0x1A, 1), cable=cable)
-    set_up(module, 0, network=Network(0x12, 1), cable=cable)
+        set_up(module, 0, network=RadioNetwork(0x1A, 1), cable=cable)
+    set_up(module, 0, network=RadioNetwork(0x12, 1), cable=cable)
     assert (module.saved[b"CH"], module.saved[b"ID"]) == (0x12, 1)
 
 

@@ -8,11 +8,11 @@ import pytest
 from pigaming_app.games.arenas import load, with_things
 from pigaming_app.hardware.scan.things import (
     MOST,
-    Layout,
     LayoutError,
     ProjectorPlace,
     Thing,
     ThingKind,
+    ThingLayout,
     largest,
     moved_outwards,
     read,
@@ -25,7 +25,7 @@ from tests.hardware.sentences import refused
 
 BOX = Thing(ThingKind.TALL, ((100.0, 100.0), (200.0, 110.0), (190.0, 180.0), (95.0, 170.0)), 82.5, 3.25)
 TAPE = Thing(ThingKind.FLAT, ((500.0, 500.0), (700.0, 500.0), (700.0, 519.0), (500.0, 519.0)), 0.0, 3.0)
-LAYOUT = Layout((BOX, TAPE), ProjectorPlace((712.0, 23.0), 2700.0))
+LAYOUT = ThingLayout((BOX, TAPE), ProjectorPlace((712.0, 23.0), 2700.0))
 
 
 def test_a_square_grows_by_the_same_distance_on_every_side():
@@ -43,7 +43,7 @@ def test_a_thing_is_removed_by_pointing_at_it():
 
 def test_the_things_stay_on_the_mat_until_the_next_start(tmp_path):
     path = tmp_path / "things.toml"
-    assert load_things(path) == Layout()
+    assert load_things(path) == ThingLayout()
     save_things(LAYOUT, path)
     assert load_things(path) == LAYOUT
 

@@ -11,7 +11,7 @@ from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.proof import testbed, trials
 from pigaming_app.jobs.bench import robots as bench_robots
-from pigaming_app.jobs.bench.robots import TARGETS, Job, jobs, on_mat, reached
+from pigaming_app.jobs.bench.robots import TARGETS, MatMatch, jobs, on_mat, reached
 from pigaming_app.jobs.cli import main
 from tests.ai.networks.random_network import random_network
 from tests.cases import one_in, repeated
@@ -27,7 +27,7 @@ def ground():
 def test_a_match_of_networks_on_the_mat_plays_to_its_end(game, ground, tmp_path):
     arena, path = jobs()[list(games()).index(game)].arena, tmp_path / "mine.npz"
     path.write_bytes(encode(random_network(1, game)))
-    run = on_mat(Job(game, arena, 30.0, 7, 0.05, brain=str(path), carried=True), ground)
+    run = on_mat(MatMatch(game, arena, 30.0, 7, 0.05, brain=str(path), carried=True), ground)
     assert run.deepest_mm < TARGETS["wall_entry_mm"]
     assert 3.0 <= run.seconds - run.paused < 4.0
 
@@ -43,7 +43,7 @@ def test_knocked_out_robots_keep_out_of_the_walls_on_the_mat(ground, monkeypatch
         return depth(state, x, y)
 
     monkeypatch.setattr(trials, "entered", noted)
-    run = on_mat(Job("pitanks", arena, 30.0, 7, 0.5, brain="hand2", carried=True, variant="party"), ground)
+    run = on_mat(MatMatch("pitanks", arena, 30.0, 7, 0.5, brain="hand2", carried=True, variant="party"), ground)
     assert seen["hits"] >= 10
     assert run.deepest_mm < TARGETS["wall_entry_mm"]
 

@@ -9,12 +9,12 @@ import pytest
 
 from pigaming_app import __version__
 from pigaming_app.jobs.kiosk.crash_reports import FOLDER, KEPT, Evidence, crash_log_size, keep_report
-from pigaming_app.jobs.kiosk.supervisor import Ending
+from pigaming_app.jobs.kiosk.supervisor import RunEnd
 from pigaming_app.storage.log import CRASH_FILE, FILE
 from pigaming_app.storage.restarts import FILE as RESTARTS
 from pigaming_app.storage.restarts import MAX_BYTES, Restart, append_restart, restarts
 
-KILLED = Ending(-signal.SIGKILL, 61.25, 3600)
+KILLED = RunEnd(-signal.SIGKILL, 61.25, 3600)
 NOW = datetime(2026, 5, 9, 14, 30)
 
 
@@ -61,9 +61,9 @@ def test_twenty_reports_are_kept_with_their_pictures(tmp_path: Path) -> None:
 
 
 def test_a_hang_is_described() -> None:
-    assert (Ending(None, 9.0, 1, 5.2).reason, Ending(None, 9.0, 1, 5.2).detail) == ("hang", "no frame for 5 s")
-    assert Ending(3, 1.0, 1).detail == "exit code 3"
-    assert Ending(-250, 1.0, 1).detail == "ended by signal 250"
+    assert (RunEnd(None, 9.0, 1, 5.2).reason, RunEnd(None, 9.0, 1, 5.2).detail) == ("hang", "no frame for 5 s")
+    assert RunEnd(3, 1.0, 1).detail == "exit code 3"
+    assert RunEnd(-250, 1.0, 1).detail == "ended by signal 250"
 
 
 def test_damaged_lines_are_left_out_and_a_torn_one_spoils_no_other(tmp_path: Path) -> None:

@@ -2,7 +2,7 @@
 
 import signal
 
-from pigaming_app.jobs.kiosk.supervisor import Ending, Limits, Supervisor
+from pigaming_app.jobs.kiosk.supervisor import Limits, RunEnd, Supervisor
 
 LIMITS = Limits()
 
@@ -51,7 +51,7 @@ def supervised(*plan: tuple[object, ...], interrupt_at: float = float("inf")):
     clock = Clock()
     clock.interrupt_at = interrupt_at
     arcades: list[Arcade] = []
-    endings: list[Ending] = []
+    endings: list[RunEnd] = []
 
     def start() -> Arcade:
         arcades.append(Arcade(clock, *plan[len(arcades)]))

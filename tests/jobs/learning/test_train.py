@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.learning.training import Training
+from pigaming_app.ai.learning.training import TableTraining
 from pigaming_app.ai.qlearning import table_files as tables
 from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.jobs.cli import main
@@ -43,7 +43,7 @@ def test_the_job_trains_and_prints_its_result(tmp_path, capsys):
     assert f"{Words('en')('lobby.classic').lower()} " in output.err
     rows = list(csv.DictReader(log.read_text().splitlines()))
     assert [row["matches"] for row in rows] == ["0", "1", "2", "3", "4"]
-    learner = Training(RECIPES[2], 5, fast=False, minutes=0.1)
+    learner = TableTraining(RECIPES[2], 5, fast=False, minutes=0.1)
     learner.run(1200)
     assert digest(read(out).rows[0]) == digest(learner._tables[0])
 

@@ -7,7 +7,7 @@ from math import cos, sin
 import pytest
 
 from pigaming_app.hardware.calibration.quality import CameraQuality
-from pigaming_app.hardware.emulator.xbee import Carrier as EmulatedCarrier
+from pigaming_app.hardware.emulator.xbee import EmulatedCarrier as EmulatedCarrier
 from pigaming_app.hardware.emulator.xbee import Module
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
 from pigaming_app.hardware.radio.protocol import LinkQuality

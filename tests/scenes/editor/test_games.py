@@ -10,7 +10,7 @@ from pigaming_app.games.arenas import load, shipped_arenas
 from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.games.factory.layout import PALLET
 from pigaming_app.games.race.circuit import read_course
-from pigaming_app.scenes.editor.checker import Verdict
+from pigaming_app.scenes.editor.checker import CheckResult
 from pigaming_app.scenes.editor.games.factory import _slots
 from pigaming_app.scenes.editor.model.shapes import Item
 from pigaming_app.scenes.editor.model.symmetry import Symmetry
@@ -223,7 +223,7 @@ def test_a_match_that_is_awaited_is_shown_and_can_be_called_off(mouse: Mouse, bu
     """The plan of a track takes a second."""
     editor = opened(mouse, "race")
     editor.bench.checker.end()
-    checks = Verdict(editor.bench.history.now, (), load("race", "classic"))
+    checks = CheckResult(editor.bench.history.now, (), load("race", "classic"))
     editor.bench.checker.verdict = checks
     mouse.arcade.press(Button.START)
     mouse.arcade.frame()

@@ -14,13 +14,13 @@ from pigaming_app.games.arenas import load, own_arenas, shipped_arenas
 from pigaming_app.games.drawing.values import Drawing, drawing_of
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor import store
-from pigaming_app.scenes.editor.checker import Checker, Verdict
+from pigaming_app.scenes.editor.checker import Checker, CheckResult
 from pigaming_app.scenes.editor.gallery.drawing_page import DrawingPage
 from pigaming_app.scenes.editor.gallery.page import Gallery
 from pigaming_app.scenes.editor.model.edits import placed, removed, replaced
 from pigaming_app.scenes.editor.model.history import History
 from pigaming_app.scenes.editor.model.symmetry import Symmetry
-from pigaming_app.scenes.editor.naming import NamePage
+from pigaming_app.scenes.editor.naming import ArenaNamePage
 from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
@@ -46,7 +46,7 @@ def empty(game: str) -> Drawing:
     return store.titled(tools.empty or drawing_of(load(game, tools.template).source), "NEW")
 
 
-def verdict_on(game: str, drawing: Drawing) -> Verdict:
+def verdict_on(game: str, drawing: Drawing) -> CheckResult:
     """The whole verdict, in this thread."""
     checker = Checker(EDITORS[game], "new-1")
     checker._asked, checker._planner.give = drawing, checker._plan  # type: ignore[method-assign]
@@ -220,7 +220,7 @@ def test_an_arena_is_played_renamed_shared_and_deleted(mouse: Mouse, home: Path)
     arcade.press(Button.START)
     arcade.press(Button.DOWN)
     arcade.press(Button.FIRE)
-    naming = arcade.shown(NamePage)
+    naming = arcade.shown(ArenaNamePage)
     arcade.wait(0.5)
     arcade.press(Button.UP)
     arcade.press(Button.START)
@@ -244,7 +244,7 @@ def test_in_a_kiosk_nothing_is_deleted_or_replaced(mouse: Mouse) -> None:
     mouse.arcade.context.kiosk = True
     store.save("race", "mine", store.titled(drawing_of(load("race", "classic").source), "MINE"), "new-1")
     assert [spot.name for spot in DrawingPage(mouse.arcade.context, "race", "mine").focus.spots] == ["edit", "play"]
-    naming = NamePage(mouse.arcade.context, "race", "new-1", "MINE", lambda name: None)
+    naming = ArenaNamePage(mouse.arcade.context, "race", "new-1", "MINE", lambda name: None)
     assert not naming.is_possible("MINE")
     assert naming.is_possible("OURS")
     mouse.arcade.context.kiosk = False
@@ -253,11 +253,11 @@ def test_in_a_kiosk_nothing_is_deleted_or_replaced(mouse: Mouse) -> None:
 
 @pytest.mark.parametrize("name", ["CLASSIC", "NEW 3", "CON"])
 def test_a_name_that_cannot_be_used_is_one_sentence_until_it_is_changed(mouse: Mouse, name: str) -> None:
-    naming = NamePage(mouse.arcade.context, "pitanks", "new-1", name, lambda name: None)
+    naming = ArenaNamePage(mouse.arcade.context, "pitanks", "new-1", name, lambda name: None)
     mouse.arcade.open(naming)
     mouse.arcade.wait(0.5)
     mouse.arcade.press(Button.START)
-    assert mouse.arcade.shown(NamePage) is naming
+    assert mouse.arcade.shown(ArenaNamePage) is naming
     assert naming._hint()[0] == mouse.arcade.context.words("lab.unusable")
     mouse.arcade.press(Button.UP)
     assert naming._hint()[0] == mouse.arcade.context.words("lab.name_how")

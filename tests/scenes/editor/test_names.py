@@ -8,7 +8,7 @@ import pytest
 from pigaming_app.games.arenas import load, shipped_arenas
 from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.scenes.editor import store
-from pigaming_app.scenes.editor.naming import NamePage
+from pigaming_app.scenes.editor.naming import ArenaNamePage
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.editor.toolbar import NAMES, RIGHT_COLUMN, W, box
@@ -69,7 +69,7 @@ def test_an_empty_name_proposes_a_free_one(
     arcade, entered = Arcade(controls, language), list[str]()
     drawing = drawing_of(load(game, shipped_arenas(game)[0]).source)
     for number in (1, 2):
-        page = NamePage(arcade.context, game, f"new-{number}", "", entered.append)
+        page = ArenaNamePage(arcade.context, game, f"new-{number}", "", entered.append)
         arcade.open(page)
         arcade.wait(0.5)
         proposed = page.name
@@ -86,5 +86,5 @@ def test_an_empty_name_proposes_a_free_one(
 
 def test_a_title_that_letters_cannot_spell_gets_a_proposal(controls: Controls) -> None:
     context = Arcade(controls).context
-    assert NamePage(context, "race", "x", "Circuit", lambda name: None).name == "CIRCUIT"
-    assert NamePage(context, "race", "x", "Überhang", lambda name: None).name == "TRACK 1"
+    assert ArenaNamePage(context, "race", "x", "Circuit", lambda name: None).name == "CIRCUIT"
+    assert ArenaNamePage(context, "race", "x", "Überhang", lambda name: None).name == "TRACK 1"

@@ -10,7 +10,7 @@ from pigaming_app.games.arenas import arenas, load, own_arenas
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor import store
 from pigaming_app.scenes.editor.gallery.page import Gallery
-from pigaming_app.scenes.editor.naming import NamePage
+from pigaming_app.scenes.editor.naming import ArenaNamePage
 from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
@@ -59,7 +59,7 @@ def story(artist: Artist) -> None:
     assert artist.editor is editor
     checked(artist)
     artist.choose("save")
-    page = arcade.shown(NamePage)
+    page = arcade.shown(ArenaNamePage)
     arcade.wait(0.5)
     arcade.press(Button.UP)
     arcade.press(Button.START)

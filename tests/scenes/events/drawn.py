@@ -4,7 +4,7 @@ from pathlib import Path
 
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
-from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Format, Outcome
+from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Format, Result
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.storage.settings import folders
 
@@ -33,10 +33,10 @@ def an_event(
     return Event(EventSpec(title, form, games, entrants, rounds, seats, minutes={"pitanks": 1.0}, fill=fill))
 
 
-def result_of(fixture: Fixture) -> Outcome:
+def result_of(fixture: Fixture) -> Result:
     """The alphabet decides, so that results differ from the seeding."""
     order = sorted(fixture.entrants, key=lambda name: name[::-1])
-    return Outcome(
+    return Result(
         fixture.number, tuple((name,) for name in order), {name: float(9 - i) for i, name in enumerate(order)}
     )
 
@@ -53,7 +53,7 @@ def played(event: Event, matches: int = 10_000) -> Event:
 def tied(event: Event) -> Event:
     """The event after a match without a winner."""
     fixture = event.open[0]
-    return event.record(Outcome(fixture.number, (fixture.entrants,), extra=fixture.extra))
+    return event.record(Result(fixture.number, (fixture.entrants,), extra=fixture.extra))
 
 
 def running(event: Event, name: str = "event") -> RunningEvent:

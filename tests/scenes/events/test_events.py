@@ -20,11 +20,11 @@ from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.next_view import match_line
-from pigaming_app.scenes.events.podium_page import PodiumPage, robots_of
+from pigaming_app.scenes.events.podium_page import EventPodiumPage, robots_of
 from pigaming_app.scenes.events.poster import drawn
 from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent
-from pigaming_app.scenes.events.seats import Seats
+from pigaming_app.scenes.events.seats import EventSeats
 from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
 from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
 from pigaming_app.scenes.events.setup.entrants_page import SENTENCE_ROOM, EntrantsPage
@@ -310,7 +310,7 @@ def test_another_match_may_become_the_next_one_while_cards_are_prepared(arcade: 
 
 def test_cards_are_prepared_to_the_last_although_the_file_is_read_anew(arcade: Arcade) -> None:
     run = running(an_event(seats=4))
-    jobs = Seats(arcade.context, run).jobs()
+    jobs = EventSeats(arcade.context, run).jobs()
     next(jobs)
     run.event = saved(run)
     assert len(list(jobs)) == 3
@@ -489,7 +489,7 @@ def test_matches_of_ais_are_played_in_the_background_and_counted_once(
     run = running(an_event(brains="level1"))
     at_next(arcade, run)
     arcade.press(Button.Y)
-    arcade.until(lambda: isinstance(arcade.stack.top, PodiumPage))
+    arcade.until(lambda: isinstance(arcade.stack.top, EventPodiumPage))
     assert len(saved(run).outcomes) == len(run.event.fixtures) == 6
 
 
@@ -507,16 +507,16 @@ def test_a_match_of_ais_is_a_show_and_the_next_one_begins_by_itself(arcade: Arca
 def test_the_podium_ends_an_event_and_leads_to_the_table(arcade: Arcade) -> None:
     run = running(played(an_event(Format.KNOCKOUT, 5)))
     at_next(arcade, run)
-    page = arcade.shown(PodiumPage)
+    page = arcade.shown(EventPodiumPage)
     assert page.best[0].entrant == run.event.standings[0].entrant
     assert not page.robots
     ais = running(played(an_event(Format.KNOCKOUT, 5, brains="level1")), "ais")
-    assert {row.entrant for row in PodiumPage(arcade.context, ais).best} <= robots_of(ais)
+    assert {row.entrant for row in EventPodiumPage(arcade.context, ais).best} <= robots_of(ais)
     arcade.wait(4.0, draw=True)
     arcade.press(Button.FIRE)
     arcade.shown(TablePage)
     arcade.press(Button.BACK)
-    arcade.shown(PodiumPage)
+    arcade.shown(EventPodiumPage)
 
 
 def test_an_event_goes_on_after_a_restart_and_a_damaged_one_is_listed(arcade: Arcade) -> None:
@@ -612,7 +612,7 @@ def test_every_page_survives_every_press(arcade: Arcade) -> None:
         lambda: EventPage(arcade.context, run.path, run, Pop()),
         lambda: EventPage(arcade.context, run.path, None, Pop()),
         lambda: TextPage(arcade.context, "Title", "Cup", 5, lambda text: ""),
-        lambda: PodiumPage(arcade.context, running(played(an_event(count=3)), "over")),
+        lambda: EventPodiumPage(arcade.context, running(played(an_event(count=3)), "over")),
     )
     for make in pages:
         for button in Button:

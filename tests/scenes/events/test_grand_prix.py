@@ -9,7 +9,7 @@ from pigaming_app.events.spec import Entrant, EventSpec, Format
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.next_page import INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.overview import TEAMS
-from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
@@ -87,7 +87,7 @@ def test_a_grand_prix_goes_on_after_a_restart_to_its_podium(arcade: Arcade, cont
     assert page.fixture
     assert page.fixture.game == "factory", "the second game"
     page.running.change(lambda event: played(event))
-    restarted.until(lambda: isinstance(restarted.stack.top, PodiumPage))
+    restarted.until(lambda: isinstance(restarted.stack.top, EventPodiumPage))
     assert [fixture.game for fixture in saved(run).fixtures] == shown_games()
     assert saved(run).outcomes[1] == before.outcomes[1]
 
@@ -108,7 +108,7 @@ def test_teams_play_together_and_have_a_table_and_a_podium(arcade: Arcade) -> No
     table = TablePage(arcade.context, run)
     assert (TEAMS, 0) in table.overview.pages
     run.change(lambda event: played(event))
-    assert {row.entrant for row in PodiumPage(arcade.context, run).best} == {"A", "B"}
+    assert {row.entrant for row in EventPodiumPage(arcade.context, run).best} == {"A", "B"}
 
 
 def test_nobody_fills_the_seats_if_that_is_switched_off(arcade: Arcade) -> None:

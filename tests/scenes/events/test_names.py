@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.events.event import Event
-from pigaming_app.events.spec import Entrant, EventSpec, Format, Outcome
-from pigaming_app.games.game import Outcome as MatchOutcome
+from pigaming_app.events.spec import Entrant, EventSpec, Format, Result
+from pigaming_app.games.game import Result as MatchOutcome
 from pigaming_app.games.game import Row
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.events.names import places_line
@@ -120,7 +120,7 @@ def test_winners_are_named_in_teams_too(winners: tuple[int, ...], names: Sequenc
 
 
 def test_a_result_is_one_line_of_large_type() -> None:
-    outcome = Outcome(1, tuple((name,) for name in NAMES))
+    outcome = Result(1, tuple((name,) for name in NAMES))
     line = places_line(outcome, 1000)
     assert text_width(line, BODY) <= 1000
     assert line.startswith("1. Ana   2. Maxi")

@@ -10,7 +10,7 @@ from pigaming_app.events.spec import Format
 from pigaming_app.scenes.app import App
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.next_page import INPUT_LOCKOUT, NextMatch
-from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.flow.stack import Home, Push
 from pigaming_app.scenes.launch import Options
@@ -98,7 +98,7 @@ def test_a_scene_that_fails_leads_back_to_the_event_once(data: Path) -> None:
 
 def test_an_event_that_is_over_opens_its_podium(data: Path) -> None:
     resume.mark(data, running(played(an_event(count=3))).path)
-    assert shown() is PodiumPage
+    assert shown() is EventPodiumPage
 
 
 def test_a_power_cut_during_a_save_opens_the_backup(data: Path) -> None:

@@ -9,7 +9,7 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Format
 from pigaming_app.scenes.events.manage.corrections import Correction, ResultsList
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
-from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
@@ -101,7 +101,7 @@ def test_lots_are_announced_even_after_the_last_match(arcade: Arcade) -> None:
     assert run.event.outcomes[number].places[0] == (unbeaten,)
     assert run.event.over
     assert arcade.shown(NextMatch).message == words("events.lots", name=unbeaten)
-    arcade.until(lambda: isinstance(arcade.stack.top, PodiumPage), 5.0)
+    arcade.until(lambda: isinstance(arcade.stack.top, EventPodiumPage), 5.0)
 
 
 def test_a_tie_is_corrected_while_its_extra_match_is_open(arcade: Arcade) -> None:

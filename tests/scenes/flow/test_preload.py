@@ -14,10 +14,10 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow import arena_preload as arena_jobs
 from pigaming_app.scenes.flow import preload
 from pigaming_app.scenes.flow.preload import Preloader
-from pigaming_app.scenes.lab.background import Background
+from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
-from pigaming_app.scenes.lobby.seats import Seats
+from pigaming_app.scenes.lobby.seats import LobbySeats
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.start import opened
 from pigaming_app.sim.kernel import can_compile
@@ -115,7 +115,7 @@ def test_a_game_that_never_starts_does_not_keep_the_others_waiting(
 
 def test_a_match_waits_on_its_page_until_its_arena_is_ready(controls: object, home: Path) -> None:
     arcade = Arcade(controls)  # type: ignore[arg-type]
-    seats = Seats("level3")
+    seats = LobbySeats("level3")
     seats.join(KEYS[0])
     seats.add_opponents()
     page = MatchSetupPage(arcade.context, "pitanks", seats)
@@ -145,7 +145,7 @@ def test_the_compilers_run_once_from_the_title_on_and_end_with_the_arcade(
     home: Path, prepared: list[tuple[str, str]], name: str
 ) -> None:
     with opened(Options(headless=True)) as app:
-        background = app.context.shared(Background)
+        background = app.context.shared(LabBackground)
         compiler: Compiler = getattr(background, name)
         background.compiler._command = background.network_compiler._command = ENDLESS
         app.compose(1 / 60)
@@ -169,7 +169,7 @@ def test_the_compilers_run_once_from_the_title_on_and_end_with_the_arcade(
 @pytest.mark.parametrize("simulated", [True, False], ids=["in simulated time", "with a match on top"])
 def test_nothing_is_prepared_where_no_title_is_shown(home: Path, simulated: bool) -> None:
     def first(context: object) -> MatchSetupPage:
-        seats = Seats("level3")
+        seats = LobbySeats("level3")
         seats.join(KEYS[0])
         return MatchSetupPage(context, "pitanks", seats)  # type: ignore[arg-type]
 
@@ -178,7 +178,7 @@ def test_nothing_is_prepared_where_no_title_is_shown(home: Path, simulated: bool
         for _ in range(30):
             app.compose(1 / 60)
         assert not app.context.preloader.busy
-        assert app.context.shared(Background).compiler._process is None
+        assert app.context.shared(LabBackground).compiler._process is None
 
 
 def test_a_compiler_that_was_ended_before_it_began_never_begins() -> None:

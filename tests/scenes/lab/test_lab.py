@@ -14,7 +14,7 @@ from pigaming_app.scenes.flow.stack import Home, Pop, Stack, StackOperation
 from pigaming_app.scenes.lab import progress, scene
 from pigaming_app.scenes.lab import trainer as trainer
 from pigaming_app.scenes.lab import view as page
-from pigaming_app.scenes.lab.background import Background
+from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.layout import CURVE, KNOB_NAMES, MATCH, PLOT, SPEED
 from pigaming_app.scenes.lab.learning_curve import Measure, room, smoothed
 from pigaming_app.scenes.lab.pages.challenge import ROBOT, Challenge, ChallengeResult
@@ -64,7 +64,7 @@ def at_full_speed(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_from_the_title_into_the_lab_and_back_and_the_robot_is_still_there(arcade: Arcade) -> None:
     arcade.stack = Stack(Title(arcade.context))
-    background = arcade.context.shared(Background)
+    background = arcade.context.shared(LabBackground)
     background.lab = Lab(arcade.context, fast=False)
     for _ in range(2):
         title = arcade.shown(Title)
@@ -91,7 +91,7 @@ def test_its_pictures_go_when_it_is_left(arcade: Arcade, way: StackOperation) ->
 
 def lab_of(arcade: Arcade) -> Lab:
     arcade.shown(Title)
-    scene = arcade.context.shared(Background).lab
+    scene = arcade.context.shared(LabBackground).lab
     assert isinstance(scene, Lab)
     return scene
 

@@ -14,7 +14,7 @@ import pytest
 from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.ai.networks.files import TrainedNetwork
 from pigaming_app.scenes.lab import saved_robots, scene
-from pigaming_app.scenes.lab.background import Background
+from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.extra_fetch import ExtraFetch
 from pigaming_app.scenes.lab.layout import MATCH
 from pigaming_app.scenes.lab.network.fetch_page import FetchPage
@@ -42,14 +42,14 @@ BROKEN = (sys.executable, "-c", "exit(1)")
 @pytest.fixture
 def arcade(controls: Controls, home: Path) -> Iterator[Arcade]:
     arcade = Arcade(controls)
-    arcade.context.shared(Background).network_compiler = Compiler(NOTHING)
+    arcade.context.shared(LabBackground).network_compiler = Compiler(NOTHING)
     lab = Lab(arcade.context, fast=False)
-    lab.network = NetworkTrainer(5, arcade.context.shared(Background).network_compiler, PLAIN)
+    lab.network = NetworkTrainer(5, arcade.context.shared(LabBackground).network_compiler, PLAIN)
     arcade.open(lab)
     arcade.wait(0.5)
     yield arcade
     lab.network.end()
-    arcade.context.shared(Background).network_compiler.end()
+    arcade.context.shared(LabBackground).network_compiler.end()
 
 
 def lab(arcade: Arcade) -> Lab:
@@ -194,7 +194,7 @@ def test_a_process_that_is_killed_starts_again_where_it_was_and_the_page_shows_o
 @pytest.mark.parametrize("broken", ["process", "compiler"])
 def test_where_the_network_cannot_train_only_the_table_is_left(arcade: Arcade, broken: str) -> None:
     here = lab(arcade)
-    compiler = Compiler(BROKEN) if broken == "compiler" else arcade.context.shared(Background).network_compiler
+    compiler = Compiler(BROKEN) if broken == "compiler" else arcade.context.shared(LabBackground).network_compiler
     here.network = NetworkTrainer(5, compiler, BROKEN)
     choose_network(arcade)
     wait(arcade, lambda: here.kind == TABLE)
@@ -213,7 +213,7 @@ def test_without_numba_the_switch_fetches_it_and_tells_what_to_do(
 ) -> None:
     monkeypatch.setattr("pigaming_app.scenes.lab.network.trainer.can_compile", lambda: False)
     arcade = Arcade(controls, "pt")
-    arcade.context.shared(Background).network_fetch = fetching("print('offline')")
+    arcade.context.shared(LabBackground).network_fetch = fetching("print('offline')")
     here = Lab(arcade.context, fast=False)
     arcade.open(here)
     arcade.wait(0.5)
@@ -244,7 +244,7 @@ def test_after_a_failure_another_try_fetches_it_and_the_network_half_opens(
         f"print('0.250', flush=True)\nwhile pathlib.Path({str(online)!r}).read_text() != 'go': time.sleep(0.01)\n"
         f"pathlib.Path({str(there)!r}).touch(); print('done')"
     )
-    fetch = arcade.context.shared(Background).network_fetch = fetching(program)
+    fetch = arcade.context.shared(LabBackground).network_fetch = fetching(program)
     here = Lab(arcade.context, fast=False)
     arcade.open(here)
     arcade.wait(0.5)

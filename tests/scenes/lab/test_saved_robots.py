@@ -9,7 +9,7 @@ import pytest
 from pigaming_app.ai.qlearning.table_files import Trained, decode, encode
 from pigaming_app.scenes.lab import saved_robots as robots
 from pigaming_app.scenes.lab.pages.menu import LabMenu
-from pigaming_app.scenes.lab.pages.name_page import NamePage
+from pigaming_app.scenes.lab.pages.name_page import RobotNamePage
 from pigaming_app.scenes.lab.pages.open_page import COLUMNS, ROWS, OpenPage
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.sim.record import digest
@@ -44,12 +44,12 @@ def menu(arcade: Arcade, item: str) -> None:
 def save(arcade: Arcade, name: str) -> None:
     """Save the robot under a name, entered letter by letter."""
     menu(arcade, "save")
-    page = arcade.shown(NamePage)
+    page = arcade.shown(RobotNamePage)
     spell(page, name)
     arcade.press(Button.START)
 
 
-def spell(page: NamePage, name: str) -> None:
+def spell(page: RobotNamePage, name: str) -> None:
     page.picker.letters = [robots.LETTERS.index(letter) for letter in name.ljust(robots.LENGTH)]
 
 
@@ -61,7 +61,7 @@ def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Ar
         arcade.shown(LabMenu)
         pad.tap("a")
         arcade.wait(0.5)
-        page = arcade.shown(NamePage)
+        page = arcade.shown(RobotNamePage)
         spell(page, "A")
         pad.tap("down")
         arcade.wait(0.1)
@@ -95,7 +95,7 @@ def test_another_robot_of_that_name_is_not_replaced_at_once(arcade: Arcade) -> N
     lab(arcade).begin()
     arcade.wait(0.5)
     save(arcade, "VOLT")
-    page = arcade.shown(NamePage)
+    page = arcade.shown(RobotNamePage)
     assert page.taken
     assert robots.file_of("VOLT").read_bytes() == before
     arcade.press(Button.START)
@@ -106,14 +106,14 @@ def test_another_robot_of_that_name_is_not_replaced_at_once(arcade: Arcade) -> N
 def test_saving_again_under_the_same_name_needs_no_question(arcade: Arcade) -> None:
     save(arcade, "NEON")
     menu(arcade, "save")
-    assert arcade.shown(NamePage).name == "NEON"
+    assert arcade.shown(RobotNamePage).name == "NEON"
     arcade.press(Button.START)
     assert lab(arcade).name == "NEON"
 
 
 def test_an_empty_name_is_invalid(arcade: Arcade) -> None:
     save(arcade, " ")
-    arcade.shown(NamePage)
+    arcade.shown(RobotNamePage)
     assert robots.names() == []
     arcade.press(Button.BACK)
     lab(arcade)
@@ -121,7 +121,7 @@ def test_an_empty_name_is_invalid(arcade: Arcade) -> None:
 
 def test_a_mouse_spells_too(arcade: Arcade) -> None:
     menu(arcade, "save")
-    page = arcade.shown(NamePage)
+    page = arcade.shown(RobotNamePage)
     spell(page, "AB")
     arcade.click(page.middle(1), 510 + 160)
     assert (page.picker.slot, page.name) == (1, "AC")

@@ -16,7 +16,7 @@ from pigaming_app.scenes.lobby import scene as lobby
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.lobby.seat_card import DRIVE_Y, ROW_Y
-from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, Seats
+from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, LobbySeats
 from pigaming_app.scenes.lobby.view import card_rect, level_words
 from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.title.scene import Title
@@ -40,7 +40,7 @@ def kinds(arcade: Arcade) -> str:
     return letters(arcade.shown(Lobby).seats)
 
 
-def letters(seats: Seats) -> str:
+def letters(seats: LobbySeats) -> str:
     """The seats as letters: H, A or a dot."""
     return "".join({HUMAN: "H", AI: "A", EMPTY: "."}[place.kind] for place in seats.places)
 

@@ -15,7 +15,7 @@ from pigaming_app.scenes.flow.match_choice import change_rules, playable_arenas
 from pigaming_app.scenes.lobby import match_setup as setup
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage, row_sizes, rows
 from pigaming_app.scenes.lobby.match_setup_view import APART, CHIP, PAD, W, short_boxes
-from pigaming_app.scenes.lobby.seats import Seats
+from pigaming_app.scenes.lobby.seats import LobbySeats
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.settings import Choice
 from pigaming_app.ui.draw.text import SMALLEST, fit_lines
@@ -30,7 +30,7 @@ from tests.ui.input.virtual_pad import VirtualPad
 def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     arcade = Arcade(controls)
-    seats = Seats()
+    seats = LobbySeats()
     seats.join(KEYS[0])
     seats.add_ai()
     arcade.open(MatchSetupPage(arcade.context, "pitanks", seats))
@@ -108,7 +108,7 @@ def test_a_seat_without_its_pad_leads_back_to_the_lobby(arcade: Arcade) -> None:
 
 def test_an_arena_that_is_gone_and_minutes_that_are_not_offered_give_way(arcade: Arcade) -> None:
     arcade.context.settings.games["pitanks"] = Choice("atlantis", 47, "nonsense", 9)
-    fresh = MatchSetupPage(arcade.context, "pitanks", Seats())
+    fresh = MatchSetupPage(arcade.context, "pitanks", LobbySeats())
     rules = games()["pitanks"]
     assert fresh.chosen == Choice("classic", rules.default.default_minutes, rules.default.name, 0)
 
@@ -131,7 +131,7 @@ def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.Mon
 @pytest.mark.parametrize("game", [game for game in games() if games()[game].default.goals])
 def test_a_game_with_a_goal_asks_for_it_and_keeps_what_each_game_chose(arcade: Arcade, game: str) -> None:
     rules = games()[game]
-    seats = Seats(team_mode=rules.default.team_mode)
+    seats = LobbySeats(team_mode=rules.default.team_mode)
     seats.join(KEYS[0])
     seats.add_opponents()
     arcade.open(MatchSetupPage(arcade.context, game, seats))
@@ -159,7 +159,7 @@ def test_only_what_can_be_chosen_is_a_row() -> None:
 
 
 def test_the_seats_follow_the_team_mode_of_the_chosen_rules(arcade: Arcade) -> None:
-    seats = Seats(team_mode=PAIRS)
+    seats = LobbySeats(team_mode=PAIRS)
     seats.join(KEYS[0])
     seats.add_opponents()
     arcade.open(MatchSetupPage(arcade.context, "factory", seats))

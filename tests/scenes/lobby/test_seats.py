@@ -4,21 +4,21 @@ import pytest
 
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.games.game import ALLIES, ALONE, FREE, PAIRS, Seat
-from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, REAL, RIVALS, TEAM, Seats
+from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, REAL, RIVALS, TEAM, LobbySeats
 from pigaming_app.ui.input.events import Device
 
 ANA, BEN, CARLA, DAVID, EVA = (Device("pad", number) for number in range(5))
 
 
 def test_the_first_to_join_is_player_1() -> None:
-    seats = Seats()
+    seats = LobbySeats()
     assert [seats.join(device) for device in (BEN, ANA)] == [0, 1]
     assert seats.devices() == [BEN, ANA, None, None]
     assert seats.seats() == (Seat("human", 0), Seat("human", 1), Seat("off", 2), Seat("off", 3))
 
 
 def test_a_seat_that_was_left_is_the_next_to_be_taken() -> None:
-    seats = Seats()
+    seats = LobbySeats()
     for device in (ANA, BEN, CARLA):
         seats.join(device)
     seats.leave(1)
@@ -26,7 +26,7 @@ def test_a_seat_that_was_left_is_the_next_to_be_taken() -> None:
 
 
 def test_an_ai_makes_room_for_a_person_and_four_people_for_nobody() -> None:
-    seats = Seats()
+    seats = LobbySeats()
     seats.join(ANA)
     assert [seats.add_ai() for _ in range(4)] == [1, 2, 3, None]
     assert seats.join(BEN) == 3
@@ -38,7 +38,7 @@ def test_an_ai_makes_room_for_a_person_and_four_people_for_nobody() -> None:
 
 @pytest.mark.parametrize("teams", [False, True])
 def test_one_person_alone_gets_ais_on_all_seats_in_even_teams(teams: bool) -> None:
-    seats = Seats(teams=teams)
+    seats = LobbySeats(teams=teams)
     seats.join(ANA)
     assert seats.add_opponents() == [1, 2, 3]
     assert [place.team for place in seats.places].count(0) == 2
@@ -47,7 +47,7 @@ def test_one_person_alone_gets_ais_on_all_seats_in_even_teams(teams: bool) -> No
 
 
 def test_two_people_play_alone_unless_they_ask_for_ais() -> None:
-    seats = Seats()
+    seats = LobbySeats()
     seats.join(ANA)
     seats.add_opponents()
     assert seats.join(BEN) == 1
@@ -59,7 +59,7 @@ def test_two_people_play_alone_unless_they_ask_for_ais() -> None:
 
 
 def test_ais_that_nobody_asked_for_leave_with_the_last_person() -> None:
-    seats = Seats()
+    seats = LobbySeats()
     seats.join(ANA)
     seats.add_opponents()
     seats.leave(0)
@@ -71,7 +71,7 @@ def test_ais_that_nobody_asked_for_leave_with_the_last_person() -> None:
 
 
 def test_a_person_alone_keeps_one_opponent_when_the_others_go() -> None:
-    seats = Seats(team_mode=PAIRS)
+    seats = LobbySeats(team_mode=PAIRS)
     seats.join(ANA)
     seats.change_team(0)
     seats.add_opponents()
@@ -81,7 +81,7 @@ def test_a_person_alone_keeps_one_opponent_when_the_others_go() -> None:
 
 
 def test_the_rows_of_a_card_are_those_that_can_be_changed() -> None:
-    seats = Seats(teams=True, mat=True)
+    seats = LobbySeats(teams=True, mat=True)
     seats.join(ANA)
     assert seats.rows(0) == [REAL, TEAM, DRIVE]
     assert seats.row(0) == TEAM
@@ -97,7 +97,7 @@ def test_the_rows_of_a_card_are_those_that_can_be_changed() -> None:
 
 
 def test_a_new_player_joins_the_smaller_team() -> None:
-    seats = Seats(teams=True)
+    seats = LobbySeats(teams=True)
     for device in (ANA, BEN, CARLA):
         seats.join(device)
     seats.places[1].team = 0
@@ -110,7 +110,7 @@ def test_a_new_player_joins_the_smaller_team() -> None:
 
 @pytest.mark.parametrize(("steps", "strength"), [(1, "level4"), (3, "level5"), (-1, "level2"), (-3, "level1")])
 def test_all_ais_become_stronger_or_weaker_up_to_an_end(steps: int, strength: str) -> None:
-    seats = Seats()
+    seats = LobbySeats()
     seats.add_ai()
     seats.add_ai()
     for _ in range(abs(steps)):
@@ -121,17 +121,17 @@ def test_all_ais_become_stronger_or_weaker_up_to_an_end(steps: int, strength: st
 
 
 def test_one_ai_goes_round_and_leaves_the_others_as_they_are() -> None:
-    seats = Seats()
+    seats = LobbySeats()
     seats.add_ai()
     seats.add_ai()
     for _ in range(3):
         seats.change_strength(1, 0)
     assert [seats.places[i].strength for i in (0, 1)] == ["level1", "level3"]
-    assert not Seats().change_strength(1)
+    assert not LobbySeats().change_strength(1)
 
 
 def test_sending_the_ais_away_leaves_the_people() -> None:
-    seats = Seats()
+    seats = LobbySeats()
     for device in (ANA, BEN):
         seats.join(device)
     seats.add_ai()
@@ -139,12 +139,12 @@ def test_sending_the_ais_away_leaves_the_people() -> None:
     assert (seats.of_kind(HUMAN), seats.of_kind(AI), seats.of_kind(EMPTY)) == ([0, 1], [], [2, 3])
 
 
-def team_of(seats: Seats) -> list[int]:
+def team_of(seats: LobbySeats) -> list[int]:
     return [place.team for place in seats.places if place.kind != EMPTY]
 
 
 def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> None:
-    seats = Seats(team_mode=PAIRS)
+    seats = LobbySeats(team_mode=PAIRS)
     assert [seats.join(ANA), seats.join(BEN)] == [0, 1]
     assert team_of(seats) == [0, 1]
     assert not seats.add_opponents(), "one against one is a match too"
@@ -156,14 +156,14 @@ def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> N
 
 
 def test_one_person_alone_gets_a_mate_and_two_rivals() -> None:
-    seats = Seats(team_mode=PAIRS)
+    seats = LobbySeats(team_mode=PAIRS)
     seats.join(ANA)
     assert seats.add_opponents() == [1, 2, 3]
     assert sorted(team_of(seats)) == [0, 0, 1, 1]
 
 
 def test_a_side_never_holds_three_robots_and_the_ai_changes_sides() -> None:
-    seats = Seats(team_mode=PAIRS)
+    seats = LobbySeats(team_mode=PAIRS)
     for device in (ANA, BEN):
         seats.join(device)
     seats.add_ai()
@@ -174,7 +174,7 @@ def test_a_side_never_holds_three_robots_and_the_ai_changes_sides() -> None:
 
 
 def test_in_a_race_everyone_drives_alone_against_three() -> None:
-    seats = Seats(team_mode=ALONE, teams=True)
+    seats = LobbySeats(team_mode=ALONE, teams=True)
     seats.join(ANA)
     assert seats.add_opponents() == [1, 2, 3]
     assert [seat.team for seat in seats.seats()] == [0, 1, 2, 3]
@@ -182,7 +182,7 @@ def test_in_a_race_everyone_drives_alone_against_three() -> None:
 
 
 def test_a_game_with_more_rivals_offers_them_after_the_strongest() -> None:
-    seats = Seats(rivals=(*LEVELS, "q1", "q2"))
+    seats = LobbySeats(rivals=(*LEVELS, "q1", "q2"))
     seats.add_ai()
     for wanted in ("level4", "level5", "q1", "q2", "q2"):
         seats.change_strength(1)
@@ -192,7 +192,7 @@ def test_a_game_with_more_rivals_offers_them_after_the_strongest() -> None:
 
 
 def test_among_allies_all_are_in_one_team_and_a_person_alone_gets_mates() -> None:
-    seats = Seats(team_mode=ALLIES)
+    seats = LobbySeats(team_mode=ALLIES)
     seats.join(ANA)
     assert not seats.one_team, "no opponents are missing"
     assert seats.add_opponents() == [1, 2, 3]
@@ -201,14 +201,14 @@ def test_among_allies_all_are_in_one_team_and_a_person_alone_gets_mates() -> Non
 
 
 def test_two_allies_need_nobody_else() -> None:
-    seats = Seats(team_mode=ALLIES)
+    seats = LobbySeats(team_mode=ALLIES)
     seats.join(ANA)
     seats.join(BEN)
     assert not seats.add_opponents()
 
 
 def test_with_the_rule_set_the_seats_change_from_pairs_to_allies_and_back() -> None:
-    seats = Seats(team_mode=PAIRS)
+    seats = LobbySeats(team_mode=PAIRS)
     for device in (ANA, BEN):
         seats.join(device)
     seats.change_mode(ALLIES)
@@ -219,7 +219,7 @@ def test_with_the_rule_set_the_seats_change_from_pairs_to_allies_and_back() -> N
 
 
 def test_allies_who_become_pairs_are_two_on_each_side() -> None:
-    seats = Seats(team_mode=ALLIES)
+    seats = LobbySeats(team_mode=ALLIES)
     seats.join(ANA)
     seats.add_opponents()
     for place in seats.places:
@@ -230,7 +230,7 @@ def test_allies_who_become_pairs_are_two_on_each_side() -> None:
 
 
 def test_one_ally_alone_gets_opponents_with_another_rule_set() -> None:
-    seats = Seats(team_mode=ALLIES)
+    seats = LobbySeats(team_mode=ALLIES)
     seats.join(ANA)
     seats.change_mode(PAIRS)
     assert seats.robots == 4
@@ -238,7 +238,7 @@ def test_one_ally_alone_gets_opponents_with_another_rule_set() -> None:
 
 
 def test_the_same_team_mode_changes_nothing() -> None:
-    seats = Seats(team_mode=FREE, teams=True)
+    seats = LobbySeats(team_mode=FREE, teams=True)
     seats.join(ANA)
     seats.change_mode(FREE)
     assert seats.teams

@@ -22,7 +22,7 @@ NO_MEMORY, UNREADABLE, FAILS = "memory", "unreadable", "fails"  # faults
 SILENT = 4  # log level of onnxruntime: fatal errors only
 
 
-class Guard:
+class ModelGuard:
     """Ends the process when a decision takes too long or the model takes too much memory, within its code too."""
 
     def __init__(self) -> None:
@@ -122,7 +122,7 @@ def main(size: int) -> None:
     onnxruntime.set_default_logger_severity(SILENT)
     source, target = sys.stdin.buffer, sys.stdout.buffer
     send(target, READY)
-    guard = Guard()
+    guard = ModelGuard()
     limit_memory()
     fault = UNREADABLE
     try:

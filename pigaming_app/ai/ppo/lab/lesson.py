@@ -13,7 +13,7 @@ from pigaming_app.ai.networks.pitanks import ENCODING, GUN, OTHERS, TURNS
 from pigaming_app.ai.networks.policy import packed_layers
 from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin, Habit, Report, State, Weights
 from pigaming_app.ai.ppo.lab.task import HYPER, MINUTES, RELOADED, RIVAL, STAND, TASK, NetworkRecipe, task_of
-from pigaming_app.ai.ppo.learner import Network
+from pigaming_app.ai.ppo.learner import PolicyNetwork
 from pigaming_app.ai.ppo.training import Training, in_threads
 from pigaming_app.ai.ppo.win_rates import win_rates
 from pigaming_app.sim.world import HZ
@@ -30,7 +30,7 @@ GRAIN, INTERVAL = 25, 0.5  # measurements over the length of the curve, about; s
 MOST = sum(log(choices) for _, choices in ENCODING.heads)  # entropy of random play
 
 
-class Lesson:
+class LabTraining:
     """One training of the Lab's network."""
 
     def __init__(self, begin: Begin, threads: Executor) -> None:
@@ -114,7 +114,7 @@ class Situations:
         for sector in np.unique(sectors):
             self.known[sector] = np.concatenate([self.known[sector], inputs[sectors == sector]])[-KEPT:]
 
-    def habits(self, policy: Network, value: Network) -> tuple[Habit | None, ...]:
+    def habits(self, policy: PolicyNetwork, value: PolicyNetwork) -> tuple[Habit | None, ...]:
         """What the network does with the opponent in each direction, and what it expects from it."""
         inputs = np.concatenate(self.known)
         values, chances = value.forward(inputs)[0][0], probabilities(policy.forward(inputs)[0].T)

@@ -43,7 +43,7 @@ class Begin(NamedTuple):
     state: State | None = None  # to continue from; None: a fresh network
 
 
-class Order(NamedTuple):
+class TrainingOrder(NamedTuple):
     """How to train, until the next order; void after `PATIENCE`."""
 
     recipe: NetworkRecipe = NetworkRecipe()

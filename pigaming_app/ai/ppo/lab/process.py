@@ -15,10 +15,10 @@ from threading import Condition, Thread
 from time import monotonic
 from typing import BinaryIO
 
-from pigaming_app.ai.ppo.lab.messages import PATIENCE, Begin, Order, Report
+from pigaming_app.ai.ppo.lab.messages import PATIENCE, Begin, Report, TrainingOrder
 from pigaming_app.storage.background import exit_with_parent
 
-PAUSE = Order()
+PAUSE = TrainingOrder()
 REPORTS = 0.15  # s between two reports at least
 UNUSED = 600.0  # s without an order after which the process ends
 
@@ -32,7 +32,7 @@ class Inbox:
         self._order, self._ordered = PAUSE, monotonic()
         Thread(target=self._read, args=(stream,), daemon=True).start()
 
-    def wait(self) -> tuple[Begin, Order]:
+    def wait(self) -> tuple[Begin, TrainingOrder]:
         """What to do now; waits during a pause. Ends the process when it is not used for long."""
         with self._news:
             while self._begin is None or not self._pace:
@@ -41,7 +41,7 @@ class Inbox:
                 self._news.wait(1.0)
             return self._begin, self._order
 
-    def rest(self, begin: Begin, order: Order, until: float) -> None:
+    def rest(self, begin: Begin, order: TrainingOrder, until: float) -> None:
         """Wait, but not if there is something else to do."""
         with self._news:
             while (left := until - monotonic()) > 0.0 and self._begin is begin and self._pace == order.pace:
@@ -67,19 +67,19 @@ class Inbox:
 
 def serve(inbox: Inbox, reports: BinaryIO) -> None:
     """Train as ordered, for ever. Raises ImportError without numba, OSError when the arcade has ended."""
-    from pigaming_app.ai.ppo.lab.lesson import LESSON, Lesson
+    from pigaming_app.ai.ppo.lab.lesson import LESSON, LabTraining
 
     def send(report: Report) -> None:
         pickle.dump(report, reports)
         reports.flush()
 
-    lesson: Lesson | None = None
+    lesson: LabTraining | None = None
     due = sent = 0.0
     with ThreadPoolExecutor(1) as threads:
         while True:
             begin, order = inbox.wait()
             if lesson is None or lesson.number != begin.number:
-                lesson, due = Lesson(begin, threads), monotonic()
+                lesson, due = LabTraining(begin, threads), monotonic()
                 send(lesson.report())
             lesson.learn(order.recipe)
             if monotonic() - sent >= REPORTS:
@@ -91,10 +91,10 @@ def serve(inbox: Inbox, reports: BinaryIO) -> None:
 
 def compile_lesson() -> None:
     """Compile or load the loop. Raises ImportError without numba."""
-    from pigaming_app.ai.ppo.lab.lesson import Lesson
+    from pigaming_app.ai.ppo.lab.lesson import LabTraining
 
     with ThreadPoolExecutor(1) as threads:
-        Lesson(Begin(0, 1), threads).report()
+        LabTraining(Begin(0, 1), threads).report()
 
 
 def main(arguments: list[str]) -> None:

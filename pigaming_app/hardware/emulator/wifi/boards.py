@@ -32,7 +32,7 @@ class NoMicroPython(Exception):
     """MicroPython cannot be run here; the text says why."""
 
 
-class Wheel(NamedTuple):
+class WheelPins(NamedTuple):
     """Pins of a motor driver: a DRV8833 has two, a TB6612 three, Pololu's one for the direction and one for the PWM."""
 
     ahead: int | None
@@ -48,11 +48,11 @@ class Wheel(NamedTuple):
         return way * pins.get(str(self.pwm), 0) / FULL
 
 
-WIRING: Mapping[str, tuple[Wheel, Wheel]] = {  # of the board files
-    "board_esp32": (Wheel(25, 26), Wheel(32, 33)),
-    "board_pico_w": (Wheel(10, 11), Wheel(12, 13)),
-    "board_pololu_2040": (Wheel(None, 11, 15), Wheel(None, 10, 14)),
-    "microbit": (Wheel(8, 12), Wheel(0, 16)),
+WIRING: Mapping[str, tuple[WheelPins, WheelPins]] = {  # of the board files
+    "board_esp32": (WheelPins(25, 26), WheelPins(32, 33)),
+    "board_pico_w": (WheelPins(10, 11), WheelPins(12, 13)),
+    "board_pololu_2040": (WheelPins(None, 11, 15), WheelPins(None, 10, 14)),
+    "microbit": (WheelPins(8, 12), WheelPins(0, 16)),
 }
 DIVIDERS = {"board_pololu_2040": 11}  # of the battery's voltage; on robots of one's own 3
 
@@ -138,7 +138,7 @@ class Boards:
         self,
         configs: Sequence[BoardConfig | MicrobitConfig],
         paced: bool = False,
-        wiring: Mapping[str, tuple[Wheel, Wheel]] = WIRING,
+        wiring: Mapping[str, tuple[WheelPins, WheelPins]] = WIRING,
     ) -> None:
         self.pins: list[Mapping[str, int]] = [{} for _ in configs]
         self.powered_until = [float("-inf")] * len(configs)  # s, when the motors were last switched off

@@ -21,7 +21,7 @@ from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import is_compiled
 from pigaming_app.ai.ppo.task import SHARDS, Task
 from pigaming_app.ai.ppo.training import Diverged, Gather, Training, columns, in_threads
-from pigaming_app.ai.ppo.win_rates import Score
+from pigaming_app.ai.ppo.win_rates import DuelScore
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
@@ -113,7 +113,7 @@ def _players(training: Training, threads: Executor, options: PpoOptions) -> Iter
 
 def _train(
     training: Training,
-    scores: Mapping[str, Score],
+    scores: Mapping[str, DuelScore],
     gather: Gather,
     threads: Executor,
     save: Callable[[], None],
@@ -143,7 +143,7 @@ def _save(training: Training, sync: Callable[[], None], out: Path, beside: Path)
     write_all_atomic({out: encode_network(trained_network(training, out.stem)), beside: encode(training)})
 
 
-def _line(training: Training, scores: Mapping[str, Score]) -> str:
+def _line(training: Training, scores: Mapping[str, DuelScore]) -> str:
     """A line of progress."""
     if training.minutes is None:
         done = f"{training.updates}/{training.planned} updates"
@@ -167,7 +167,7 @@ def _curve_of(training: Training) -> bytes:
     return png_of(figure)
 
 
-def _print(training: Training, scores: Mapping[str, Score], options: PpoOptions, stopped: bool) -> None:
+def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOptions, stopped: bool) -> None:
     """Print the result."""
     speed = training.decisions / training.seconds if training.seconds else 0.0
     if options.json:

@@ -101,11 +101,11 @@ def _recipe(options: QlearningOptions) -> Recipe:
         raise Refusal(f"--set: {wrong}") from None
 
 
-def _begin(options: QlearningOptions) -> training.Training:
+def _begin(options: QlearningOptions) -> training.TableTraining:
     """A fresh training, or the saved one. Raises Refusal or TableError."""
     recipe, fast = _recipe(options), False if options.plain else can_compile()
     if not options.resume:
-        return training.Training(recipe, options.seed, options.arena, fast, minutes=options.minutes)
+        return training.TableTraining(recipe, options.seed, options.arena, fast, minutes=options.minutes)
     saved = load_table(options.out)
     requested = (recipe, options.seed, options.arena, options.minutes)
     names = ("reward (or --set)", "seed", "arena", "minutes")
@@ -118,7 +118,9 @@ def _begin(options: QlearningOptions) -> training.Training:
     return training.resumed(saved, fast)
 
 
-def _train(learner: training.Training, options: QlearningOptions, points: list[Point], stopped: list[int]) -> float:
+def _train(
+    learner: training.TableTraining, options: QlearningOptions, points: list[Point], stopped: list[int]
+) -> float:
     """Train for the requested matches or until stopped; returns the training time without measurements, s."""
     match_ticks = round(options.minutes * 60 * HZ)
     every = max(1, -(-options.matches // MEASURES))
@@ -137,14 +139,14 @@ def _train(learner: training.Training, options: QlearningOptions, points: list[P
     return seconds
 
 
-def _note(learner: training.Training, points: list[Point]) -> None:
+def _note(learner: training.TableTraining, points: list[Point]) -> None:
     """Append the present state of the training, with a measurement against the thesis robot after the first match."""
     score = learner.measure(matches=MEASURED) if learner.matches else (0, 0, 0)
     pairs = int(learner.table.pairs)
     points.append(Point(learner.matches, learner.experiences, learner.temperature, learner.visited, pairs, *score))
 
 
-def _show(learner: training.Training, matches: int, last: Point) -> None:
+def _show(learner: training.TableTraining, matches: int, last: Point) -> None:
     """Print a line of progress."""
     score = f"{RIVAL} {last.wins}-{last.ties}-{last.losses}" if last.matches else f"{RIVAL} not met yet"
     line = (
@@ -173,7 +175,7 @@ def _curve_of(points: list[Point], options: QlearningOptions) -> bytes:
 
 
 def _print(
-    learner: training.Training, options: QlearningOptions, points: list[Point], seconds: float, stopped: bool
+    learner: training.TableTraining, options: QlearningOptions, points: list[Point], seconds: float, stopped: bool
 ) -> None:
     """Print the result."""
     last = points[-1]

@@ -7,7 +7,7 @@ from pigaming_app.games.drawing.values import Drawing
 from pigaming_app.scenes.editor import store
 from pigaming_app.scenes.editor.gallery import view
 from pigaming_app.scenes.editor.icons import draw_icon
-from pigaming_app.scenes.editor.naming import NamePage
+from pigaming_app.scenes.editor.naming import ArenaNamePage
 from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
@@ -99,7 +99,7 @@ class DrawingPage(Page):
                 return self._play(event)
             case "rename":
                 self.context.sounds.play("accept")
-                return Push(NamePage(self.context, self.game, self.name, self.drawing_title, self._rename))
+                return Push(ArenaNamePage(self.context, self.game, self.name, self.drawing_title, self._rename))
             case "share":
                 self._share(drawing)
             case _:

@@ -42,8 +42,8 @@ from pigaming_app.scenes.editor.model.shapes import (
 )
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.scenes.editor.parts.starts import Start
-from pigaming_app.scenes.editor.parts.things import MUD, Thing
-from pigaming_app.scenes.editor.parts.walls import SOLID_WALL, Wall
+from pigaming_app.scenes.editor.parts.things import MUD, DrawnThing
+from pigaming_app.scenes.editor.parts.walls import SOLID_WALL, DrawnWall
 from pigaming_app.scenes.views.factory.background import (
     draw_aisle,
     draw_shared_slot,
@@ -101,7 +101,7 @@ class Warehouse(Shape):
         return part.changed("team", other.get("team")).changed("kind", other.get("kind"))
 
 
-class Machine(Shape):
+class DrawnMachine(Shape):
     """A machine with its slots and the place of its worker."""
 
     def outlines(self, part: Part, k: int) -> Sequence[Outline]:
@@ -134,7 +134,7 @@ class Machine(Shape):
         )
 
 
-class Worker(Shape):
+class DrawnWorker(Shape):
     """The resting place of a worker."""
 
     def reach(self, part: Part) -> Sequence[Point]:
@@ -207,12 +207,12 @@ class FactoryTools(Tools):
     game = "factory"
     shapes: ClassVar[Mapping[str, Shape]] = {
         "aisle": Aisle(),
-        "thing": Thing(WORKSHOP),
+        "thing": DrawnThing(WORKSHOP),
         "warehouse": Warehouse(),
         "shared": Shared(),
-        "machine": Machine(),
-        "wall": Wall(healthy=False),
-        "worker": Worker(),
+        "machine": DrawnMachine(),
+        "wall": DrawnWall(healthy=False),
+        "worker": DrawnWorker(),
         "start": Start(),
     }
     palette = (SOLID_WALL, Tool("shared", "shared", lambda a, b: Part.of("shared", at=whole(*a)), MAX_SHARED), MUD)

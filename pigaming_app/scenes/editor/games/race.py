@@ -27,7 +27,7 @@ from pigaming_app.scenes.editor.model.shapes import (
     whole,
 )
 from pigaming_app.scenes.editor.model.symmetry import Image
-from pigaming_app.scenes.editor.parts.things import MUD, Thing
+from pigaming_app.scenes.editor.parts.things import MUD, DrawnThing
 from pigaming_app.scenes.views.race.lines import LineFrame, draw_line, frame
 from pigaming_app.scenes.views.race.track import EDGE, MARKS, draw_kerbs, edges, ribs
 from pigaming_app.scenes.views.things.styles import MUD as BROWN
@@ -98,7 +98,7 @@ class RaceTools(Tools):
     """The editor of Robot Race."""
 
     game = "race"
-    shapes: ClassVar[Mapping[str, Shape]] = {"thing": Thing(ROAD), "line": StartLine(), "corner": ControlPoint()}
+    shapes: ClassVar[Mapping[str, Shape]] = {"thing": DrawnThing(ROAD), "line": StartLine(), "corner": ControlPoint()}
     palette = (Tool("corner", "corner", lambda a, b: _corner(a), MOST), MUD)
     empty = Drawing(
         (

@@ -16,7 +16,7 @@ from pigaming_app.scenes.editor.model.shapes import (
 )
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.scenes.views.things.on_mat import draw
-from pigaming_app.scenes.views.things.styles import Style
+from pigaming_app.scenes.views.things.styles import ThingStyle
 from pigaming_app.sim.things.spec import MAX_MARGIN, Use
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import Point
@@ -26,12 +26,12 @@ CORNERS = 20  # of a patch; round ones need a single capsule each
 MOST = 6  # in an arena
 
 
-class Thing(Shape):
+class DrawnThing(Shape):
     """A thing, in the style of a game."""
 
     fixed = False
 
-    def __init__(self, style: Style) -> None:
+    def __init__(self, style: ThingStyle) -> None:
         self.style = style
 
     def grips(self, part: Part) -> tuple[Point, ...]:

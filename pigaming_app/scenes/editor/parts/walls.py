@@ -18,7 +18,7 @@ from pigaming_app.scenes.editor.model.shapes import (
 )
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.scenes.editor.parts.starts import Start
-from pigaming_app.scenes.editor.parts.things import Thing
+from pigaming_app.scenes.editor.parts.things import DrawnThing
 from pigaming_app.scenes.views.sprites.wall import SOLID, draw_wall
 from pigaming_app.scenes.views.things.styles import NEON
 from pigaming_app.sim.arena import BUILT, HEALTH
@@ -31,7 +31,7 @@ TURN = pi / 12  # rad, of a press
 ROUNDED = 4  # corners of each end of an outline
 
 
-class Wall(Shape):
+class DrawnWall(Shape):
     """A wall from `from` to `to`. `healthy`: bullets can break it."""
 
     fixed = False
@@ -145,5 +145,9 @@ class WalledTools(Tools):
     and tools to `palette`.
     """
 
-    shapes: ClassVar[Mapping[str, Shape]] = {"thing": Thing(NEON), "wall": Wall(healthy=False), "start": Start()}
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "thing": DrawnThing(NEON),
+        "wall": DrawnWall(healthy=False),
+        "start": Start(),
+    }
     palette: Sequence[Tool] = (SOLID_WALL, ROCK_TOOL)

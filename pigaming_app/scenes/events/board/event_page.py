@@ -14,7 +14,7 @@ from pigaming_app.scenes.events.names import versus
 from pigaming_app.scenes.events.overview import BRACKET, Overview, overview
 from pigaming_app.scenes.events.running import progress_line
 from pigaming_app.scenes.features import board_text as text
-from pigaming_app.scenes.features.board_page import Box, Part
+from pigaming_app.scenes.features.board_page import BoardPart, Box
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.results.podium import FIRST, Podium, Stand
@@ -35,7 +35,7 @@ table_row = text.CACHE.cached(resumable(table_view.table_row_steps))
 card = text.CACHE.cached(resumable(next_view.frame_steps))
 
 
-class EventPage:
+class EventBoardPage:
     """Shows the event on the stack. `clock`: time, s, by which its pages turn."""
 
     name = "event"
@@ -46,7 +46,7 @@ class EventPage:
         self._overview: Overview | None = None
         self._since = 0.0
 
-    def parts(self, scenes: Sequence[Scene]) -> Sequence[Part] | None:
+    def parts(self, scenes: Sequence[Scene]) -> Sequence[BoardPart] | None:
         """Head and foot, and one of the pages between them; None without an event."""
         now = event_now(self.context, scenes)
         if now is None:
@@ -59,7 +59,7 @@ class EventPage:
         call = "events.sudden_death" if now.coming and now.coming[0].extra else "events.next"
         title = words(call) if kind == CALL else event.spec.title
         right = words("events.over") if event.over else progress_line(words, event)
-        parts = [Part(HEAD, (title, right), partial(_head, title, right)), self._foot(now, kind)]
+        parts = [BoardPart(HEAD, (title, right), partial(_head, title, right)), self._foot(now, kind)]
         if kind == CALL:
             parts += [_card(one, len(now.called)) for one in now.called]
         elif kind == PODIUM:
@@ -84,14 +84,14 @@ class EventPage:
         first = [(CALL, 0)] if now.called else [(PODIUM, 0)] if now.running.event.over else []
         return [*first, *shown.pages[shown.first :], *shown.pages[: shown.first]]
 
-    def _foot(self, now: EventNow, kind: str) -> Part:
+    def _foot(self, now: EventNow, kind: str) -> BoardPart:
         words = self.context.words
         lines = [line for line in (now_line(words, now), "" if kind == CALL else next_line(words, now)) if line]
         if kind == CALL and len(now.coming) > 1:
             names = [versus(fixture.entrants) for fixture in now.coming[1:4]]
             lines.append(next_view.following(lambda those: words("events.then", names=those), names, FOOT[2] - 72))
         content = (*lines, now.playing is not None)
-        return Part(FOOT, content, partial(_foot, tuple(lines), now.playing is not None))
+        return BoardPart(FOOT, content, partial(_foot, tuple(lines), now.playing is not None))
 
 
 def _head(title: str, right: str, surface: pygame.Surface) -> None:
@@ -110,9 +110,9 @@ def _foot(lines: Sequence[str], playing: bool, surface: pygame.Surface) -> None:
         text.write(surface, line, LABEL, LEFT - FOOT[0], y, color, "head", "l", RIGHT - LEFT)
 
 
-def _card(one: Called, count: int) -> Part:
+def _card(one: Called, count: int) -> BoardPart:
     place = next_view.card_rect(one.seat, count).inflate(2 * EDGE, 2 * EDGE)
-    return Part((place.x, place.y, place.w, place.h), one, partial(_paint_card, one))
+    return BoardPart((place.x, place.y, place.w, place.h), one, partial(_paint_card, one))
 
 
 def _paint_card(one: Called, surface: pygame.Surface) -> None:
@@ -123,7 +123,7 @@ def _paint_card(one: Called, surface: pygame.Surface) -> None:
         next_view.note_bar(one.brain or one.device).draw(surface, EDGE, EDGE)
 
 
-def _podium(now: EventNow) -> Part:
+def _podium(now: EventNow) -> BoardPart:
     best, rest = podium_page.podium_rows(now.running), podium_page.places_below(now.running)
     box = (60, TOP, 1800, H)
     robots = podium_page.robots_of(now.running)
@@ -135,10 +135,10 @@ def _podium(now: EventNow) -> Part:
         Podium(dx + middle, dy + podium_page.FOOT, steps).draw(surface, STILL)
         podium_page.draw_names(surface, middle, best, rest, range(len(best)), robots, dx, dy)
 
-    return Part(box, content, paint)
+    return BoardPart(box, content, paint)
 
 
-def _bracket(shown: Overview, number: int) -> list[Part]:
+def _bracket(shown: Overview, number: int) -> list[BoardPart]:
     """A part for each column; all are drawn in each of them, as the lines between whole rounds cross its border."""
     page, heads = shown.bracket[number], shown.stages(number)
     pitch = bracket_view.W + bracket_view.GAP
@@ -151,11 +151,11 @@ def _bracket(shown: Overview, number: int) -> list[Part]:
         def paint(surface: pygame.Surface, x: int = x) -> None:
             bracket_view.draw_bracket(surface, page, heads, -x, -TOP, match_box)
 
-        parts.append(Part((x, TOP, pitch, H), content, paint))
+        parts.append(BoardPart((x, TOP, pitch, H), content, paint))
     return parts
 
 
-def _table(shown: Overview, kind: str, number: int) -> list[Part]:
+def _table(shown: Overview, kind: str, number: int) -> list[BoardPart]:
     """A part for each column of a table."""
     rows, heads = shown.table(kind)
     grid = table_view.grid_of(len(rows))
@@ -169,5 +169,5 @@ def _table(shown: Overview, kind: str, number: int) -> list[Part]:
             table_view.draw_table(surface, rows, heads, number, math.inf, -x, -TOP, table_row)
 
         content: Hashable = (page[i * grid.rows : (i + 1) * grid.rows], heads, grid)
-        parts.append(Part((x, TOP, pitch, H), content, paint))
+        parts.append(BoardPart((x, TOP, pitch, H), content, paint))
     return parts

@@ -10,7 +10,7 @@ import pygame
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import setup_of
-from pigaming_app.events.spec import WALKOVER, Fixture, Outcome
+from pigaming_app.events.spec import WALKOVER, Fixture, Result
 from pigaming_app.scenes.events.manage.event_page import HOLD_IN_KIOSK
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.names import places_line, places_of, shortened
@@ -222,11 +222,11 @@ class Correction(SettingsPage):
     draw_foot = Page.draw_foot
 
     @property
-    def outcome(self) -> Outcome:
+    def outcome(self) -> Result:
         """The result as it would be saved."""
         ranks = sorted(set(self.places.values()))
         places = tuple(tuple(name for name in self.names if self.places[name] == rank) for rank in ranks)
-        return Outcome(self.fixture.number, places, self.scores, self._reasons[self.note])
+        return Result(self.fixture.number, places, self.scores, self._reasons[self.note])
 
     # ---- inside
 
@@ -276,7 +276,7 @@ class Correction(SettingsPage):
         return None
 
 
-def result_of(event: Event, fixture: Fixture) -> Outcome:
+def result_of(event: Event, fixture: Fixture) -> Result:
     """The result of a match; while its extra matches are open, that of the match itself."""
     return event.outcomes.get(fixture.number) or event.played[fixture.number][0]
 

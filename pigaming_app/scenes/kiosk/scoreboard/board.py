@@ -4,7 +4,7 @@ from collections.abc import Hashable, Sequence
 
 import pygame
 
-from pigaming_app.scenes.features.board_page import BoardPage, Box, Part
+from pigaming_app.scenes.features.board_page import BoardPage, BoardPart, Box
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.ui.draw.frame_budget import Unfinished, budget, clock
 
@@ -19,7 +19,7 @@ class Board:
         self.picture = pygame.Surface(SIZE, depth=32)
         self.shown: dict[Box, Hashable] = {}  # contents by box
         self.page = ""
-        self.waiting: list[Part] = []  # to be painted
+        self.waiting: list[BoardPart] = []  # to be painted
         self._to_clear = False  # everything, before that
 
     def refresh(self, name: str, scenes: Sequence[Scene]) -> bool:
@@ -63,7 +63,7 @@ class Board:
         target.fill("black")
         _copy(self.picture, (0, 0, *SIZE), target)
 
-    def _take(self, page: str, parts: Sequence[Part]) -> None:
+    def _take(self, page: str, parts: Sequence[BoardPart]) -> None:
         boxes = {part.box for part in parts}
         if page != self.page or not self.shown.keys() <= boxes:
             self.page, self.shown, self._to_clear = page, {}, True

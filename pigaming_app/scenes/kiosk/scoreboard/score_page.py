@@ -7,7 +7,7 @@ from typing import Protocol, runtime_checkable
 import pygame
 
 from pigaming_app.scenes.features import board_text as text
-from pigaming_app.scenes.features.board_page import Box, Part
+from pigaming_app.scenes.features.board_page import BoardPart, Box
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.results.snapshot import MatchSnapshot, ShownMatch, Side, match_of, snapshot
@@ -42,7 +42,7 @@ class ScorePage:
         self.context = context
         self.last: MatchSnapshot | None = None
 
-    def parts(self, scenes: Sequence[Scene]) -> Sequence[Part] | None:
+    def parts(self, scenes: Sequence[Scene]) -> Sequence[BoardPart] | None:
         """The current or last match; None before the first one."""
         found, on_top = match_of(scenes)
         if found is not None:
@@ -52,20 +52,20 @@ class ScorePage:
         return match_parts(self.context, self.last) if self.last else None
 
 
-def match_parts(context: Context, shown: MatchSnapshot) -> list[Part]:
+def match_parts(context: Context, shown: MatchSnapshot) -> list[BoardPart]:
     """The parts of a match."""
     words = context.words
     head = words(f"games.{shown.game}"), shown.arena
     state = words(f"scoreboard.{shown.state}") if shown.state else ""
     parts = [
-        Part(HEAD, head, partial(_head, *head)),
-        Part(CLOCK, (shown.clock, shown.alarm), partial(_clock, shown.clock, ALARM if shown.alarm else ICE)),
-        Part(STATE, (state, shown.round), partial(_state, state, shown.round)),
+        BoardPart(HEAD, head, partial(_head, *head)),
+        BoardPart(CLOCK, (shown.clock, shown.alarm), partial(_clock, shown.clock, ALARM if shown.alarm else ICE)),
+        BoardPart(STATE, (state, shown.round), partial(_state, state, shown.round)),
     ]
     pitch = min(ROW_MAX, (BOTTOM - TOP) // max(1, len(shown.sides)))
     for i, side in enumerate(shown.sides):
         box = (LEFT, TOP + pitch * i, W, pitch - 16)
-        parts.append(Part(box, side, partial(paint_side, side, i + 1)))
+        parts.append(BoardPart(box, side, partial(paint_side, side, i + 1)))
     return parts
 
 

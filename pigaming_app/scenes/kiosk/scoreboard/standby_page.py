@@ -7,7 +7,7 @@ import pygame
 
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.features import board_text as text
-from pigaming_app.scenes.features.board_page import Box, Part
+from pigaming_app.scenes.features.board_page import BoardPart, Box
 from pigaming_app.scenes.features.registry import next_line
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
@@ -35,17 +35,17 @@ class StandbyPage:
     def __init__(self, context: Context) -> None:
         self.context = context
 
-    def parts(self, scenes: Sequence[Scene]) -> Sequence[Part]:
+    def parts(self, scenes: Sequence[Scene]) -> Sequence[BoardPart]:
         """Name, time and a column for each game; of a running event, who is next."""
         words, clock = self.context.words, f"{now():%H:%M}"
         parts = [
-            Part((LEFT, 50, 1180, 220), "name", _name),
-            Part((1260, 50, 600, 220), clock, partial(_clock, clock)),
-            Part((LEFT, 290, W, 110), words("scoreboard.today"), partial(_headline, words("scoreboard.today"))),
+            BoardPart((LEFT, 50, 1180, 220), "name", _name),
+            BoardPart((1260, 50, 600, 220), clock, partial(_clock, clock)),
+            BoardPart((LEFT, 290, W, 110), words("scoreboard.today"), partial(_headline, words("scoreboard.today"))),
         ]
         following = next_line(self.context, scenes)
         if following:
-            parts.append(Part(FOOT, following, partial(_foot, following)))
+            parts.append(BoardPart(FOOT, following, partial(_foot, following)))
         rows, h = (ROWS - 1, H - FOOT[3]) if following else (ROWS, H)
         names = sorted(shown_games(), key=lambda game: not best_today(self.context.scores, game, words)[1])[:COLUMNS]
         w = (W - GAP * (len(names) - 1)) // len(names)
@@ -54,7 +54,7 @@ class StandbyPage:
             content = (words(f"games.{game}"), *best_today(self.context.scores, game, words))
             best = content[2][:rows]
             column = partial(_column, words(f"games.{game}"), size, best, words("best.first"))
-            parts.append(Part((LEFT + i * (w + GAP), TOP, w, h), (*content, words.language), column))
+            parts.append(BoardPart((LEFT + i * (w + GAP), TOP, w, h), (*content, words.language), column))
         return parts
 
 

@@ -6,7 +6,7 @@ import pygame
 
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
-from pigaming_app.scenes.lab.background import Background
+from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.extra_fetch import BUILT, DONE, FETCHING, FOREIGN, RESTART
 from pigaming_app.scenes.pages.page import Hints
 from pigaming_app.scenes.pages.sheet import Sheet
@@ -30,7 +30,7 @@ class FetchPage(Sheet):
     def __init__(self, context: Context, behind: Callable[[], pygame.Surface], ready: Callable[[], object]) -> None:
         super().__init__(context)
         self.lab_picture, self.ready = behind, ready
-        self.fetch = context.shared(Background).network_fetch
+        self.fetch = context.shared(LabBackground).network_fetch
         self.fetch.start()
 
     @property

@@ -14,11 +14,11 @@ from typing import Any
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.ai.learning.training import ARENA, GAME, Checkpoint
-from pigaming_app.ai.networks.files import Curve, TrainedNetwork
+from pigaming_app.ai.networks.files import TrainedNetwork, TrainingCurve
 from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain
 from pigaming_app.ai.networks.registry import ENCODINGS
-from pigaming_app.ai.ppo.lab.messages import PATIENCE, UNTRAINED, Begin, Habit, Order, Report, State, Weights
+from pigaming_app.ai.ppo.lab.messages import PATIENCE, UNTRAINED, Begin, Habit, Report, State, TrainingOrder, Weights
 from pigaming_app.ai.ppo.lab.task import NetworkRecipe
 from pigaming_app.scenes.brain.rose import PETALS
 from pigaming_app.scenes.lab.learning_curve import Measure
@@ -81,7 +81,7 @@ class NetworkTrainer:
         self.trouble = ""  # text key of what has happened to the process; the page clears it
         self._deaths = 0
         self._number = -1  # of the training
-        self._sent: tuple[Order, float] = Order(), 0.0
+        self._sent: tuple[TrainingOrder, float] = TrainingOrder(), 0.0
         self._backlog = 0.0  # ticks
         self._begin(seed, UNTRAINED, ())
 
@@ -113,11 +113,11 @@ class NetworkTrainer:
         self.progress.show(self._exhibition.match)
         if self.available and self._is_running():
             self._take_reports()
-            self._order(Order(self.recipe, PACES[self.speed]))
+            self._order(TrainingOrder(self.recipe, PACES[self.speed]))
 
     def close(self) -> None:
         """Pause until the next `feed`."""
-        self._order(Order(self.recipe, 0.0))
+        self._order(TrainingOrder(self.recipe, 0.0))
 
     def end(self) -> None:
         """End the process; the next `feed` starts it again where it was."""
@@ -163,7 +163,7 @@ class NetworkTrainer:
             seed=self._seed,
             updates=state.updates,
             decisions=state.decisions,
-            curve=Curve(("matches", "share"), rows),
+            curve=TrainingCurve(("matches", "share"), rows),
         )
 
     def open(self, trained: TrainedNetwork) -> None:
@@ -188,7 +188,7 @@ class NetworkTrainer:
     def _send_begin(self) -> None:
         """Have the process continue from the present network."""
         self._process.send(Begin(self._number, self._seed, self._state if self._state.updates else None))
-        self._sent = Order(), 0.0
+        self._sent = TrainingOrder(), 0.0
 
     def _is_running(self) -> bool:
         """True if the process runs; starts it, as soon as its loop is compiled."""
@@ -229,7 +229,7 @@ class NetworkTrainer:
             self._state = reports[-1].state
             self._exhibition.replace_brain(self.checkpoint("network").kind)
 
-    def _order(self, order: Order) -> None:
+    def _order(self, order: TrainingOrder) -> None:
         """Send an order if it is another one, or if the last one will soon be void."""
         last, at = self._sent
         if order != last or (order.pace and monotonic() - at > HEARTBEAT):

@@ -35,7 +35,7 @@ GLIDE = 8.0  # 1/s, rate at which a row approaches its new position
 
 
 @dataclass
-class Entrant:
+class Contender:
     """Row of the table."""
 
     name: str
@@ -63,11 +63,11 @@ class ComparePage(Page):
         self.lab = lab
         words, trainer = self.context.words, lab.trainer
         checkpoints = trainer.checkpoints()
-        self.players = [Entrant(words("lab.after", matches=n), checkpoints[n].kind) for n in sorted(checkpoints)]
+        self.players = [Contender(words("lab.after", matches=n), checkpoints[n].kind) for n in sorted(checkpoints)]
         now = trainer.snapshot.matches
         if now not in checkpoints:
-            self.players.append(Entrant(words("lab.now", matches=now), trainer.checkpoint("now").kind))
-        self.players.append(Entrant(words("lab.handmade"), BRAINS[GAME][HANDMADE], own=False))
+            self.players.append(Contender(words("lab.now", matches=now), trainer.checkpoint("now").kind))
+        self.players.append(Contender(words("lab.handmade"), BRAINS[GAME][HANDMADE], own=False))
         for i, player in enumerate(self.players):
             player.y = TOP + PITCH * i
         self.pairs = list(combinations(self.players, 2))
@@ -99,7 +99,7 @@ class ComparePage(Page):
         if self.pairs:
             self._bar(screen)
 
-    def order(self) -> list[Entrant]:
+    def order(self) -> list[Contender]:
         """The entrants by points, best first; stable for ties."""
         return sorted(self.players, key=lambda player: -player.points)
 

@@ -5,7 +5,7 @@ import pygame
 from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
 from pigaming_app.scenes.lab.host import IDLE, LabHost, dimmed_background
 from pigaming_app.scenes.lab.pages.compare_page import ComparePage
-from pigaming_app.scenes.lab.pages.name_page import NamePage
+from pigaming_app.scenes.lab.pages.name_page import RobotNamePage
 from pigaming_app.scenes.lab.pages.open_page import OpenPage
 from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import menu_spots, sheet_title
@@ -52,7 +52,7 @@ class LabMenu(Sheet):
         self.context.sounds.play("accept")
         match name:
             case "save":
-                return Swap(NamePage(self.lab))
+                return Swap(RobotNamePage(self.lab))
             case "open":
                 return Swap(OpenPage(self.lab))
             case "compare":

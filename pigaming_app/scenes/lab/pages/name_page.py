@@ -6,7 +6,7 @@ from pigaming_app.scenes.lab.saved_robots import LENGTH, RobotFileError, names, 
 from pigaming_app.scenes.pages import name_page
 
 
-class NamePage(name_page.NamePage):
+class RobotNamePage(name_page.NamePage):
     """Prompts for a name and saves the robot under it."""
 
     def __init__(self, lab: LabHost) -> None:

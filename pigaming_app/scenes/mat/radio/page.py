@@ -8,7 +8,7 @@ import pygame
 from pigaming_app.hardware.radio.packets import LAST_ARENA
 from pigaming_app.hardware.radio.serial_line import BAUD
 from pigaming_app.hardware.radio.xbee_frames import CHANNELS
-from pigaming_app.hardware.radio.xbee_setup import Network, Steps, XBeeSetup, network_of, parameters
+from pigaming_app.hardware.radio.xbee_setup import RadioNetwork, Steps, XBeeSetup, network_of, parameters
 from pigaming_app.hardware.robot_files import set_up_command
 from pigaming_app.hardware.robot_kinds import KINDS
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
@@ -64,7 +64,7 @@ class RadioPage(SettingsPage):
             self._steps.close()
 
     @property
-    def network(self) -> Network:
+    def network(self) -> RadioNetwork:
         """Channel and PAN of the settings, or those of the arena's number."""
         return network_of(self.arena, self.context.settings.radio_channel, self.context.settings.radio_pan)
 

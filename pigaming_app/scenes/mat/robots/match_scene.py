@@ -18,7 +18,7 @@ from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.moving_things import MovingThings, same_mud
 from pigaming_app.hardware.control.safety import Fault, Response
 from pigaming_app.hardware.scan.block_walls import BlockWalls
-from pigaming_app.hardware.scan.things import Layout
+from pigaming_app.hardware.scan.things import ThingLayout
 from pigaming_app.hardware.session.robot_session import RobotSession, cause_of
 from pigaming_app.hardware.session.things_on_mat import save_layout
 from pigaming_app.scenes.flow.access import Access
@@ -252,7 +252,7 @@ class RealMatch(MatchScene):
             self.gathering = TakePlaces(self.context, self.plant, lambda: self.access.hint_device)
         self._mark_real()
 
-    def rebuild(self, layout: Layout) -> bool:
+    def rebuild(self, layout: ThingLayout) -> bool:
         """Go on among things that were scanned anew: walls are moved; for other mud the match starts again.
 
         False if the arena cannot be played with them.

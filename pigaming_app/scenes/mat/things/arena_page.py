@@ -10,7 +10,7 @@ import pygame
 
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.scan.rig_scan import RigScan
-from pigaming_app.hardware.scan.things import Layout, LayoutError, Thing, ThingKind
+from pigaming_app.hardware.scan.things import LayoutError, Thing, ThingKind, ThingLayout
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.hardware.session.things_on_mat import load_layout, save_layout
@@ -53,7 +53,7 @@ class ArenaPage(Page):
         self.access = Access(context, devices)
         super().__init__(context, gate=self.access)
         self.rig: Rig | None = None
-        self.layout, self.changed = Layout(), False
+        self.layout, self.changed = ThingLayout(), False
         self.fault: OperatorMessage | None = None
         self.arenas: PlayableArenas | None = None
         self._scan_now = scan_now
@@ -156,7 +156,7 @@ class ArenaPage(Page):
         self.context.sounds.play("accept")
         return Push(SweepPage(self.context, self.session, self.rig, self.layout, self.session.advance, self._scanned))
 
-    def _scanned(self, work: RigScan, layout: Layout | None) -> None:
+    def _scanned(self, work: RigScan, layout: ThingLayout | None) -> None:
         """Take over the result of a scan."""
         self.fault = work.scan.fault
         if work.scan.left_out:
@@ -164,7 +164,7 @@ class ArenaPage(Page):
         if layout is not None:
             self._take(layout, True)
 
-    def _take(self, layout: Layout, changed: bool) -> None:
+    def _take(self, layout: ThingLayout, changed: bool) -> None:
         """Show a layout, and try all arenas with it."""
         self.layout, self.changed = layout, self.changed or changed
         spots = [FocusSpot(str(i), _box(thing)) for i, thing in enumerate(layout.things)]

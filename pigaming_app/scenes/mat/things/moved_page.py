@@ -8,7 +8,7 @@ import pygame
 
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.scan.rig_scan import RigScan
-from pigaming_app.hardware.scan.things import Layout, LayoutError
+from pigaming_app.hardware.scan.things import LayoutError, ThingLayout
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.hardware.session.things_on_mat import load_layout
 from pigaming_app.scenes.flow.access import Access
@@ -39,7 +39,7 @@ class MatchAmongThings(PausedMatch, Protocol):
     session: RobotSession
     watch: MatchWatch
 
-    def rebuild(self, layout: Layout) -> bool:
+    def rebuild(self, layout: ThingLayout) -> bool:
         """Go on among things that were scanned anew; false if that is impossible."""
 
 
@@ -48,7 +48,7 @@ class MovedPage:
 
     def __init__(self, match: MatchAmongThings, places: Sequence[tuple[float, float]]) -> None:
         self.match, self.context, self.places = match, match.context, list(places)
-        self.layout: Layout | None = None  # of a new scan, until the match has taken it over
+        self.layout: ThingLayout | None = None  # of a new scan, until the match has taken it over
         self.sentence = ""
         self.clock = 0.0
         self.picture: pygame.Surface | None = None
@@ -118,13 +118,13 @@ class MovedPage:
         try:
             before = load_layout(session)
         except LayoutError:
-            before = Layout()
+            before = ThingLayout()
         self.sentence = ""
         self.context.sounds.play("accept")
         wait = match.robots.advance_paused
         return Push(SweepPage(self.context, session, match.plant.rig, before, wait, self._scanned))
 
-    def _scanned(self, work: RigScan, layout: Layout | None) -> None:
+    def _scanned(self, work: RigScan, layout: ThingLayout | None) -> None:
         self.layout = layout
         if layout is None and work.scan.fault is not None:
             self.sentence = self.context.words.sentence(work.scan.fault)

@@ -8,7 +8,7 @@ import pygame
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.scan.patterns import Pattern
 from pigaming_app.hardware.scan.rig_scan import RigScan
-from pigaming_app.hardware.scan.things import Layout
+from pigaming_app.hardware.scan.things import ThingLayout
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.hardware.session.things_on_mat import with_choices
 from pigaming_app.scenes.flow.context import Context
@@ -39,9 +39,9 @@ class SweepPage(Page):
         context: Context,
         session: RobotSession,
         rig: Rig,
-        before: Layout,
+        before: ThingLayout,
         advance: Callable[[float], object],
-        done: "Callable[[RigScan, Layout | None], None]",
+        done: "Callable[[RigScan, ThingLayout | None], None]",
     ) -> None:
         assert session.ground is not None
         super().__init__(context)

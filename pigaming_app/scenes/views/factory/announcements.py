@@ -16,7 +16,7 @@ EDGE = 12  # px between a word and the edge of the picture
 CLEAR = 70.0  # px, vertical distance below which a new word replaces an old one
 
 
-class Announcement(NamedTuple):
+class FactoryAnnouncement(NamedTuple):
     """A word of a colour, first centred at (x, y), canvas px."""
 
     born: float
@@ -26,12 +26,12 @@ class Announcement(NamedTuple):
     color: Color
 
 
-class Announcements:
+class FactoryAnnouncements:
     """The current announcements. Without `words` there are none."""
 
     def __init__(self, words: Words | None) -> None:
         self.words = words
-        self.notes: list[Announcement] = []
+        self.notes: list[FactoryAnnouncement] = []
 
     def add(self, now: float, x: float, y: float, key: str, color: Color) -> None:
         """Announce a text of the table `factory` at (x, y)."""
@@ -41,7 +41,7 @@ class Announcements:
         half = shout(word, color, POPS - 1, LEVELS).image.get_width() / 2 + EDGE
         x = min(max(x, half), 1920 - half)
         self.notes = [note for note in self.notes if abs(note.y - y) > CLEAR or abs(note.x - x) > 2 * half]
-        self.notes.append(Announcement(now, x, y, word, color))
+        self.notes.append(FactoryAnnouncement(now, x, y, word, color))
 
     def draw(self, top: Batch, now: float) -> None:
         """Collect the sprites."""

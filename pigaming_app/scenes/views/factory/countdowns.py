@@ -26,7 +26,7 @@ CORNER = 58.0  # px from a machine's centre to its warning sign, across and down
 OUTSIDE = 0.46  # distance from a slot to its number, as a share of the way from the machine to the slot
 
 
-class Countdown(NamedTuple):
+class MachineCountdown(NamedTuple):
     """A countdown at machine `machine`'s output slot (x, y), arena px; `left`: ticks."""
 
     kind: str
@@ -40,13 +40,13 @@ class Countdown(NamedTuple):
         return -(-self.left // HZ)
 
 
-def countdowns(state: Factory) -> Iterator[Countdown]:
+def countdowns(state: Factory) -> Iterator[MachineCountdown]:
     """The countdowns that are shown now."""
     for m in range(MACHINES):
         output = state.slots[MACHINE_SLOTS + 2 * m + 1]
         for kind, left in ((CLEARING, clears_in(state, m)), (JAMMING, jams_in(state, m))):
             if 0 < left <= SHOWN[kind] * HZ:
-                yield Countdown(kind, m, output.x, output.y, left)
+                yield MachineCountdown(kind, m, output.x, output.y, left)
 
 
 def sounds(state: Factory) -> list[SoundCue]:

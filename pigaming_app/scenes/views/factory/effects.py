@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from pigaming_app.games.factory.state import FIRE, ICE, Factory
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.factory.announcements import Announcements
+from pigaming_app.scenes.views.factory.announcements import FactoryAnnouncements
 from pigaming_app.scenes.views.factory.events import (
     DELIVERY,
     DONE,
@@ -49,7 +49,7 @@ def react(
     state: Factory,
     particles: Particles,
     pops: CratePops,
-    notes: Announcements,
+    notes: FactoryAnnouncements,
     options: ViewOptions,
 ) -> list[SoundCue]:
     """Add particles and words for the events; returns their sounds."""

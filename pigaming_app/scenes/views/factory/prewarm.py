@@ -6,7 +6,7 @@ from functools import partial
 from pigaming_app.games.factory.state import DELIVERED, DONE, HALF, MAX_PALLETS, SHELVES, TEAMS, A, B, Factory
 from pigaming_app.games.factory.state import ICE as ICE_TEAM
 from pigaming_app.scenes.views.factory import contest, countdowns
-from pigaming_app.scenes.views.factory.announcements import Announcements
+from pigaming_app.scenes.views.factory.announcements import FactoryAnnouncements
 from pigaming_app.scenes.views.factory.next_step import AIMS
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import factory as crates
@@ -17,7 +17,7 @@ from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS
 
 
-def jobs(seats: Sequence[int], state: Factory, notes: Announcements) -> Iterator[Job]:
+def jobs(seats: Sequence[int], state: Factory, notes: FactoryAnnouncements) -> Iterator[Job]:
     """One small job per sprite of a match that begins in `state`."""
     rules = state.rules
     for team in (ICE_TEAM,) if rules.allies else range(TEAMS):

@@ -25,7 +25,7 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.scenes.views.background import LEFT, TOP, Background
 from pigaming_app.scenes.views.factory import contest, countdowns
-from pigaming_app.scenes.views.factory.announcements import Announcements
+from pigaming_app.scenes.views.factory.announcements import FactoryAnnouncements
 from pigaming_app.scenes.views.factory.background import bare
 from pigaming_app.scenes.views.factory.effects import CratePops, react
 from pigaming_app.scenes.views.factory.events import FactoryEventDetector, spot
@@ -77,7 +77,7 @@ class FactoryView(MatchView):
         self.detector = FactoryEventDetector(state)
         self.guide = NextStepGuide(players)
         self.pops = CratePops()
-        self.notes = Announcements(words)
+        self.notes = FactoryAnnouncements(words)
         self.people = self.people_before = _people(state)
         self.add_prewarm_jobs(self.hud.jobs(state))
         self.add_prewarm_jobs(jobs(self.seats, state, self.notes))

@@ -49,7 +49,7 @@ HIGHEST = 170.0  # px from the upper edge of the arena to a robot, below which i
 STACK_PITCH = 76.0  # px between stacked announcements
 
 
-class Announcement(NamedTuple):
+class RaceAnnouncement(NamedTuple):
     """Rises over a seat's robot: a sprite, or a number, with a star if it is a best time."""
 
     born: float
@@ -59,17 +59,17 @@ class Announcement(NamedTuple):
     color: Color
 
 
-class Announcements:
+class RaceAnnouncements:
     """Current announcements; overlapping ones are stacked."""
 
     def __init__(self) -> None:
-        self.notes: list[Announcement] = []
+        self.notes: list[RaceAnnouncement] = []
 
     def add(self, now: float, seat: int, text: str, color: Color, sprite: Sprite | None = None) -> None:
         """Start an announcement over a robot; a sprite replaces an earlier one of the same robot and text."""
         if sprite:
             self.notes = [note for note in self.notes if not (note.sprite and (note.seat, note.text) == (seat, text))]
-        self.notes.append(Announcement(now, seat, sprite, text, color))
+        self.notes.append(RaceAnnouncement(now, seat, sprite, text, color))
 
     def draw(self, light: Batch, top: Batch, poses: Sequence[Pose], now: float, busy: set[int]) -> None:
         """Draw the live announcements, except over robots in `busy`, which show a sign."""
@@ -91,7 +91,7 @@ class Announcements:
                 _number(light, note, x, y)
 
 
-def _number(light: Batch, note: Announcement, x: float, y: float) -> None:
+def _number(light: Batch, note: RaceAnnouncement, x: float, y: float) -> None:
     width = number_width(note.text, SUB)
     if note.color == FOCUS:
         put(light, race_signs.gold_star(), x - width / 2 - 12, y)
@@ -118,7 +118,7 @@ class RaceEffects:
     def __init__(
         self,
         particles: Particles,
-        notes: Announcements,
+        notes: RaceAnnouncements,
         options: ViewOptions,
         words: Words | None,
         signs: Sequence[int],

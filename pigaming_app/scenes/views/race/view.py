@@ -13,7 +13,7 @@ from pigaming_app.scenes.views.hud.parts import H, Y, pulse
 from pigaming_app.scenes.views.particles import reel
 from pigaming_app.scenes.views.race import sprites as race_signs
 from pigaming_app.scenes.views.race.background import RaceBackground
-from pigaming_app.scenes.views.race.effects import Announcements, RaceEffects, sound_cues, spray
+from pigaming_app.scenes.views.race.effects import RaceAnnouncements, RaceEffects, sound_cues, spray
 from pigaming_app.scenes.views.race.events import RaceEvent, RaceEventDetector, drives_wrong
 from pigaming_app.scenes.views.race.ghost import GhostRecorder
 from pigaming_app.scenes.views.race.hud import RaceHud
@@ -73,7 +73,7 @@ class RaceView(MatchView):
         self.detector = RaceEventDetector(state)
         self.party = PartyEventDetector(state) if state.rules.party else None
         self.signs = self.floor.signs
-        self.notes = Announcements()
+        self.notes = RaceAnnouncements()
         self.event_effects = RaceEffects(self.particles, self.notes, options, words, self.signs)
         self.recorder: GhostRecorder | None = None
         self.frames = [frame(arena.plan.course, along) for along in arena.plan.lines]

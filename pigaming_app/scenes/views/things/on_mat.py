@@ -14,7 +14,7 @@ import pygame
 
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.things.outlines import grown
-from pigaming_app.scenes.views.things.styles import Style
+from pigaming_app.scenes.views.things.styles import ThingStyle
 from pigaming_app.sim.things.spec import ThingSpec, Use
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import BLACK, GlowCanvas, Point
@@ -46,7 +46,7 @@ class Placed(NamedTuple):
 class ThingsOnMat:
     """The things of one match."""
 
-    def __init__(self, style: Style, things: Sequence[ThingSpec] = ()) -> None:
+    def __init__(self, style: ThingStyle, things: Sequence[ThingSpec] = ()) -> None:
         self.style = style
         self.placed: list[Placed] = []
         self.sprites: list[tuple[Shape, Sprite] | None] = []  # the latest of each thing
@@ -126,7 +126,7 @@ def place(thing: ThingSpec) -> Placed:
 
 @cached
 @resumable
-def halo(style: Style, use: Use, shape: Shape, turn: int, margin: int) -> Steps[Sprite]:
+def halo(style: ThingStyle, use: Use, shape: Shape, turn: int, margin: int) -> Steps[Sprite]:
     """The light of a thing, as light to add, at heading `turn` of TURNS."""
     angle = turn * math.tau / TURNS
     c, s = math.cos(angle), math.sin(angle)
@@ -140,7 +140,7 @@ def halo(style: Style, use: Use, shape: Shape, turn: int, margin: int) -> Steps[
     return trim(image, w, h)
 
 
-def draw(ink: GlowCanvas, style: Style, use: Use, corners: Sequence[Point], margin: float) -> None:
+def draw(ink: GlowCanvas, style: ThingStyle, use: Use, corners: Sequence[Point], margin: float) -> None:
     """Draw one thing in the style of a game, with a black body if it is a wall."""
     if use is Use.WALL:
         style.wall(ink, corners, margin)
@@ -151,7 +151,7 @@ def draw(ink: GlowCanvas, style: Style, use: Use, corners: Sequence[Point], marg
         style.line(ink, corners)
 
 
-def draw_all(ink: GlowCanvas, style: Style, things: Sequence[ThingSpec]) -> None:
+def draw_all(ink: GlowCanvas, style: ThingStyle, things: Sequence[ThingSpec]) -> None:
     """Draw all things, arena px: flat ones first."""
     for thing in sorted(things, key=lambda thing: thing.use is Use.WALL):
         draw(ink, style, thing.use, thing.outline, thing.margin)

@@ -21,7 +21,7 @@ CLOD = 900.0  # px^2 of mud for each clod
 ZONE = 30.0  # px between the stripes of a slow zone
 
 
-class Style(NamedTuple):
+class ThingStyle(NamedTuple):
     """How a game draws a wall (canvas, corners, margin), mud and a line (canvas, corners)."""
 
     wall: Callable[[GlowCanvas, Sequence[Point], float], None]
@@ -103,9 +103,9 @@ def floor_paint(ink: GlowCanvas, corners: Sequence[Point]) -> None:
     ink.fill(corners, dim(WARNING, 0.62))
 
 
-NEON = Style(neon_wall, mud, neon_line)
-ROAD = Style(kerb_wall, mud, road_paint)
-WORKSHOP = Style(warning_wall, slow_zone, floor_paint)
+NEON = ThingStyle(neon_wall, mud, neon_line)
+ROAD = ThingStyle(kerb_wall, mud, road_paint)
+WORKSHOP = ThingStyle(warning_wall, slow_zone, floor_paint)
 
 
 def _wavy(ring: Points, level: int) -> list[Point]:

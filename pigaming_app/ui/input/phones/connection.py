@@ -101,7 +101,7 @@ def stop_reading(request: web.Request) -> None:
         request.transport.pause_reading()
 
 
-class Seats:
+class PhoneSeats:
     """The connections by device number, and the tokens with which phones return to theirs."""
 
     MAX_TOKENS = 64  # phones remembered

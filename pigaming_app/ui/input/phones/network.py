@@ -15,7 +15,7 @@ class PhonesUnavailable(Exception):
 
 
 @dataclass(frozen=True)
-class Network:
+class NetworkInterface:
     """An interface of this computer with its IPv4 address."""
 
     name: str
@@ -26,14 +26,14 @@ class Network:
         return any(word in self.name.lower() for word in WIRELESS)
 
 
-def networks() -> list[Network]:
+def networks() -> list[NetworkInterface]:
     """The networks on which a phone may be: wireless ones first. Raises PhonesUnavailable without ifaddr."""
     try:
         import ifaddr
     except ImportError:
         raise PhonesUnavailable("missing") from None
     found = [
-        Network(adapter.nice_name, ip.ip)
+        NetworkInterface(adapter.nice_name, ip.ip)
         for adapter in ifaddr.get_adapters()
         for ip in adapter.ips
         if isinstance(ip.ip, str) and _reachable(ip.ip)
@@ -41,13 +41,13 @@ def networks() -> list[Network]:
     return sorted(found, key=lambda network: (not network.wireless, not _private(network.address), network.name))
 
 
-def chosen(name: str, found: list[Network]) -> Network:
+def chosen(name: str, found: list[NetworkInterface]) -> NetworkInterface:
     """The network with this name or address; empty: the first one. Raises PhonesUnavailable if it is not there.
 
     The loopback address may be chosen, too, for tests on this computer.
     """
     if name and _loopback(name):
-        return Network("loopback", name)
+        return NetworkInterface("loopback", name)
     for network in found:
         if name in ("", network.name, network.address):
             return network

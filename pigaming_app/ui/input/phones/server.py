@@ -24,7 +24,7 @@ from aiohttp import web
 from pigaming_app import ASSETS
 from pigaming_app.ui.input import phone_messages as protocol
 from pigaming_app.ui.input.phone_pads import Phones
-from pigaming_app.ui.input.phones.connection import CLOSE_SECONDS, Seats, stop_reading
+from pigaming_app.ui.input.phones.connection import CLOSE_SECONDS, PhoneSeats, stop_reading
 from pigaming_app.ui.input.phones.network import PhonesUnavailable
 from pigaming_app.ui.input.phones.refusals import ErrorsOfLibrary, RateMeter, Refusals
 
@@ -55,7 +55,7 @@ class PhoneServer:
         self.token = "".join(secrets.choice(ALPHABET) for _ in range(TOKEN_LENGTH))
         self.refusals = Refusals()
         self.visited = False  # whether a page was asked for with the right token
-        self._seats = Seats(phones, self.refusals)
+        self._seats = PhoneSeats(phones, self.refusals)
         self._files = {name: ((ASSETS / path).read_bytes(), kind) for name, (path, kind) in FILES.items()}
         self._page = (ASSETS / "phones" / "page.html").read_text(encoding="utf-8")
         self._loop: asyncio.AbstractEventLoop | None = None
@@ -120,7 +120,7 @@ class PhoneServer:
         await runner.setup()
         try:
             assert runner.server is not None
-            guard = Guard(runner.server, settings, self.refusals)
+            guard = ConnectionLimits(runner.server, settings, self.refusals)
             listening = socket.create_server((self.address, self.port))
             listening.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, RECEIVE_BYTES)  # accepted ones inherit it
             listener = await self._loop.create_server(guard.handler, sock=listening)
@@ -209,7 +209,7 @@ class PhoneServer:
         return connection.socket
 
 
-class Guard:
+class ConnectionLimits:
     """Limits the connections of all peers and of each."""
 
     def __init__(self, server: web.Server, settings: dict[str, Any], refusals: Refusals) -> None:
@@ -235,7 +235,7 @@ class _Guest(web.RequestHandler):
 
     __slots__ = ("_guard",)
 
-    def __init__(self, guard: Guard) -> None:
+    def __init__(self, guard: ConnectionLimits) -> None:
         super().__init__(guard.server, loop=asyncio.get_running_loop(), **guard.settings)
         self._guard = guard
 

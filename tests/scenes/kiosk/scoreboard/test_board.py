@@ -9,7 +9,7 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.features import board_text as text
-from pigaming_app.scenes.features.board_page import Part
+from pigaming_app.scenes.features.board_page import BoardPart
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
 from pigaming_app.scenes.kiosk.scoreboard.board import SIZE, Board, fit
@@ -45,13 +45,13 @@ class Lamps:
         self.contents: list[Hashable] = list(contents)
         self.painted = [0] * len(contents)
 
-    def parts(self, scenes: Sequence[Scene]) -> Sequence[Part] | None:
+    def parts(self, scenes: Sequence[Scene]) -> Sequence[BoardPart] | None:
         def paint(i: int, surface: pygame.Surface) -> None:
             self.painted[i] += 1
             surface.fill("white")
 
         return [
-            Part((100 * i, 0, 90, 90), content, lambda surface, i=i: paint(i, surface))  # type: ignore[misc]
+            BoardPart((100 * i, 0, 90, 90), content, lambda surface, i=i: paint(i, surface))  # type: ignore[misc]
             for i, content in enumerate(self.contents)
         ]
 

@@ -11,12 +11,12 @@ from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import Format
 from pigaming_app.scenes.app import App
 from pigaming_app.scenes.events.board.event_now import event_now, next_line, now_line
-from pigaming_app.scenes.events.board.event_page import CALL, FOOT, PODIUM, TURN, EventPage
+from pigaming_app.scenes.events.board.event_page import CALL, FOOT, PODIUM, TURN, EventBoardPage
 from pigaming_app.scenes.events.next_page import EventMatch, NextMatch
-from pigaming_app.scenes.events.podium_page import PodiumPage
+from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
-from pigaming_app.scenes.features.board_page import Part
+from pigaming_app.scenes.features.board_page import BoardPart
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
 from pigaming_app.scenes.kiosk.scoreboard.board import SIZE, Board
@@ -67,9 +67,9 @@ def a_match(arcade: Arcade, run: RunningEvent, minutes: float = 1.0) -> MatchSce
     return MatchScene(arcade.context, setup, KEYS[:2], after=EventMatch(run, fixture))
 
 
-def every_page(page: EventPage, clock: Clock, scenes: Sequence[Scene]) -> list[list[Part]]:
+def every_page(page: EventBoardPage, clock: Clock, scenes: Sequence[Scene]) -> list[list[BoardPart]]:
     """The parts of every page, until the first one is shown again."""
-    found: list[list[Part]] = []
+    found: list[list[BoardPart]] = []
     while True:
         parts = page.parts(scenes)
         assert parts
@@ -85,7 +85,7 @@ def of_match(arcade: Arcade, scene: MatchScene) -> MatchSnapshot:
 
 
 def test_without_an_event_it_gives_way(arcade: Arcade) -> None:
-    page = EventPage(arcade.context)
+    page = EventBoardPage(arcade.context)
     assert page.parts([arcade.title]) is None
     board = Board([StandbyPage(arcade.context), page])
     board.refresh("event", [arcade.title])
@@ -100,7 +100,7 @@ def test_every_page_of_an_event_belongs_to_it_and_so_do_its_matches(arcade: Arca
     for scenes in (
         [NextMatch(arcade.context, run)],
         [NextMatch(arcade.context, run), TablePage(arcade.context, run)],
-        [PodiumPage(arcade.context, run)],
+        [EventPodiumPage(arcade.context, run)],
         [scene],
         [scene, Pause(scene, KEYS[0])],
     ):
@@ -170,7 +170,7 @@ def test_everybody_is_on_a_page_and_the_pages_turn_by_themselves(
     arcade: Arcade, form: Format, count: int, seats: int, matches: int
 ) -> None:
     run, clock = running(played(an_event(form, count, seats), matches)), Clock()
-    page = EventPage(arcade.context, clock)
+    page = EventBoardPage(arcade.context, clock)
     found = every_page(page, clock, [NextMatch(arcade.context, run)])
     shown = page._overview
     assert shown
@@ -190,7 +190,7 @@ def test_no_part_leaves_the_canvas_hides_another_or_is_cut_off(arcade: Arcade, l
     arcade.context.words.switch(language)
     run, clock = running(played(an_event(form, count, seats, title="A" * 30), matches)), Clock()
     for scenes in ([NextMatch(arcade.context, run)], [a_match(arcade, run)]):
-        for parts in every_page(EventPage(arcade.context, clock), clock, scenes):
+        for parts in every_page(EventBoardPage(arcade.context, clock), clock, scenes):
             boxes = [pygame.Rect(part.box) for part in parts]
             assert all(pygame.Rect((0, 0), SIZE).contains(box) for box in boxes)
             assert all(box.collidelist(boxes[i + 1 :]) == -1 for i, box in enumerate(boxes))
@@ -204,10 +204,10 @@ def test_no_part_leaves_the_canvas_hides_another_or_is_cut_off(arcade: Arcade, l
 
 def test_at_the_end_there_is_the_podium(arcade: Arcade) -> None:
     run, clock = running(played(an_event(Format.KNOCKOUT, 8))), Clock()
-    page = EventPage(arcade.context, clock)
-    parts = page.parts([PodiumPage(arcade.context, run)])
+    page = EventBoardPage(arcade.context, clock)
+    parts = page.parts([EventPodiumPage(arcade.context, run)])
     assert parts
-    now = event_now(arcade.context, [PodiumPage(arcade.context, run)])
+    now = event_now(arcade.context, [EventPodiumPage(arcade.context, run)])
     assert now
     assert page._overview
     kinds = [kind for kind, _ in page._pages(now, page._overview)]
@@ -224,7 +224,7 @@ def test_at_the_end_there_is_the_podium(arcade: Arcade) -> None:
 
 def test_a_result_repaints_only_what_it_changes(arcade: Arcade) -> None:
     run, clock = running(played(an_event(Format.KNOCKOUT, 64), 40)), Clock()
-    page, scene = EventPage(arcade.context, clock), NextMatch(arcade.context, run)
+    page, scene = EventBoardPage(arcade.context, clock), NextMatch(arcade.context, run)
     page.parts([scene])
     clock.seconds += TURN
     before = page.parts([scene])
@@ -242,7 +242,7 @@ def test_a_result_repaints_only_what_it_changes(arcade: Arcade) -> None:
 
 def test_boxes_rows_and_cards_evict_no_sprite_of_a_match(arcade: Arcade) -> None:
     run, clock = running(played(an_event(Format.SWISS, 24, title="never painted"), 5)), Clock()
-    pages = every_page(EventPage(arcade.context, clock), clock, [a_match(arcade, run)])
+    pages = every_page(EventBoardPage(arcade.context, clock), clock, [a_match(arcade, run)])
     for part in pages[0]:
         part.paint(pygame.Surface(part.box[2:]))  # robots: a match has them too
     before = surfaces.bytes

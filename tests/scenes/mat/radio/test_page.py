@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.hardware.emulator.xbee import Carrier as EmulatedCarrier
+from pigaming_app.hardware.emulator.xbee import EmulatedCarrier as EmulatedCarrier
 from pigaming_app.hardware.emulator.xbee import Module
 from pigaming_app.hardware.radio.xbee_setup import Carrier
 from pigaming_app.hardware.session.real import RealSession

@@ -11,7 +11,7 @@ from pigaming_app.hardware.control.safety import REMOTE, RULES, Fault, SafetyRul
 from pigaming_app.hardware.radio.packets import LAST_ARENA
 from pigaming_app.hardware.radio.serial_line import radio_message
 from pigaming_app.hardware.robot_kinds import KINDS
-from pigaming_app.hardware.scan.things import Layout, Thing, ThingKind
+from pigaming_app.hardware.scan.things import Thing, ThingKind, ThingLayout
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.mat.mat import SessionMat
@@ -58,7 +58,7 @@ def arena_page(arcade: Arcade, things: Sequence[Thing] = (), fault: OperatorMess
     """Build your arena, with these things on the mat and the first one selected; walls are in the way in one arena."""
     arcade.context.mat = SessionMat(arcade.context, SimpleNamespace(ground=None))
     page = ArenaPage(arcade.context)
-    page._take(Layout(tuple(things)), False)
+    page._take(ThingLayout(tuple(things)), False)
     if page.arenas:
         page.arenas.end()
         page.arenas._thread.join()

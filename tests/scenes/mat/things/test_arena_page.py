@@ -10,7 +10,7 @@ import pytest
 from pigaming_app.hardware.emulator.robots import RADIUS
 from pigaming_app.hardware.emulator.things.prism import TAPE, Prism, box
 from pigaming_app.hardware.proof.things import distances
-from pigaming_app.hardware.scan.things import Layout, Outline, Thing, ThingKind
+from pigaming_app.hardware.scan.things import Outline, Thing, ThingKind, ThingLayout
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.things_on_mat import load_layout, save_layout, things_in_play
 from pigaming_app.scenes.features.replays import decode, pack, replay_of, verify
@@ -60,7 +60,7 @@ def frames(arcade: Arcade, mat: EmulatedSession, done: Callable[[Scene], bool], 
     raise AssertionError(f"{type(arcade.stack.top).__name__} is on top after {timeout} s")
 
 
-def scanned(arcade: Arcade, mat: EmulatedSession, things: list[Prism]) -> Layout:
+def scanned(arcade: Arcade, mat: EmulatedSession, things: list[Prism]) -> ThingLayout:
     """Scan these things by the page."""
     mat.arena.furnish(things)
     page = ArenaPage(arcade.context)
@@ -91,7 +91,7 @@ def simulated(controls: Controls) -> Arcade:
 
 def keep(arcade: Arcade, *things: Thing) -> None:
     assert session_of(arcade.context) is not None
-    save_layout(session_of(arcade.context), Layout(things))
+    save_layout(session_of(arcade.context), ThingLayout(things))
 
 
 def test_things_are_changed_on_screen_and_kept(simulated: Arcade) -> None:

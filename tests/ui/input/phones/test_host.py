@@ -11,10 +11,10 @@ from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones import host as hosts
 from pigaming_app.ui.input.phones import network
 from pigaming_app.ui.input.phones.host import CHECK_SECONDS, PhoneHost
-from pigaming_app.ui.input.phones.network import Network, PhonesUnavailable, chosen, networks
+from pigaming_app.ui.input.phones.network import NetworkInterface, PhonesUnavailable, chosen, networks
 
 pytestmark = pytest.mark.usefixtures("_no_threads_stay")
-CABLE, WIFI = Network("eth0", "203.0.113.5"), Network("wlan0", "192.168.1.20")
+CABLE, WIFI = NetworkInterface("eth0", "203.0.113.5"), NetworkInterface("wlan0", "192.168.1.20")
 
 
 class Clock:
@@ -97,14 +97,14 @@ def test_a_missing_library_is_one_sentence(host: PhoneHost, monkeypatch: pytest.
 def test_a_network_that_goes_and_comes_is_noticed(
     host: PhoneHost, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    there: list[Network] = []
+    there: list[NetworkInterface] = []
     monkeypatch.setattr(hosts, "networks", lambda: there)
     host.switch(True, "", 0 or free_port(), {})
     asked = host._asked
     assert asked is not None
     assert host.trouble is not None
     assert host.trouble.key == "no_network"
-    there.append(Network("wlan0", "127.0.0.1"))
+    there.append(NetworkInterface("wlan0", "127.0.0.1"))
     clock.now += CHECK_SECONDS + 0.1
     host.switch(True, *asked, {})
     assert host.trouble is None
@@ -114,7 +114,7 @@ def test_a_network_that_goes_and_comes_is_noticed(
     clock.now += CHECK_SECONDS + 0.1
     host.switch(True, *asked, {})
     assert host.url == ""
-    there[:] = [Network("wlan0", "127.0.0.2")]
+    there[:] = [NetworkInterface("wlan0", "127.0.0.2")]
     clock.now += CHECK_SECONDS + 0.1
     host.switch(True, *asked, {})
     assert "127.0.0.2" in host.url, "another address, another code"
