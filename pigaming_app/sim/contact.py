@@ -15,7 +15,7 @@ crush catapults a robot.
 
 from math import sqrt
 
-from pigaming_app.sim.grid import NEAR, NEAR_UNIT, node_at
+from pigaming_app.sim.grid import NEAR_UNIT, UNSEEN, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.robot import RADIUS, integrate
 from pigaming_app.sim.sweep import FAR, offset_from_wall, wall_contact
@@ -28,7 +28,6 @@ CRUSH = 0.5  # px of overlap above which ROUNDS is exceeded
 OVERLAP = 1.5  # px, permitted between two robots
 BERTH = 2.0 * RADIUS + 8.0  # px between the centres of a robot that is put back and any other
 ALL = (1 << ROBOTS) - 1  # a bit for each robot
-UNSEEN = NEAR - 36.0  # px: from a node without a wall near it, a point reaches none within this distance
 TOUCHED, MOVED = 1, 2  # by a wall
 APART = 4.0 * RADIUS * RADIUS  # px^2 between centres, from which two robots do not overlap
 TOO_CLOSE = (2.0 * RADIUS - OVERLAP) * (2.0 * RADIUS - OVERLAP)  # px^2, below which OVERLAP is exceeded

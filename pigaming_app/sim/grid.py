@@ -13,6 +13,7 @@ from pigaming_app.sim.world import CELL, COLUMNS, ROWS, Wall, World
 
 SPARE = 4.0  # px between a robot on a free node and the wall
 NEAR = 72.0  # px: the node nearest to anything that touches the wall is within RADIUS + half a cell's diagonal
+UNSEEN = NEAR - 36.0  # px: from a node without a wall near it, a point reaches none within this distance
 BLOCKED = 63  # mask of the bits that count blocking walls
 NEAR_UNIT = 64  # one nearby wall: a node of at least this value has a wall near it
 

@@ -7,7 +7,7 @@ from pigaming_app.sim.record import record
 HZ = 50  # ticks per second
 DT = 1.0 / HZ  # s
 WIDTH, HEIGHT = 1600.0, 900.0  # px, of the arena
-ROBOTS = 4
+ROBOTS = 4  # seats of a match; some may be empty
 WALLS = 63  # what six bits of the grid count
 MUDS = 16
 CELL = 50.0  # px between the nodes of the grid

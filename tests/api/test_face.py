@@ -1,7 +1,7 @@
 """`pigaming_app.api` is all that plug-ins import: Football, the template, the guide, the examples."""
 
 import ast
-import importlib
+import inspect
 import re
 import subprocess
 import sys
@@ -9,12 +9,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
-import pigaming_app.api as api
 from pigaming_app.storage.plugins.parts import ABOVE
+from tests.pages.api import MODULES, PAGE, definition, docstring, page
 
 ROOT = Path(__file__).resolve().parents[2]
 PLUGINS = [ROOT / "pigaming_football", ROOT / "assets" / "new_game"]
-MODULES = [api, *(importlib.import_module(f"{api.__name__}.{name}") for name in api.MODULES)]
 NAMES = {f"{module.__name__}.{name}" for module in MODULES for name in module.__all__}
 MOST = 80
 OTHERS = {"screens": {"pygame"}, "editor": {"pygame"}, "training": {"numpy"}}  # packages that a part may import, too
@@ -80,3 +79,13 @@ def test_all_but_the_screens_is_imported_without_pygame() -> None:
         "assert 'football' in TASKS and 'football' in AIS"
     )
     subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=True)
+
+
+def test_the_page_about_it_is_the_present_one_and_every_name_is_explained() -> None:
+    """By a docstring, or by a remark beside its value. `.venv/bin/python -m tests.pages.api --write` writes it."""
+    assert PAGE.read_text(encoding="utf-8") == page()
+    for module in MODULES:
+        for name in module.__all__:
+            place, statement = definition(module, name)
+            remark = inspect.getsource(place).splitlines()[statement.lineno - 1].partition("  # ")[2]
+            assert docstring(statement) or remark, f"{module.__name__}.{name}"

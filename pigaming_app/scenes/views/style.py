@@ -23,4 +23,4 @@ class Style:
     hair: int = HAIR
 
 
-STYLE = Style()
+STYLE = Style()  # of all screens

@@ -26,7 +26,7 @@ class Sprite(NamedTuple):
     dy: int
 
 
-Batch = list[tuple[pygame.Surface, tuple[int, int]]]
+Batch = list[tuple[pygame.Surface, tuple[int, int]]]  # what is drawn in one go, from the bottom up; see `put`
 
 
 def put(batch: Batch, sprite: Sprite, x: float, y: float) -> None:
