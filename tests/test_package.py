@@ -16,6 +16,7 @@ from trove_classifiers import classifiers
 
 import pigaming_app
 from pigaming_app.boot.interpreter import ARCADE, python_of, requirements, site_packages
+from pigaming_app.jobs.new_game import write
 
 pytestmark = pytest.mark.long
 
@@ -198,6 +199,18 @@ def test_a_missing_extra_is_one_line_and_with_it_the_job_works(run, tmp_path):
     everything = os.pathsep.join(folder for folder in sys.path if folder.endswith("-packages"))
     assert run("pigaming", *SHEET, PYTHONPATH=everything).returncode == 0
     assert (tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_a_new_game_is_checked_against_the_types_of_the_wheel(environment, tmp_path):
+    write(tmp_path / "tag", "tag")
+    command = [sys.executable, "-m", "mypy", "--strict", "--python-executable", str(python_of(environment)), "tag"]
+    ended = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert ended.returncode == 0, ended.stdout
+    rules = tmp_path / "tag" / "rules.py"
+    rules.write_text(
+        rules.read_text().replace("match.coin_x, match.coin_y = random", "match.coin, match.coin_y = random")
+    )
+    assert "[attr-defined]" in subprocess.run(command, cwd=tmp_path, capture_output=True, text=True).stdout
 
 
 def test_the_tests_are_not_part_of_it(run):
