@@ -4,11 +4,9 @@ Source: D. Baraff, "Fast contact force computation for nonpenetrating rigid bodi
 is that of `sim/sweep.py`.
 """
 
-from typing import Any
-
 from pigaming_app.api.rules import HEIGHT, RADIUS, ROBOTS, WIDTH, disc_contact, first_wall, kernel, offset_from_wall
 
-from .state import LEFT, MIDDLE, RIGHT
+from .state import LEFT, MIDDLE, RIGHT, Ball, Football
 
 SLOP = 1e-6  # px, for rounding
 NEVER = 2.0  # time of a contact that is none, as of `disc_contact`
@@ -16,7 +14,7 @@ X_RIM, Y_RIM, LINE, POST, WALL, ROBOT = 1, 2, 3, 10, 100, 200  # obstacles; the 
 
 
 @kernel
-def first_contact(match: Any, dx: float, dy: float, left: float, holder: int) -> tuple[int, float]:
+def first_contact(match: Football, dx: float, dy: float, left: float, holder: int) -> tuple[int, float]:
     """The first obstacle, 0 for none, of the ball moving by (dx, dy) in the last `left` share of a tick, and the time.
 
     Its holder is none. An obstacle that the ball touches already counts only if it moves into it.
@@ -39,7 +37,7 @@ def first_contact(match: Any, dx: float, dy: float, left: float, holder: int) ->
 
 
 @kernel
-def rim_contact(match: Any, x: float, y: float, dx: float, dy: float) -> tuple[int, float]:
+def rim_contact(match: Football, x: float, y: float, dx: float, dy: float) -> tuple[int, float]:
     """First contact with the rim, a post, or the line of a goal (of the ball's centre), as `first_contact`."""
     radius, half = match.rules.radius, match.mouth
     hit, first = 0, NEVER
@@ -76,7 +74,7 @@ def rim_contact(match: Any, x: float, y: float, dx: float, dy: float) -> tuple[i
 
 
 @kernel
-def bounce_off(match: Any, hit: int) -> None:
+def bounce_off(match: Football, hit: int) -> None:
     """Reflect the ball off rim, post or wall."""
     ball = match.ball
     if hit == X_RIM:
@@ -93,7 +91,7 @@ def bounce_off(match: Any, hit: int) -> None:
 
 
 @kernel
-def reflect(ball: Any, nx: float, ny: float, ux: float, uy: float, restitution: float) -> None:
+def reflect(ball: Ball, nx: float, ny: float, ux: float, uy: float, restitution: float) -> None:
     """Reflect the ball off an obstacle with velocity (ux, uy); (nx, ny), of any length, points from it to the ball.
 
     Newton's law of impact: separating speed = restitution * approaching speed.
@@ -106,7 +104,7 @@ def reflect(ball: Any, nx: float, ny: float, ux: float, uy: float, restitution: 
 
 
 @kernel
-def touch(ball: Any, k: int) -> None:
+def touch(ball: Ball, k: int) -> None:
     """Record that robot k has touched the ball."""
     if ball.touched != k + 1:
         ball.before, ball.touched = ball.touched, k + 1

@@ -14,7 +14,7 @@ from pigaming_app.api.rules import HEIGHT, HZ, RADIUS, ROBOTS, WIDTH, kernel, re
 
 from .physics import can_catch
 from .rules import lead_of, side_of
-from .state import DT, LEFT, MIDDLE
+from .state import DT, LEFT, MIDDLE, Football
 
 GROUPS = (
     ("motion", 5),
@@ -54,7 +54,7 @@ class FootballSenses(NetworkSenses):
 
 
 @kernel
-def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
+def encode(match: Football, seat: int, senses: Any, inputs: Any) -> None:
     """Fill in the inputs of one seat."""
     for i in range(SIZE):
         inputs[i] = 0.0
@@ -69,7 +69,7 @@ def encode(match: Any, seat: int, senses: Any, inputs: Any) -> None:
 
 
 @kernel
-def encode_self(match: Any, seat: int, sign: float, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+def encode_self(match: Football, seat: int, sign: float, ahead_x: float, ahead_y: float, inputs: Any) -> None:
     """The own robot, score and rules."""
     me, player, rules = match.robots[seat], match.players[seat], match.rules
     inputs[MOTION], inputs[MOTION + 1] = whole(me.linear / 340.0), whole(me.angular / rules.turn_rate)
@@ -93,7 +93,9 @@ def encode_self(match: Any, seat: int, sign: float, ahead_x: float, ahead_y: flo
 
 
 @kernel
-def encode_ball(match: Any, seat: int, senses: Any, sign: float, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+def encode_ball(
+    match: Football, seat: int, senses: Any, sign: float, ahead_x: float, ahead_y: float, inputs: Any
+) -> None:
     """The ball: where it is and will be, its velocity, who holds it, and whether it is in play."""
     me, ball = match.robots[seat], match.ball
     vx, vy = ball.vx, ball.vy
@@ -129,7 +131,9 @@ def encode_ball(match: Any, seat: int, senses: Any, sign: float, ahead_x: float,
 
 
 @kernel
-def encode_goals(match: Any, seat: int, senses: Any, sign: float, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+def encode_goals(
+    match: Football, seat: int, senses: Any, sign: float, ahead_x: float, ahead_y: float, inputs: Any
+) -> None:
     """Both goals as seen from the robot, the other one from the ball, and how open a shot straight ahead is."""
     me = match.robots[seat]
     for k in range(2):
@@ -148,7 +152,7 @@ def encode_goals(match: Any, seat: int, senses: Any, sign: float, ahead_x: float
 
 
 @kernel
-def clearance(match: Any, seat: int, ex: float, ey: float) -> float:
+def clearance(match: Football, seat: int, ex: float, ey: float) -> float:
     """Least distance in px of an opponent from the segment that leads from a robot (ex, ey) px away; at most LANE."""
     me, least = match.robots[seat], LANE
     length2 = ex * ex + ey * ey + 1e-9
@@ -164,7 +168,7 @@ def clearance(match: Any, seat: int, ex: float, ey: float) -> float:
 
 
 @kernel
-def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
+def encode_others(match: Football, seat: int, senses: Any, ahead_x: float, ahead_y: float, inputs: Any) -> None:
     """The nearest mate, the two nearest opponents, and who is nearer to the ball."""
     me, ball, told = match.robots[seat], match.ball, 0
     mates, opponents = 0, 0
@@ -189,7 +193,7 @@ def encode_others(match: Any, seat: int, senses: Any, ahead_x: float, ahead_y: f
 
 @kernel
 def encode_other(
-    match: Any, seat: int, j: int, senses: Any, ahead_x: float, ahead_y: float, own: float, k: int, inputs: Any
+    match: Football, seat: int, j: int, senses: Any, ahead_x: float, ahead_y: float, own: float, k: int, inputs: Any
 ) -> None:
     """Robot j, from input k on. `own`: px from the own robot to the ball."""
     me, robot, player = match.robots[seat], match.robots[j], match.players[j]
@@ -215,7 +219,7 @@ def encode_other(
 
 
 @kernel
-def facing(match: Any, j: int) -> float:
+def facing(match: Football, j: int) -> float:
     """1 if robot j holds the ball, else the cosine between its heading and the way to the ball, halved."""
     if match.ball.holder == j + 1:
         return 1.0
@@ -226,7 +230,7 @@ def facing(match: Any, j: int) -> float:
 
 
 @kernel
-def act(match: Any, seat: int, choices: Any) -> None:
+def act(match: Football, seat: int, choices: Any) -> None:
     """Stick and buttons from the choices of the four heads."""
     set_action(match.actions[seat], DRIVES[choices[0]], TURNS[choices[1]], choices[2], choices[3])
 
@@ -234,7 +238,7 @@ def act(match: Any, seat: int, choices: Any) -> None:
 ENCODING = Encoding("football", GROUPS, HEADS, encode, act, FootballSenses)
 
 
-def percepts(match: Any, inputs: Sequence[float]) -> Iterator[Sight]:
+def percepts(match: Football, inputs: Sequence[float]) -> Iterator[Sight]:
     """Ball, mate and opponents."""
     yield Sight("ball", "prize", NEAR / max(inputs[BALL + 2], 1.0 / 256) - NEAR, inputs[BALL], inputs[BALL + 1])
     for k, topic, kind in (

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from pigaming_app.api.rules import HEIGHT, ROBOTS, WIDTH, kernel, record, turn_to
 
 from .rules import lead_of, side_of
-from .state import DT, LEFT, MIDDLE
+from .state import DT, LEFT, MIDDLE, Football
 
 FREE, OWN, MATE, OPPONENT = range(4)  # `Observation.held`
 OTHERS = ROBOTS - 1
@@ -62,7 +62,7 @@ class Observation:
 
 
 @kernel
-def observe(match: Any, seat: int, senses: Any, obs: Any) -> None:
+def observe(match: Football, seat: int, senses: Any, obs: Observation) -> None:
     """Fill in the observation of one seat."""
     robot, ball, player = match.robots[seat], match.ball, match.players[seat]
     side = side_of(robot)
@@ -112,7 +112,7 @@ def turned(heading: float, turn: float) -> float:
 
 
 @kernel
-def polar(obs: Any, x: float, y: float) -> tuple[float, float]:
+def polar(obs: Observation, x: float, y: float) -> tuple[float, float]:
     """Distance and bearing of a point from the own pose, px and rad."""
     dx, dy = x - obs.x, y - obs.y
     return sqrt(dx * dx + dy * dy), turn_to(atan2(dy, dx) - obs.heading)

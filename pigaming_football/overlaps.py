@@ -5,19 +5,18 @@ place that no wall separates from it (`nearest_free`).
 """
 
 from math import cos, sin, sqrt
-from typing import Any
 
 from pigaming_app.api.rules import HEIGHT, RADIUS, ROBOTS, WIDTH, is_clear, kernel, offset_from_wall
 
 from .contacts import SLOP, reflect, touch
-from .state import DT, LEFT, MIDDLE, RIGHT
+from .state import DT, LEFT, MIDDLE, RIGHT, Ball, Football
 
 ROUNDS = 8  # in which a ball gives way
 RING, RINGS, ANGLES = 10.0, 24, 24  # px between, and number of, the circles on which a free place is sought
 
 
 @kernel
-def give_way(match: Any) -> int:
+def give_way(match: Football) -> int:
     """Push the ball straight out of what it overlaps, a few times in turn. 1 if it is free then."""
     ball, radius = match.ball, match.rules.radius
     for _ in range(ROUNDS):
@@ -39,7 +38,7 @@ def give_way(match: Any) -> int:
 
 
 @kernel
-def push_out(ball: Any, nx: float, ny: float, reach: float) -> int:
+def push_out(ball: Ball, nx: float, ny: float, reach: float) -> int:
     """Move the ball along (nx, ny), its offset from an obstacle, until that is `reach` px long. 1 if it was shorter."""
     gap2 = nx * nx + ny * ny
     if gap2 >= reach * reach or gap2 == 0.0:
@@ -51,7 +50,7 @@ def push_out(ball: Any, nx: float, ny: float, reach: float) -> int:
 
 
 @kernel
-def push_inside(match: Any) -> None:
+def push_inside(match: Football) -> None:
     """Move the ball back from rim and posts, but not out of a goal."""
     ball, radius = match.ball, match.rules.radius
     ball.y = min(max(ball.y, radius), HEIGHT - radius)
@@ -63,7 +62,7 @@ def push_inside(match: Any) -> None:
 
 
 @kernel
-def is_free(match: Any, x: float, y: float) -> int:
+def is_free(match: Football, x: float, y: float) -> int:
     """1 if a ball at (x, y) overlaps neither rim, posts, walls nor robots."""
     radius, half = match.rules.radius, match.mouth
     if not radius - SLOP <= y <= HEIGHT - radius + SLOP:
@@ -92,7 +91,7 @@ def is_free(match: Any, x: float, y: float) -> int:
 
 
 @kernel
-def nearest_free(match: Any, x: float, y: float) -> int:
+def nearest_free(match: Football, x: float, y: float) -> int:
     """Put the ball at the free place nearest to (x, y), on the pitch and not behind a wall. 0 if none is near."""
     ball, radius = match.ball, match.rules.radius
     for ring in range(RINGS):

@@ -13,13 +13,12 @@ Where there is no room for it, `settle` finds some, or the ball is dropped anew.
 """
 
 from math import atan2, cos, sin, sqrt
-from typing import Any
 
 from pigaming_app.api.rules import RADIUS, ROBOTS, WIDTH, kernel, turn_to
 
 from .contacts import LINE, ROBOT, bounce_off, first_contact, reflect, touch
 from .overlaps import give_way, is_free, nearest_free
-from .state import DT, MIDDLE, NOBODY
+from .state import DT, MIDDLE, NOBODY, Football
 
 CONTACTS = 12  # in a tick, after which the ball stays where it is for the rest of it
 CARRIED = 26.0  # px in a tick: a robot that moved further was carried by hand
@@ -31,7 +30,7 @@ NOTHING, SCORED, CAUGHT, NOWHERE = range(4)  # results of a move
 
 
 @kernel
-def note_steps(match: Any) -> None:
+def note_steps(match: Football) -> None:
     """Record how far each robot has moved since the last tick."""
     for k in range(ROBOTS):
         robot, player = match.robots[k], match.players[k]
@@ -43,7 +42,7 @@ def note_steps(match: Any) -> None:
 
 
 @kernel
-def slow_down(match: Any) -> None:
+def slow_down(match: Football) -> None:
     """Rolling friction of one tick."""
     ball = match.ball
     speed = sqrt(ball.vx * ball.vx + ball.vy * ball.vy)
@@ -56,7 +55,7 @@ def slow_down(match: Any) -> None:
 
 
 @kernel
-def roll(match: Any) -> int:
+def roll(match: Football) -> int:
     """Move a free ball for one tick. Returns NOTHING, SCORED (it is on the line of a goal), or CAUGHT."""
     ball = match.ball
     left = 1.0  # share of the tick
@@ -83,7 +82,7 @@ def roll(match: Any) -> int:
 
 
 @kernel
-def carry(match: Any) -> int:
+def carry(match: Football) -> int:
     """Move a held ball with its holder, until something is in its way, where the holder loses it. As `roll`."""
     ball = match.ball
     k = ball.holder - 1
@@ -114,7 +113,7 @@ def carry(match: Any) -> int:
 
 
 @kernel
-def lose(match: Any) -> None:
+def lose(match: Football) -> None:
     """End the hold of the ball."""
     ball = match.ball
     player = match.players[ball.holder - 1]
@@ -123,20 +122,20 @@ def lose(match: Any) -> None:
 
 
 @kernel
-def can_catch(match: Any, k: int) -> int:
+def can_catch(match: Football, k: int) -> int:
     """1 if robot k would catch a ball at its front."""
     player = match.players[k]
     return 1 if match.actions[k].fire and player.armed and not player.cooldown else 0
 
 
 @kernel
-def bearing_of_ball(match: Any, k: int, x: float, y: float) -> float:
+def bearing_of_ball(match: Football, k: int, x: float, y: float) -> float:
     """Bearing of the ball from robot k at (x, y), rad."""
     return turn_to(atan2(match.ball.y - y, match.ball.x - x) - match.robots[k].heading)
 
 
 @kernel
-def catch(match: Any, k: int, bearing: float) -> None:
+def catch(match: Football, k: int, bearing: float) -> None:
     """Let robot k hold the ball, at this bearing."""
     ball = match.ball
     touch(ball, k)
@@ -145,7 +144,7 @@ def catch(match: Any, k: int, bearing: float) -> None:
 
 
 @kernel
-def bounce_off_robot(match: Any, k: int, left: float) -> int:
+def bounce_off_robot(match: Football, k: int, left: float) -> int:
     """Reflect the ball off robot k, `left` of the tick before its end; 1 if it catches it instead."""
     ball, robot, player = match.ball, match.robots[k], match.players[k]
     x, y = robot.x - player.dx * left, robot.y - player.dy * left
@@ -159,7 +158,7 @@ def bounce_off_robot(match: Any, k: int, left: float) -> int:
 
 
 @kernel
-def settle(match: Any, from_x: float, from_y: float) -> int:
+def settle(match: Football, from_x: float, from_y: float) -> int:
     """See to it that the ball overlaps nothing; (from_x, from_y): where it did not. NOTHING, SCORED, or NOWHERE."""
     ball = match.ball
     if is_free(match, ball.x, ball.y):

@@ -32,7 +32,7 @@ from .physics import (
     settle,
     slow_down,
 )
-from .state import LEFT, MIDDLE, NOBODY, RIGHT
+from .state import LEFT, MIDDLE, NOBODY, RIGHT, Football
 
 RESTING = 6.0  # px/s, below which a ball counts as resting
 PROGRESS = 60.0  # px by which a ball gets anywhere
@@ -42,7 +42,7 @@ TIE = 1e-9  # px
 
 
 @kernel
-def judge(match: Any) -> None:
+def judge(match: Football) -> None:
     """One tick of the rules: the ball moves as the robots have, then catches, shots and restarts, then their speeds."""
     if match.over:
         stop_all(match)
@@ -69,7 +69,7 @@ def judge(match: Any) -> None:
 
 
 @kernel
-def is_decided(match: Any) -> bool:
+def is_decided(match: Football) -> bool:
     """True if one side leads, or no time of the overtime is left. The first such tick begins the overtime."""
     lead = lead_of(match, LEFT)
     if lead == 0 and match.tick < match.rules.ticks + match.rules.overtime:
@@ -79,7 +79,7 @@ def is_decided(match: Any) -> bool:
 
 
 @kernel
-def lead_of(match: Any, side: int) -> int:
+def lead_of(match: Football, side: int) -> int:
     """Goals of the team on one side less those of the other."""
     lead = 0
     for robot in match.robots:
@@ -98,7 +98,7 @@ def side_of(robot: Any) -> int:
 
 
 @kernel
-def move(match: Any) -> None:
+def move(match: Football) -> None:
     """One tick of the ball in play; a goal, or a drop if there is no place for it."""
     ball = match.ball
     x, y = ball.x, ball.y
@@ -116,7 +116,7 @@ def move(match: Any) -> None:
 
 
 @kernel
-def wait(match: Any) -> None:
+def wait(match: Football) -> None:
     """Count down to the drop of the ball, which is postponed while there is no place for it."""
     ball = match.ball
     ball.out -= 1
@@ -130,7 +130,7 @@ def wait(match: Any) -> None:
 
 
 @kernel
-def take_out(match: Any, x: float, y: float, ticks: int, speed: float) -> None:
+def take_out(match: Football, x: float, y: float, ticks: int, speed: float) -> None:
     """Take the ball out of play for some ticks, until it is dropped at (x, y) and rolls along x."""
     ball = match.ball
     if ball.holder:
@@ -143,14 +143,14 @@ def take_out(match: Any, x: float, y: float, ticks: int, speed: float) -> None:
 
 
 @kernel
-def drop(match: Any, away: float) -> None:
+def drop(match: Football, away: float) -> None:
     """Announce the drop of the ball at the nearest free place for it that is at least `away` px from it."""
     choose_drop(match, away)
     take_out(match, match.ball.x, match.ball.y, match.rules.warning, 0.0)
 
 
 @kernel
-def choose_drop(match: Any, away: float) -> None:
+def choose_drop(match: Football, away: float) -> None:
     """Move the ball to the nearest drop point that is free and `away` px off; of several, to any. Else it stays."""
     ball = match.ball
     begin = int(uniform(match) * match.drop_count)
@@ -166,7 +166,7 @@ def choose_drop(match: Any, away: float) -> None:
 
 
 @kernel
-def has_room(match: Any, x: float, y: float) -> bool:
+def has_room(match: Football, x: float, y: float) -> bool:
     """True if a ball dropped at (x, y) is free and at least ROOM px from every robot."""
     if not is_free(match, x, y):
         return False
@@ -180,7 +180,7 @@ def has_room(match: Any, x: float, y: float) -> bool:
 
 
 @kernel
-def watch_rest(match: Any) -> None:
+def watch_rest(match: Football) -> None:
     """Drop a ball anew that rests in reach of nobody, or gets nowhere."""
     ball, rules = match.ball, match.rules
     dx, dy = ball.x - ball.anchor_x, ball.y - ball.anchor_y
@@ -198,7 +198,7 @@ def watch_rest(match: Any) -> None:
 
 
 @kernel
-def in_reach(match: Any) -> bool:
+def in_reach(match: Football) -> bool:
     """True if a robot is near the ball."""
     ball, reach = match.ball, RADIUS + match.rules.radius + match.rules.near
     for robot in match.robots:
@@ -210,7 +210,7 @@ def in_reach(match: Any) -> bool:
 
 
 @kernel
-def score(match: Any) -> None:
+def score(match: Football) -> None:
     """The ball is on a goal's line: count the goal, and announce the kick-off."""
     ball = match.ball
     conceded = LEFT if ball.x < 0.5 * WIDTH else RIGHT
@@ -239,7 +239,7 @@ def score(match: Any) -> None:
 
 
 @kernel
-def count_down(match: Any, k: int) -> None:
+def count_down(match: Football, k: int) -> None:
     """One tick of a robot's timer, and of the button that catches again only after it was up."""
     player = match.players[k]
     if player.cooldown:
@@ -249,7 +249,7 @@ def count_down(match: Any, k: int) -> None:
 
 
 @kernel
-def use_feet(match: Any) -> None:
+def use_feet(match: Football) -> None:
     """Shoot a held ball when its holder's button is up or the time is over; else let the nearest robot catch it."""
     ball, rules = match.ball, match.rules
     if ball.holder:
@@ -272,7 +272,7 @@ def use_feet(match: Any) -> None:
 
 
 @kernel
-def shoot(match: Any) -> None:
+def shoot(match: Football) -> None:
     """Shoot the held ball away from its holder."""
     ball, rules = match.ball, match.rules
     k = ball.holder - 1

@@ -16,7 +16,7 @@ from pigaming_app.api.rules import WIDTH, kernel
 
 from .network import ENCODING
 from .rules import lead_of, side_of
-from .state import LEFT, MIDDLE
+from .state import LEFT, MIDDLE, Football
 
 LEAD, FIELD, NEARNESS = range(3)  # gauges
 POINT = 2.0  # reward of a goal, and cost of one conceded
@@ -28,7 +28,7 @@ LATE, LATEST = 0.2, 0.3  # share of matches in which others and the ball are see
 
 
 @kernel
-def gauge(match: Any, seat: int, inputs: Any, gauges: Any) -> None:
+def gauge(match: Football, seat: int, inputs: Any, gauges: Any) -> None:
     """Lead of the team, place of the ball between the goals, and nearness of the team to it."""
     side, ball = side_of(match.robots[seat]), match.ball
     gauges[LEAD] = lead_of(match, side)
@@ -46,7 +46,7 @@ def gauge(match: Any, seat: int, inputs: Any, gauges: Any) -> None:
 
 
 @kernel
-def result(match: Any, seat: int) -> float:
+def result(match: Football, seat: int) -> float:
     """Reward of the end of a match."""
     lead = lead_of(match, side_of(match.robots[seat]))
     return WIN if lead > 0 else -WIN if lead < 0 else -0.25 * WIN
@@ -104,7 +104,7 @@ TASK = Task(
 
 
 @kernel
-def tally(match: Any, seat: int, senses: Any, totals: Any) -> None:
+def tally(match: Football, seat: int, senses: Any, totals: Any) -> None:
     """Own goals, assists and shots, goals in the own goal, lead of the team, place of the ball, and the win."""
     player, side = match.players[seat], side_of(match.robots[seat])
     ahead = lead_of(match, side)

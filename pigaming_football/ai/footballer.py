@@ -18,10 +18,10 @@ from typing import Any
 from pigaming_app.api.brains import corner_after, escape, set_action, ticks_stuck, turn_stick, update_route
 from pigaming_app.api.rules import HEIGHT, WIDTH, is_clear, kernel, turn_to, uniform
 
-from ..observation import FREE, MATE, OPPONENT, OWN, from_left, observe, polar
+from ..observation import FREE, MATE, OPPONENT, OWN, Observation, from_left, observe, polar
 from ..rules import side_of
-from ..state import LEFT, MIDDLE, Rules
-from .mind import BALL, CHASER, FRICTION, KEEPER, PERIOD, SUPPORTER, TOUCH, clearance, notice, time_to_meet
+from ..state import LEFT, MIDDLE, Football, Rules
+from .mind import BALL, CHASER, FRICTION, KEEPER, PERIOD, SUPPORTER, TOUCH, Mind, clearance, notice, time_to_meet
 
 LOYALTY = 0.35  # s by which another must be faster to take over the chase
 FIRST = 0.25  # s by which an opponent must be faster for a lone robot to defend
@@ -44,7 +44,7 @@ AHEAD = ((60.0, -230.0), (60.0, 230.0), (260.0, -190.0), (260.0, 190.0), (420.0,
 
 
 @kernel
-def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
+def think(match: Football, seat: int, mind: Mind, weights: Any) -> None:
     """Observe and decide every PERIOD ticks; the action holds in between."""
     if (match.tick + mind.phase) % PERIOD:
         return
@@ -77,7 +77,7 @@ def think(match: Any, seat: int, mind: Any, weights: Any) -> None:
 
 
 @kernel
-def choose_role(mind: Any) -> None:
+def choose_role(mind: Mind) -> None:
     """Assign the own role by the times in which each robot can meet the ball."""
     obs = mind.obs
     mates, mate_time, rival_time = 0, 1e9, 1e9
@@ -109,7 +109,7 @@ def choose_role(mind: Any) -> None:
 
 
 @kernel
-def chase(match: Any, seat: int, mind: Any) -> None:
+def chase(match: Football, seat: int, mind: Mind) -> None:
     """Meet the ball, from behind if there is time for it, and catch it."""
     obs = mind.obs
     x, y = mind.meet_x, mind.meet_y
@@ -133,14 +133,14 @@ def chase(match: Any, seat: int, mind: Any) -> None:
 
 
 @kernel
-def grasp(obs: Any) -> int:
+def grasp(obs: Observation) -> int:
     """1 if FIRE should be pressed to catch the ball."""
     near = obs.ball_distance - TOUCH < GRASP and abs(obs.ball_bearing) < GRASP_ANGLE
     return 1 if near and obs.held == FREE and obs.ball_out == 0.0 and obs.can_catch else 0
 
 
 @kernel
-def play_ball(match: Any, seat: int, mind: Any) -> None:
+def play_ball(match: Football, seat: int, mind: Mind) -> None:
     """With the ball: shoot if the way is open, else pass, else carry it towards the more open side of the goal."""
     obs = mind.obs
     corner = obs.mouth - 50.0 if obs.mouth > 90.0 else 0.4 * obs.mouth
@@ -171,7 +171,7 @@ def play_ball(match: Any, seat: int, mind: Any) -> None:
 
 
 @kernel
-def keep_goal(match: Any, seat: int, mind: Any) -> None:
+def keep_goal(match: Football, seat: int, mind: Mind) -> None:
     """Stand between ball and goal, heading along the line on which to drive; catch the ball if it is at the front."""
     obs = mind.obs
     reach = min(obs.mouth, 150.0)
@@ -200,7 +200,7 @@ def keep_goal(match: Any, seat: int, mind: Any) -> None:
 
 
 @kernel
-def support(match: Any, seat: int, mind: Any) -> None:
+def support(match: Football, seat: int, mind: Mind) -> None:
     """Go where a pass can reach it: attracted by open lanes and the goal, repelled by opponents and the mate."""
     obs = mind.obs
     best, best_x, best_y = -1e9, obs.x, obs.y
@@ -224,7 +224,7 @@ def support(match: Any, seat: int, mind: Any) -> None:
 
 
 @kernel
-def drive_to(match: Any, seat: int, mind: Any, x: float, y: float, hurry: int, fire: int) -> None:
+def drive_to(match: Football, seat: int, mind: Mind, x: float, y: float, hurry: int, fire: int) -> None:
     """Drive to a point, in the team's frame, round the walls; in a `hurry` with turbo, and without slowing down."""
     obs, robot, route = mind.obs, match.robots[seat], mind.route
     sign = 1.0 if side_of(robot) == LEFT else -1.0
@@ -254,7 +254,7 @@ def drive_to(match: Any, seat: int, mind: Any, x: float, y: float, hurry: int, f
 
 
 @kernel
-def steer(match: Any, seat: int, mind: Any, ahead: float, angle: float, fire: int, turbo: int) -> None:
+def steer(match: Football, seat: int, mind: Mind, ahead: float, angle: float, fire: int, turbo: int) -> None:
     """Set the action that turns by `angle` and drives `ahead` (-1..1), as fast as the level permits."""
     obs = mind.obs
     turn = turn_stick(angle, obs.angular, obs.turn_rate, PERIOD)

@@ -1,7 +1,6 @@
 """Memory and senses of the hand-written footballer, and its prediction of the ball."""
 
 from math import sqrt
-from typing import Any
 
 from pigaming_app.api.brains import Route
 from pigaming_app.api.rules import HEIGHT, RADIUS, WIDTH, kernel, record, uniform
@@ -53,7 +52,7 @@ class Mind:
 
 
 @kernel
-def notice(mind: Any) -> None:
+def notice(mind: Mind) -> None:
     """Look at the ball every `reaction` ticks, and believe that it rolls on in between; draw aiming errors."""
     obs, step = mind.obs, PERIOD / 50.0
     mind.look -= PERIOD
@@ -71,7 +70,7 @@ def notice(mind: Any) -> None:
 
 
 @kernel
-def time_to_meet(mind: Any, x: float, y: float, turn: float) -> float:
+def time_to_meet(mind: Mind, x: float, y: float, turn: float) -> float:
     """Seconds until a robot at (x, y), `turn` rad off the ball, can touch the rolling ball; sets where.
 
     The first of MOMENTS at which it is there no later than the ball; the ball is reflected by the rim.
@@ -107,7 +106,7 @@ def folded(at: float, size: float) -> float:
 
 
 @kernel
-def clearance(obs: Any, x: float, y: float, to_x: float, to_y: float, mates: bool) -> float:
+def clearance(obs: Observation, x: float, y: float, to_x: float, to_y: float, mates: bool) -> float:
     """Least distance in px of an opponent, or of a mate too, from the segment between two points; at most 999."""
     ex, ey = to_x - x, to_y - y
     length2 = ex * ex + ey * ey + 1e-9

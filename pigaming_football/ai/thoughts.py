@@ -8,16 +8,16 @@ from pigaming_app.api.rules import HEIGHT, WIDTH
 
 from ..observation import OWN, from_left, polar
 from ..rules import side_of
-from ..state import LEFT, MIDDLE
+from ..state import LEFT, MIDDLE, Football
 from .footballer import STUCK_TICKS
-from .mind import CHASER, KEEPER, SUPPORTER
+from .mind import CHASER, KEEPER, SUPPORTER, Mind
 
 FAR = 1200.0  # px
 BEHAVIOURS = ("football_chase", "football_keep", "football_support")  # by role
 REASONS = ("football_nearest", "football_goal", "football_open")
 
 
-def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
+def explain(match: Football, seat: int, mind: Mind, weights: Any) -> Thoughts:
     """Its role and reason, the ball as it believes it to be, and where it can meet it."""
     obs = mind.obs
     if not obs.turn_rate:
@@ -50,7 +50,7 @@ def explain(match: Any, seat: int, mind: Any, weights: Any) -> Thoughts:
     )
 
 
-def _percepts(match: Any, seat: int, mind: Any) -> Iterator[Percept]:
+def _percepts(match: Football, seat: int, mind: Mind) -> Iterator[Percept]:
     """The ball, where it will be met, the goal, and the other robots."""
     sign = 1.0 if side_of(match.robots[seat]) == LEFT else -1.0
 
