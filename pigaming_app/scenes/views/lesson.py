@@ -23,13 +23,8 @@ class Step(NamedTuple):
 class Actor:
     """A robot of a lesson. It starts at (x, y), arena px, with a heading in degrees, clockwise from the right.
 
-    `does`: the name of a brain, or steps, separated by commas:
-
-        go X Y       drive to a point
-        turn X Y     turn towards a point
-        wait S       stand for S seconds
-
-    each with `fire` or `turbo` before it if that button is held meanwhile: "turbo go 900 450, fire wait 0.2".
+    `does`: the name of a brain, or steps, separated by commas: `go X Y` drives to a point, `turn X Y` turns towards
+    one, `wait S` stands for S seconds; `fire` or `turbo` before a step holds that button: "turbo go 900 450, fire wait 1".
     """
 
     x: float
