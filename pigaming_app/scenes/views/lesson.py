@@ -24,7 +24,7 @@ class Actor:
     """A robot of a lesson. It starts at (x, y), arena px, with a heading in degrees, clockwise from the right.
 
     `does`: the name of a brain, or steps, separated by commas: `go X Y` drives to a point, `turn X Y` turns towards
-    one, `wait S` stands for S seconds; `fire` or `turbo` before a step holds that button: "turbo go 900 450, fire wait 1".
+    one, `wait S` stands for S seconds; `fire` or `turbo` before a step holds the button: "turbo go 9 45, fire wait 1".
     """
 
     x: float
