@@ -21,8 +21,8 @@ from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests import tags
 from tests.scenes.arcade import Arcade, setup
+from tests.scenes.attract.test_attract import scores_of
 from tests.scenes.measuring import faults, measuring
-from tests.scenes.title.test_attract import scores_of
 
 
 @pytest.fixture
