@@ -28,7 +28,7 @@ from pigaming_app.storage.plugins.time_limit import TookTooLong, Watchdog
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui import memory as heap
-from pigaming_app.ui.draw.frame_budget import Unfinished, budget, clock
+from pigaming_app.ui.draw.frame_budget import Unfinished, budget, clock, drop_paused
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button
@@ -207,6 +207,8 @@ class App:
         cycles by the number of objects.
         """
         before, self.previous_ids = self.previous_ids, self._scene_ids()
+        if before != self.previous_ids:
+            drop_paused()  # what another scene has begun may hold 100 MB
         self.to_free = self.to_free or bool(before - self.previous_ids)
         if not self.to_free or not heap.collect():
             return False
