@@ -54,7 +54,9 @@ class Field:
         """The initial value of the field."""
         if self.default:
             return self.kind(self.default)
-        return self.kind() if self.count is None else [self.kind() for _ in range(self.count)]
+        if self.count is None:
+            return self.kind()
+        return [self.kind()] * self.count if self.code else [self.kind() for _ in range(self.count)]
 
     def elements(self, owner: object) -> Any:
         value = getattr(owner, self.name)

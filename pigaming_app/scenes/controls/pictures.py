@@ -24,6 +24,7 @@ from pigaming_app.ui.draw import (
     panel,
     text_width,
 )
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size
@@ -59,7 +60,8 @@ def no_pad(title: str, hint: str) -> LitImage:
 
 
 @cached
-def pad(name: str, labels: tuple[str, ...]) -> LitImage:
+@resumable
+def pad(name: str, labels: tuple[str, ...]) -> Steps[LitImage]:
     """A pad with its name and the labels of FIRE, BACK, X, Y and START."""
     layer = Layer(0, 0, W, H)
     panel(layer.glow, 0, 0, W, H, STEEL)
@@ -73,7 +75,7 @@ def pad(name: str, labels: tuple[str, ...]) -> LitImage:
         layer.glow.line(START_LINE, STEEL, THIN, True)
         size = fit_size(labels[-1], 30, START.w - 16)
         layer.canvas.crisp.text(labels[-1], size, START.centerx, START.centery, MIST, "head", "c")
-    return layer.render()
+    return (yield from layer.render_steps())
 
 
 @cached

@@ -145,7 +145,8 @@ def frame() -> Steps[LitImage]:
 
 
 @cached
-def axes(symmetry: Symmetry) -> LitImage:
+@resumable
+def axes(symmetry: Symmetry) -> Steps[LitImage]:
     """The axes of a symmetry."""
     layer, (x, y), color = Layer(BOARD.x, BOARD.y, BOARD.w, BOARD.h), BOARD.center, dim(FOCUS, 0.4)
     for image in symmetry.images:
@@ -155,7 +156,7 @@ def axes(symmetry: Symmetry) -> LitImage:
             layer.canvas.crisp.dashes([(x, BOARD.top + 8), (x, BOARD.bottom - 8)], color, 3, 14, 14, False)
         else:
             layer.canvas.crisp.dashes([(BOARD.left + 8, y), (BOARD.right - 8, y)], color, 3, 14, 14, False)
-    return layer.render()
+    return (yield from layer.render_steps())
 
 
 @cached

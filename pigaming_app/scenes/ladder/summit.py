@@ -19,7 +19,7 @@ from pigaming_app.scenes.results.winner import big_robot, title
 from pigaming_app.scenes.views.sprites.stars import star
 from pigaming_app.storage.scores import Score
 from pigaming_app.ui.draw import FOCUS, HERO, ICE, LABEL, LINE, MIST, PLAYERS, STEEL
-from pigaming_app.ui.draw.frame_budget import PrewarmQueue
+from pigaming_app.ui.draw.frame_budget import PrewarmQueue, Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
@@ -123,8 +123,9 @@ class Summit(Page):
 
 
 @cached
-def floor() -> LitImage:
+@resumable
+def floor() -> Steps[LitImage]:
     """The last rung, on which the robot stands."""
     layer = Layer(560, FLOOR_Y - 20, 800, 40)
     layer.glow.neon([(600, FLOOR_Y), (1320, FLOOR_Y)], STEEL, LINE)
-    return layer.render()
+    return (yield from layer.render_steps())

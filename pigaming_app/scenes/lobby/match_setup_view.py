@@ -23,6 +23,7 @@ from pigaming_app.ui.draw import (
     icon,
     text_width,
 )
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import SMALLEST, fit_lines, fit_size
@@ -132,7 +133,8 @@ def chip_at(count: int, x: float) -> int | None:
 
 
 @cached
-def records(lines: tuple[tuple[str, str, str], ...]) -> LitImage:
+@resumable
+def records(lines: tuple[tuple[str, str, str], ...]) -> Steps[LitImage]:
     """Best scores, one line each: feat, value, initials; top left at (0, 0)."""
     layer = Layer(0, 0, W, records_height(len(lines)))
     for i, (name, value, initials) in enumerate(lines):
@@ -141,7 +143,7 @@ def records(lines: tuple[tuple[str, str, str], ...]) -> LitImage:
         layer.canvas.body(name, PAD + 52, y, MIST, "l", fit_size(name, BODY, W - 2 * PAD - 364, "body"))
         layer.canvas.text(value, BODY, W - PAD - 110, y, ICE, "head", "r")
         layer.canvas.text(initials, BODY, W - PAD, y, FOCUS, "head", "r")
-    return layer.render()
+    return (yield from layer.render_steps())
 
 
 def records_height(lines: int) -> int:

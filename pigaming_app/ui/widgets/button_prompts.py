@@ -17,6 +17,7 @@ from pigaming_app.ui.draw import (
     readable,
     text_width,
 )
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import SMALLEST
@@ -109,11 +110,12 @@ def _widths(prompts: Sequence[tuple[str, str]], size: int) -> list[float]:
 
 
 @cached
-def row(prompts: tuple[tuple[str, str], ...], y: int, room: int) -> LitImage:
+@resumable
+def row(prompts: tuple[tuple[str, str], ...], y: int, room: int) -> Steps[LitImage]:
     """The rendered row."""
     ends, size = places(prompts, room), type_size(prompts, room)
     layer = Layer(ends[0][0], y - HIGH, ends[-1][1] - ends[0][0], 2 * HIGH)
     for (label, text), (left, _) in zip(prompts, ends, strict=True):
         wide = button(layer.canvas, left, y, label, size=min(size, BODY))
         layer.canvas.body(text, left + wide + 18, y, MIST, "l", size)
-    return layer.render()
+    return (yield from layer.render_steps())

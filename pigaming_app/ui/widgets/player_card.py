@@ -18,6 +18,7 @@ from pigaming_app.ui.draw import (
     prompt_size,
     text_width,
 )
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size
@@ -30,14 +31,15 @@ BAR = (24, 500, W - 48, 76)
 
 
 @cached
-def ready_bar(player: int, sentence: str) -> LitImage:
+@resumable
+def ready_bar(player: int, sentence: str) -> Steps[LitImage]:
     """The bar of a player who is ready."""
     layer, color = Layer(*BAR), PLAYERS[player]
     layer.glow.fill(cut_box(*BAR, 14), dim(color, 0.28)).line(cut_box(*BAR, 14), color, THIN, True)
     size = fit_size(sentence, LABEL, W - 150)
     icon(layer.glow, "check", MIDDLE - text_width(sentence, size) / 2 - 16, BAR_Y, 22, color, LINE + 1)
     layer.canvas.text(sentence, size, MIDDLE + 22, BAR_Y, ICE, "head", "c")
-    return layer.render()
+    return (yield from layer.render_steps())
 
 
 @cached

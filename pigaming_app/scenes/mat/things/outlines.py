@@ -11,6 +11,7 @@ from pigaming_app.sim.things.convex import Outline
 from pigaming_app.sim.things.spec import ThingSpec, Use
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import LINE, STEEL, THIN, WALL, Color, GlowCanvas, cut_box, dim
+from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
@@ -65,8 +66,9 @@ def _around(outline: Outline, px: float) -> list[tuple[float, float]]:
 
 
 @cached
-def frame() -> LitImage:
+@resumable
+def frame() -> Steps[LitImage]:
     """Outline of the arena, dim."""
     layer = Layer(LEFT, TOP, WIDTH, HEIGHT)
     layer.canvas.crisp.line(cut_box(LEFT, TOP, WIDTH, HEIGHT, 28), dim(STEEL, 0.8), THIN, True)
-    return layer.render()
+    return (yield from layer.render_steps())
