@@ -4,7 +4,6 @@ import logging
 from collections.abc import Sequence
 from pathlib import Path
 
-from pigaming_app.events import resume
 from pigaming_app.scenes.features.board_page import BoardPage
 from pigaming_app.scenes.features.feature import Feature, MenuItem, Service
 from pigaming_app.scenes.flow.context import Context
@@ -19,6 +18,8 @@ class EventMarker(Service):
     """Notes the running event on disk: from the first of its pages until only the title is left."""
 
     def __init__(self, context: Context, data: Path) -> None:
+        from pigaming_app.events import resume
+
         self.context, self.data = context, data
         self.path = resume.marked(data)
 
@@ -28,6 +29,8 @@ class EventMarker(Service):
         path = running_path(scenes) if len(scenes) > 1 else None
         if path == self.path or (path is None and len(scenes) != 1):
             return
+        from pigaming_app.events import resume
+
         self.path = path
         try:
             if path:

@@ -5,13 +5,14 @@ from pathlib import Path
 from pigaming_app.scenes.features.feature import Feature, MenuItem, Service
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
-from pigaming_app.scenes.lab.background import LabBackground
-from pigaming_app.scenes.lab.extra_fetch import ExtraFetch
 from pigaming_app.scenes.launch import Options
 
 
 def service(context: Context, options: Options) -> Service:
     """The background, with the command by which this start can fetch."""
+    from pigaming_app.scenes.lab.background import LabBackground
+    from pigaming_app.scenes.lab.extra_fetch import ExtraFetch
+
     background = context.shared(LabBackground)
     background.network_fetch = ExtraFetch(options.fetch_networks)
     return background
@@ -19,6 +20,7 @@ def service(context: Context, options: Options) -> Service:
 
 def page(context: Context, game: str) -> Scene:
     """The Lab in its last state."""
+    from pigaming_app.scenes.lab.background import LabBackground
     from pigaming_app.scenes.lab.scene import Lab
 
     background = context.shared(LabBackground)
