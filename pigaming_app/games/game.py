@@ -84,7 +84,7 @@ class Variant:
     teams: tuple[int, int, int, int] = (0, 1, 2, 3)  # default team of each seat
     overtime: float = 0.0  # s, by which a level match may exceed its minutes
     columns: tuple[str, ...] = ()  # of the results table; empty: those of the game
-    feats: tuple[str, ...] = ()  # names of its high-score tables; empty: all of the game
+    achievements: tuple[str, ...] = ()  # names of its high-score tables; empty: all of the game
 
     def __post_init__(self) -> None:
         if self.team_mode not in (FREE, ALONE, PAIRS, ALLIES):
@@ -147,8 +147,8 @@ class Game:
 
     def records_of(self, variant: str) -> tuple[RecordKind, ...]:
         """The high-score tables of a variant; of an unknown one, those of the default."""
-        feats = self.variants.get(variant, self.default).feats
-        return tuple(kind for kind in self.record_kinds if not feats or kind.name in feats)
+        achievements = self.variants.get(variant, self.default).achievements
+        return tuple(kind for kind in self.record_kinds if not achievements or kind.name in achievements)
 
     @property
     def default(self) -> Variant:

@@ -28,7 +28,7 @@ PALLETS = FactoryRules().pallets  # per team, the default goal
 GOALS = tuple(range(2, MAX_PALLETS + 1))
 OVERTIME = 30.0  # s
 VARIANTS = Variant.by_name(
-    Variant("standard", (3, 5, 8), 5, GOALS, PALLETS, PAIRS, teams=(0, 1, 0, 1), feats=("time",)),
+    Variant("standard", (3, 5, 8), 5, GOALS, PALLETS, PAIRS, teams=(0, 1, 0, 1), achievements=("time",)),
     Variant(
         "party",
         (2, 3, 5),
@@ -37,9 +37,9 @@ VARIANTS = Variant.by_name(
         teams=(0, 1, 0, 1),
         overtime=OVERTIME,
         columns=("score", "delivered", "stolen"),
-        feats=("points",),
+        achievements=("points",),
     ),
-    Variant("together", (3, 5, 8), 5, (4, 6, 8, 10, 12), 8, ALLIES, teams=(0, 0, 0, 0), feats=("time",)),
+    Variant("together", (3, 5, 8), 5, (4, 6, 8, 10, 12), 8, ALLIES, teams=(0, 0, 0, 0), achievements=("time",)),
 )
 STEPS_PER_DELIVERY = 1000.0  # steps of work that weigh as much as one delivery: more than a match can have
 

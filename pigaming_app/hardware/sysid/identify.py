@@ -25,10 +25,10 @@ FEWEST = 8  # fixes needed in a window
 HUBER = 3.0  # standard deviations beyond which a fix is down-weighted
 LATEST, COARSE = 0.20, 0.02  # s, end and spacing of the grid of dead times
 EARLY = 2.0  # s before the start from which commands still have an effect
-ROUNDS = 25  # iteration limit
-SETTLED = 1e-5  # relative decrease of the cost at convergence
+ITERATIONS = 25  # iteration limit
+TOLERANCE = 1e-5  # relative decrease of the cost at convergence
 LATE = 6  # index of the dead time in the parameters: left, right, their deadbands, lag, base, dead time
-NUDGES = np.array([1.0, 1.0, 1e-3, 1e-3, 1e-3, 0.1, 1e-3])  # finite-difference steps of the parameters
+STEPS = np.array([1.0, 1.0, 1e-3, 1e-3, 1e-3, 0.1, 1e-3])  # finite-difference steps of the parameters
 LEAST = np.array([100.0, 100.0, 0.0, 0.0, 0.01, 20.0, 0.0])  # lower bounds
 MOST = np.array([3000.0, 3000.0, 0.5, 0.5, 0.5, 300.0, 0.5])  # upper bounds
 
@@ -72,14 +72,14 @@ def fit_pieces(there: Floats, seen: Floats, firsts: Index) -> tuple[Floats, Floa
         moved = move_pieces(there, firsts, move)
         rest = (seen - moved) / NOISE**2
         dx, dy = (moved - np.repeat(move, counts, axis=0))[:, :2].T
-        slope = np.column_stack([rest[:, 0], rest[:, 1], rest[:, 2] + dx * rest[:, 1] - dy * rest[:, 0]])
+        gradient = np.column_stack([rest[:, 0], rest[:, 1], rest[:, 2] + dx * rest[:, 1] - dy * rest[:, 0]])
         normal = np.zeros((len(firsts), 3, 3))
         near, turn = NOISE[0] ** -2, NOISE[2] ** -2
         normal[:, 0, 0] = normal[:, 1, 1] = near * counts
         normal[:, 0, 2] = normal[:, 2, 0] = -near * np.add.reduceat(dy, firsts)
         normal[:, 1, 2] = normal[:, 2, 1] = near * np.add.reduceat(dx, firsts)
         normal[:, 2, 2] = near * np.add.reduceat(dx * dx + dy * dy, firsts) + turn * counts
-        move = move + np.linalg.solve(normal, np.add.reduceat(slope, firsts)[:, :, None])[:, :, 0]
+        move = move + np.linalg.solve(normal, np.add.reduceat(gradient, firsts)[:, :, None])[:, :, 0]
     return move_pieces(there, firsts, move), move
 
 
@@ -108,7 +108,7 @@ def _fitted(course: RobotRecording, start: Drivetrain, free: int) -> tuple[float
         return _residual(course, _drivetrain(np.concatenate([numbers, fixed])))
 
     bounds = LEAST[:free], MOST[:free]
-    solution = least_squares(residual, _vector(start)[:free], ROUNDS, NUDGES[:free], bounds, HUBER, SETTLED)
+    solution = least_squares(residual, _vector(start)[:free], ITERATIONS, STEPS[:free], bounds, HUBER, TOLERANCE)
     return solution.cost, _drivetrain(np.concatenate([solution.at, fixed]))
 
 

@@ -18,7 +18,7 @@ from pigaming_app.sim.drivetrain import Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
 
 FASTEST = 1000.0  # mm/s, top speed of a 3pi
-LEEWAY = 30.0  # mm, tolerance of the check that a robot can have driven to a fix
+TOLERANCE = 30.0  # mm, tolerance of the check that a robot can have driven to a fix
 PATIENCE = 3  # consistent implausible fixes after which the pose is reset to them
 MEMORY = 2.0  # s of commands to keep
 COAST = 1.0  # s of prediction without a fix; after that it takes PATIENCE fixes to resume
@@ -27,16 +27,16 @@ NEVER = 1e9  # age of the fix of a robot that was never seen, s
 
 FIX_PX, FIX_RAD = 0.6, 0.008  # noise of a fix, standard deviations
 SLIP_PX, SLIP_RAD = 6.0, 0.1  # process noise of the pose: random walk, per root of a second
-NUMBERS = 8  # dimension of the state
-START = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD, 0.1, 0.1, 0.1, 0.02, 20.0]))
-WALK = np.diag(np.square([SLIP_PX, SLIP_PX, SLIP_RAD, 0.005, 0.005, 0.005, 0.001, 0.5]))  # per second
+STATES = 8  # dimension of the state
+INITIAL_COVARIANCE = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD, 0.1, 0.1, 0.1, 0.02, 20.0]))
+PROCESS_NOISE = np.diag(np.square([SLIP_PX, SLIP_PX, SLIP_RAD, 0.005, 0.005, 0.005, 0.001, 0.5]))  # per second
 NEW = WheelCorrection(1.0, 1.0, 1.0, 0.0, 0.0)
 LOW, HIGH = WheelCorrection(0.6, 0.6, 0.6, -0.06, -30.0), WheelCorrection(1.4, 1.4, 1.4, 0.12, 60.0)
-SURPRISE = 36.0  # squared Mahalanobis distance of an outlier: it was pushed or lifted, so wheels are not updated
+GATE = 36.0  # squared Mahalanobis distance of an innovation, beyond which it is an outlier: a push, a lift
 STUCK = 0.4  # share of the predicted motion below which the robot counts as blocked
 CLEAR_PX, CLEAR_RAD = 1.5, 0.03  # smallest predicted motions for that test
-UNTAUGHT = 0.25  # s after an outlier or a block without updates of the wheels
-NOISE = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD]))
+OUTLIER_PAUSE = 0.25  # s without updates of the wheels after an outlier or a block
+MEASUREMENT_NOISE = np.diag(np.square([FIX_PX, FIX_PX, FIX_RAD]))
 
 Matrix = NDArray[np.float64]
 
@@ -49,8 +49,8 @@ class PoseFilter:
         self._commands: deque[tuple[float, float, float]] = deque()  # time sent, left and right wheel in px/s
         self._motion = MotionState(0.0, 0.0, 0.0)
         self.correction = NEW
-        self._covariance = START.copy()
-        self._seen = self._surprised = -inf
+        self._covariance = INITIAL_COVARIANCE.copy()
+        self._seen = self._outlier_at = -inf
         self._implausible: list[Fix] = []  # fixes rejected lately, consistent with each other
 
     def record_command(self, time: float, twist: Twist) -> None:
@@ -92,19 +92,19 @@ class PoseFilter:
         if dt > COAST:
             return self._reacquire(fix)
         motion = self._motion.copy()
-        flow = self._predict(motion, fix.captured)
-        if hypot(fix.x - motion.x, fix.y - motion.y) * self.mm > FASTEST * dt + LEEWAY:
+        jacobian = self._predict(motion, fix.captured)
+        if hypot(fix.x - motion.x, fix.y - motion.y) * self.mm > FASTEST * dt + TOLERANCE:
             return self._reacquire(fix)
         self._implausible.clear()
         if _stuck(self._motion, motion, fix):
-            self._surprised = fix.captured
+            self._outlier_at = fix.captured
         self._seen, self._motion = fix.captured, motion
-        self._update(fix, flow @ self._covariance @ flow.T + WALK * dt)
+        self._update(fix, jacobian @ self._covariance @ jacobian.T + PROCESS_NOISE * dt)
         return True
 
     def shift(self, seconds: float) -> None:
         """Take all fixes so far for `seconds` later."""
-        self._seen, self._surprised = self._seen + seconds, self._surprised + seconds
+        self._seen, self._outlier_at = self._seen + seconds, self._outlier_at + seconds
         self._implausible = [fix._replace(captured=fix.captured + seconds) for fix in self._implausible]
 
     def add_lateness(self, seconds: float) -> None:
@@ -133,9 +133,9 @@ class PoseFilter:
             before = motion.copy()
             motion.roll(left, right, self.correction, self.drivetrain.base, self.drivetrain.lag, dt)
             self._step(rows, before, motion, dt)
-        flow = np.eye(NUMBERS)
-        flow[:3] = rows
-        return flow
+        jacobian = np.eye(STATES)
+        jacobian[:3] = rows
+        return jacobian
 
     def _step(self, rows: list[list[float]], before: MotionState, after: MotionState, dt: float) -> None:
         """Propagate the Jacobian rows of x, y and heading through one step, to first order in `dt`."""
@@ -154,7 +154,7 @@ class PoseFilter:
         c, s, t = 0.5 * cos(before.heading), 0.5 * sin(before.heading), correction.turning / self.drivetrain.base
         dx, dy = after.x - before.x, after.y - before.y
         x, y, heading = rows
-        for i in range(2, NUMBERS):
+        for i in range(2, STATES):
             x[i] -= dy * heading[i]
             y[i] += dx * heading[i]
         for i, (forward, sideways) in enumerate(zip(ahead, turn, strict=True), 3):
@@ -174,7 +174,7 @@ class PoseFilter:
         if self._implausible:
             last = self._implausible[-1]
             way = hypot(fix.x - last.x, fix.y - last.y) * self.mm
-            if way > FASTEST * (fix.captured - last.captured) + LEEWAY:
+            if way > FASTEST * (fix.captured - last.captured) + TOLERANCE:
                 self._implausible.clear()
         self._implausible.append(fix)
         if len(self._implausible) < PATIENCE:
@@ -187,10 +187,10 @@ class PoseFilter:
         motion = self._motion
         turned = _turn_to(motion.heading, fix.heading)
         innovation = np.array((fix.x - motion.x, fix.y - motion.y, turned))
-        information = np.linalg.inv(covariance[:3, :3] + NOISE)
-        if innovation @ information @ innovation > SURPRISE:
-            self._surprised = fix.captured
-        if fix.captured - self._surprised < UNTAUGHT:
+        information = np.linalg.inv(covariance[:3, :3] + MEASUREMENT_NOISE)
+        if innovation @ information @ innovation > GATE:
+            self._outlier_at = fix.captured
+        if fix.captured - self._outlier_at < OUTLIER_PAUSE:
             motion.x, motion.y, motion.heading = fix.x, fix.y, motion.heading + turned
             self._forget_pose()
             return
@@ -204,7 +204,7 @@ class PoseFilter:
     def _forget_pose(self) -> None:
         """Reset the covariance of the pose to that of a fix, uncorrelated with the wheels."""
         self._covariance[:3, :], self._covariance[:, :3] = 0.0, 0.0
-        self._covariance[:3, :3] = NOISE
+        self._covariance[:3, :3] = MEASUREMENT_NOISE
 
 
 def _stuck(before: MotionState, predicted: MotionState, fix: Fix) -> bool:

@@ -260,11 +260,13 @@ class MatchSetupPage(Page):
         gap = row_sizes(self.game, self.variant).gap
         low = max(box.bottom for name, box in self.rows.items() if name != "go") + gap
         lines = []
-        for feat in self.game.records_of(self.variant.name):
-            best = self.context.scores.best(table_of(contest(self._setup()), feat))
+        for achievement in self.game.records_of(self.variant.name):
+            best = self.context.scores.best(table_of(contest(self._setup()), achievement))
             if best:
-                name = self.context.words(f"setup.best_{feat.name}")
-                lines.append((name, self.context.words.decimal(format_score(best[0].score, feat)), best[0].initials))
+                name = self.context.words(f"setup.best_{achievement.name}")
+                lines.append(
+                    (name, self.context.words.decimal(format_score(best[0].score, achievement)), best[0].initials)
+                )
         if lines and low + choice.records_height(len(lines)) <= GO.top - gap:
             choice.records(tuple(lines)).draw(screen, ROW_X, low)
 

@@ -135,7 +135,7 @@ def chip_at(count: int, x: float) -> int | None:
 @cached
 @resumable
 def records(lines: tuple[tuple[str, str, str], ...]) -> Steps[LitImage]:
-    """Best scores, one line each: feat, value, initials; top left at (0, 0)."""
+    """Best scores, one line each: achievement, value, initials; top left at (0, 0)."""
     layer = Layer(0, 0, W, records_height(len(lines)))
     for i, (name, value, initials) in enumerate(lines):
         y = 38 + 56 * i

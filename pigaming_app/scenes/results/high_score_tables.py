@@ -1,4 +1,4 @@
-"""High-score rules: the table of each feat, the matches that count, the format of values.
+"""High-score rules: the table of each achievement, the matches that count, the format of values.
 
 A table covers one arena, one set of rules, one duration (minutes, laps or pallets) and one number of people. A match
 counts for a seat only if every opponent is a person or an AI at least as strong as level 3; allies have no opponents.
@@ -42,7 +42,7 @@ def counts(setup: Setup, seat: int) -> bool:
 
 
 def contest(setup: Setup, seat: int | None = None) -> ScoreTable:
-    """The conditions of a match for a seat, or for the first person's: a table without a feat."""
+    """The conditions of a match for a seat, or for the first person's: a table without a achievement."""
     people = [i for i, other in enumerate(setup.seats) if other.brain == "human"]
     own = setup.seats[seat if seat is not None else people[0] if people else 0]
     mates = [other for other in setup.seats if other.brain != "off" and other.team == own.team]
@@ -52,30 +52,30 @@ def contest(setup: Setup, seat: int | None = None) -> ScoreTable:
     return ScoreTable(setup.game, arena, "", False, setup.variant, length, max(1, len(people)), side)
 
 
-def table_of(contest: ScoreTable, feat: RecordKind) -> ScoreTable:
-    """The table of a feat under the conditions of a contest."""
-    return replace(contest, feat=feat.name, timed=feat.timed)
+def table_of(contest: ScoreTable, achievement: RecordKind) -> ScoreTable:
+    """The table of a achievement under the conditions of a contest."""
+    return replace(contest, achievement=achievement.name, timed=achievement.timed)
 
 
 def high_score_tables(contest: ScoreTable) -> list[HighScoreTable]:
-    """The two tables shown side by side: one per feat, or today and all time if there is only one feat."""
-    feats = games()[contest.game].records_of(contest.rules)
-    tables = [table_of(contest, feat) for feat in feats]
-    if len(feats) > 1:
-        return [HighScoreTable(f"results.best_{table.feat}", table) for table in tables[:2]]
+    """The two tables shown side by side: one per achievement; of a single one, today and all time."""
+    achievements = games()[contest.game].records_of(contest.rules)
+    tables = [table_of(contest, achievement) for achievement in achievements]
+    if len(achievements) > 1:
+        return [HighScoreTable(f"results.best_{table.achievement}", table) for table in tables[:2]]
     return [HighScoreTable("results.today", tables[0], 1), HighScoreTable("results.ever", tables[0])]
 
 
 def contests(scores: Scores) -> list[ScoreTable]:
     """The contests with displayable rows, by game and arena."""
-    known = {replace(table, feat="", timed=False) for table in scores.tables() if _is_known(table)}
+    known = {replace(table, achievement="", timed=False) for table in scores.tables() if _is_known(table)}
     names = list(games())
     return sorted(known, key=lambda c: (names.index(c.game), c.arena != games()[c.game].arena, c.arena, c))
 
 
-def format_score(value: int, feat: RecordKind | ScoreTable) -> str:
+def format_score(value: int, achievement: RecordKind | ScoreTable) -> str:
     """Points, or milliseconds as minutes and seconds."""
-    return clock(value / 1000.0) if feat.timed else numeral(value)
+    return clock(value / 1000.0) if achievement.timed else numeral(value)
 
 
 def clock(seconds: float) -> str:
@@ -88,8 +88,10 @@ def clock(seconds: float) -> str:
 
 
 def _is_known(table: ScoreTable) -> bool:
-    """True if game, feat and rules exist; the file may contain anything."""
+    """True if game, achievement and rules exist; the file may contain anything."""
     game = games().get(table.game)
-    if not game or not any((feat.name, feat.timed) == (table.feat, table.timed) for feat in game.record_kinds):
+    if not game or not any(
+        (achievement.name, achievement.timed) == (table.achievement, table.timed) for achievement in game.record_kinds
+    ):
         return False
     return table.rules in game.variants and 0 < table.people <= 4 and table.side <= table.people

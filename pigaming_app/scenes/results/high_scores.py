@@ -1,4 +1,4 @@
-"""High-score page: two tables, either today and all time, or two feats such as lap and race.
+"""High-score page: two tables, either today and all time, or two achievements such as lap and race.
 
 Left and right change rules, durations and numbers of people in the same arena, up and down the arena or game.
 """

@@ -35,7 +35,7 @@ SPANS = {"results.today": 1, "results.ever": None}  # headings and their spans i
 _log = logging.getLogger(__name__)
 
 
-Feats = tuple[tuple[ScoreTable, int], ...]
+Achievements = tuple[tuple[ScoreTable, int], ...]
 Then = Callable[[Sequence[Score]], Scene | None]
 
 
@@ -48,7 +48,7 @@ class Qualification:
 
     seat: int
     device: Device
-    feats: Feats
+    achievements: Achievements
     places: tuple[tuple[tuple[str, int], ...], ...]
 
 
@@ -58,26 +58,39 @@ def qualifying(
     """Qualifying results, ranked together with the other people's of this match. `devices`: driver of each seat."""
     done = achieved(outcome, setup, [seat for seat, device in enumerate(devices) if device])
     out = []
-    for seat, feats in done.items():
-        rivals = [feat for rival, feats_of_rival in done.items() if rival != seat for feat in feats_of_rival]
-        ranked = [(feat, places(context, *feat, rivals)) for feat in feats]
-        qualified = [(feat, here) for feat, here in ranked if here]
+    for seat, achievements in done.items():
+        rivals = [
+            achievement
+            for rival, achievements_of_rival in done.items()
+            if rival != seat
+            for achievement in achievements_of_rival
+        ]
+        ranked = [(achievement, places(context, *achievement, rivals)) for achievement in achievements]
+        qualified = [(achievement, here) for achievement, here in ranked if here]
         device = devices[seat]
         if qualified and device:
             out.append(
-                Qualification(seat, device, tuple(feat for feat, _ in qualified), tuple(here for _, here in qualified))
+                Qualification(
+                    seat,
+                    device,
+                    tuple(achievement for achievement, _ in qualified),
+                    tuple(here for _, here in qualified),
+                )
             )
     return out
 
 
-def achieved(outcome: Outcome, setup: Setup, seats: Sequence[int]) -> dict[int, Feats]:
+def achieved(outcome: Outcome, setup: Setup, seats: Sequence[int]) -> dict[int, Achievements]:
     """Results above zero of people for whom the match counts, by seat."""
-    feats = games()[setup.game].records_of(setup.variant)
+    achievements = games()[setup.game].records_of(setup.variant)
     done = {}
     for row in outcome.rows:
         if row.seat in seats and setup.seats[row.seat].brain == "human" and counts(setup, row.seat):
             conditions = contest(setup, row.seat)
-            values = [(table_of(conditions, feat), row.records.get(feat.name, 0)) for feat in feats]
+            values = [
+                (table_of(conditions, achievement), row.records.get(achievement.name, 0))
+                for achievement in achievements
+            ]
             done[row.seat] = tuple((table, value) for table, value in values if value > 0)
     return done
 
@@ -185,12 +198,12 @@ class Initials:
             yield partial(ready_bar, claim.seat, words("results.done"))
 
     def _lines(self, claim: Qualification) -> tuple[tuple[str, str], ...]:
-        """Lines of a panel: each feat with its value, and the places it takes."""
+        """Lines of a panel: each achievement with its value, and the places it takes."""
         words = self.context.words
         lines = []
-        for (table, value), ranks in zip(claim.feats, claim.places, strict=True):
-            listed = ranks if len(claim.feats) == 1 else ranks[-1:]
-            lines.append((words(f"setup.best_{table.feat}"), words.decimal(self.format_value(value, table))))
+        for (table, value), ranks in zip(claim.achievements, claim.places, strict=True):
+            listed = ranks if len(claim.achievements) == 1 else ranks[-1:]
+            lines.append((words(f"setup.best_{table.achievement}"), words.decimal(self.format_value(value, table))))
             lines += [(words("results.place", board=words(title), place=place), "") for title, place in listed]
         return tuple(lines)
 
@@ -210,5 +223,5 @@ class Initials:
             self.context.scores.add(table, initials, value)
             for claim in self.claims
             if (initials := self.spellings[claim.device].taken)
-            for table, value in claim.feats
+            for table, value in claim.achievements
         ]

@@ -20,8 +20,8 @@ def text_keys(name: str, screens: GameScreens) -> Iterator[str]:
     for variant in game.variants.values():
         yield from (f"setup.{name}_{variant.name}", f"rules.{name}_{variant.name}")
         yield from (f"results.{column}" for column in variant.columns or game.columns)
-    for feat in game.record_kinds:
-        yield from (f"results.best_{feat.name}", f"setup.best_{feat.name}")
+    for achievement in game.record_kinds:
+        yield from (f"results.best_{achievement.name}", f"setup.best_{achievement.name}")
     yield from (f"setup.rounds_{count}" for count in game.rounds if len(game.rounds) > 1)
     yield from (f"setup.count_{game.goal}", f"setup.{game.goal}") if game.goal else ()
     yield from (f"howto.{lesson}" for lesson in screens.lessons)

@@ -6,7 +6,7 @@ resets = 0                       # number of times that all tables were cleared
 [[table]]
 game = "race"
 arena = "classic"
-feat = "lap"
+achievement = "lap"
 timed = true
 rules = "standard"
 length = 3

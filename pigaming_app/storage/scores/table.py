@@ -23,7 +23,7 @@ class ScoreTable:
 
     game: Name
     arena: Name
-    feat: Name  # points, lap, race, time …
+    achievement: Name  # points, lap, race, time …
     timed: bool = False  # milliseconds, lower is better; else points, higher is better
     rules: Name = ""
     length: Annotated[float, between(0, 1000)] = 0  # minutes; laps or pallets in a game with a goal

@@ -7,7 +7,7 @@ import pytest
 
 import pigaming_app.gym  # noqa: F401  (registers the environments)
 from pigaming_app.ai.learning import league
-from pigaming_app.ai.learning.training import TableTraining as TableTraining
+from pigaming_app.ai.learning.training import TableTraining
 from pigaming_app.ai.ppo.training import Training, in_threads
 from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.games.registry import games

@@ -125,13 +125,13 @@ class Watch:
                 (table_key(asdict(table)), value, initials)
                 for claim in self.entry.claims
                 if (initials := self.entry.spellings[claim.device].taken)
-                for table, value in claim.feats
+                for table, value in claim.achievements
             ]
             self.ledger.note("entered", entry=self.entry_name, rows=signed)
             self.entry = None
         if isinstance(top, Initials) and self.entry is None:
             self.entry, self.entry_name = top, self._next("entry")
-            rows = [(table_key(asdict(table)), value) for claim in top.claims for table, value in claim.feats]
+            rows = [(table_key(asdict(table)), value) for claim in top.claims for table, value in claim.achievements]
             self.ledger.note("asked", entry=self.entry_name, rows=rows)
 
     def _quiet(self, seconds: float, title: Title) -> None:

@@ -7,8 +7,7 @@ import pytest
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Entrant, EventSpec, Format, Result
-from pigaming_app.games.game import Result as MatchOutcome
-from pigaming_app.games.game import Row
+from pigaming_app.games.game import Outcome, Row
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.events.names import places_line
 from pigaming_app.scenes.events.next_page import EventMatch
@@ -115,7 +114,7 @@ def test_winners_are_named_in_teams_too(winners: tuple[int, ...], names: Sequenc
     rows = tuple(Row(seat, team, 1, 0, {}, {}, ()) for seat, team in enumerate(teams))
     match = setup("human human human level3", teams=teams)
     pads = [Device("pad", seat) for seat in range(3)]
-    ended = EndedMatch(match, MatchOutcome(rows, winners, (), 60.0), [*pads, None], names)
+    ended = EndedMatch(match, Outcome(rows, winners, (), 60.0), [*pads, None], names)
     assert headline(Words("en"), ended) == line
 
 

@@ -89,7 +89,7 @@ def test_minutes_count_where_a_match_is_played_for_time_and_the_goal_where_it_is
 
 def test_a_race_has_a_table_of_laps_and_one_of_whole_races():
     first, second = high_score_tables(contest(match("human level3 off off", game="race", goal=3)))
-    assert [(board.table.feat, board.table.timed, board.days) for board in (first, second)] == [
+    assert [(board.table.achievement, board.table.timed, board.days) for board in (first, second)] == [
         ("lap", True, None),
         ("race", True, None),
     ]
@@ -98,11 +98,11 @@ def test_a_race_has_a_table_of_laps_and_one_of_whole_races():
 
 def test_unknown_games_and_rules_in_a_file_are_not_shown():
     scores, good = Scores(), contest(match("human level3 off off"))
-    points = replace(good, feat="points")
+    points = replace(good, achievement="points")
     for table in (
         points,
         replace(points, game="chess"),
-        replace(points, feat="goals"),
+        replace(points, achievement="goals"),
         replace(points, timed=True),
         replace(points, rules="none"),
         replace(points, people=7),

@@ -31,14 +31,14 @@ def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 def opened(arcade: Arcade, at: ScoreTable, *filled: ScoreTable) -> HighScores:
     for table in filled:
         arcade.context.scores.add(table, "ABC", 9_000)
-    best = HighScores(arcade.context, replace(at, feat="", timed=False))
+    best = HighScores(arcade.context, replace(at, achievement="", timed=False))
     arcade.open(best)
     arcade.wait(HighScores.lockout + 0.1, draw=True)
     return best
 
 
 def shown(best: HighScores, *tables: ScoreTable) -> bool:
-    return best.contest in {replace(table, feat="", timed=False) for table in tables}
+    return best.contest in {replace(table, achievement="", timed=False) for table in tables}
 
 
 def test_it_opens_at_the_table_of_the_match_that_was_played(arcade: Arcade) -> None:

@@ -26,7 +26,7 @@ from tests.scenes.arcade import KEYS, Arcade, setup
 
 ALONE = ScoreTable("pitanks", "classic", "points", rules="plain", length=1, people=1)
 LAP = ScoreTable("race", "classic", "lap", True, "standard", 3, 1)
-RACE = replace(LAP, feat="race")
+RACE = replace(LAP, achievement="race")
 LONG = 4.0  # s after which the page is complete and accepts input
 
 
@@ -343,7 +343,7 @@ def test_three_letters_stand_for_the_best_lap_and_the_best_race(arcade: Arcade) 
     race(arcade, 9_870, 30_120)
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     [claim] = arcade.shown(Initials).claims
-    assert (claim.seat, [(table.feat, value) for table, value in claim.feats]) == (
+    assert (claim.seat, [(table.achievement, value) for table, value in claim.achievements]) == (
         0,
         [("lap", 9_870), ("race", 30_120)],
     )
@@ -364,7 +364,7 @@ def test_a_slow_race_with_a_fast_lap_claims_the_lap_alone(arcade: Arcade) -> Non
     race(arcade, 9_870, 30_120)
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     [claim] = arcade.shown(Initials).claims
-    assert [table.feat for table, _ in claim.feats] == ["lap"]
+    assert [table.achievement for table, _ in claim.achievements] == ["lap"]
 
 
 def test_laps_are_plotted_from_near_the_best_on_and_the_best_is_ringed() -> None:

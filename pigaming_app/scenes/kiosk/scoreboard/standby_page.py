@@ -59,17 +59,19 @@ class StandbyPage:
 
 
 def best_today(scores: Scores, game: str, words: Words) -> tuple[str, Best]:
-    """Feat and best results of today in the game's table with the most of them; the feat is empty without any."""
+    """Achievement and best results of today in the game's table with the most of them; no achievement without any."""
     found = [(table, scores.best(table, days=1)) for table in scores.tables() if _countable(table, game)]
     if not any(rows for _, rows in found):
         return "", ()
     table, rows = max(found, key=lambda pair: len(pair[1]))
-    return table.feat, tuple((row.initials, words.decimal(format_score(row.score, table))) for row in rows[:ROWS])
+    return table.achievement, tuple(
+        (row.initials, words.decimal(format_score(row.score, table))) for row in rows[:ROWS]
+    )
 
 
 def _countable(table: ScoreTable, game: str) -> bool:
-    feats = [feat.name for feat in games()[game].record_kinds]
-    return table.game == game and table.feat in feats
+    achievements = [achievement.name for achievement in games()[game].record_kinds]
+    return table.game == game and table.achievement in achievements
 
 
 def _name(surface: pygame.Surface) -> None:
