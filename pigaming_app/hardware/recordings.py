@@ -13,14 +13,16 @@ import zipfile
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import Annotated
 
 import numpy as np
+from msgspec import Meta, Struct
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.run_writer import FORMAT, RUN_PART
 from pigaming_app.sim.world import ROBOTS
-from pigaming_app.storage.parsing import describe_error, one_line, parse_json, quote, read
+from pigaming_app.storage.parsing import describe_error, one_line, parse_json, read
+from pigaming_app.storage.schema import between, one_of, typed
 
 MAX_BYTES = 400_000_000  # of a file; an hour has about 100 million
 MAX_LINE = 10_000  # bytes
@@ -80,11 +82,10 @@ def load(path: Path, min_observations: int = 50) -> Recording:
             raise RecordingError(f"{path.name}: more than {MAX_LINES:,} lines")
         try:
             run.add(parse_json(line))
-        except (ValueError, KeyError, TypeError) as error:
+        except ValueError as error:
             if lines.tell() == len(raw) and number > 1:
                 break  # the recording stopped in the middle of a line
-            reason = f"{type(error).__name__} {error}" if isinstance(error, KeyError) else str(error)
-            raise RecordingError(one_line(f"{path.name}: line {number}: not a line of a run ({reason})")) from None
+            raise RecordingError(one_line(f"{path.name}: line {number}: not a line of a run ({error})")) from None
         if number == 1 and not run.mm:
             raise RecordingError(f"{path.name}: not a run of PiGaming")
     courses = {
@@ -112,6 +113,44 @@ def _run_of_match(raw: bytes) -> bytes:
     return lines
 
 
+Moment = Annotated[float, between(-MAX_TIME, MAX_TIME)]  # s
+WheelShare = Annotated[float, between(-2.0, 2.0)]
+Coordinate = Annotated[float, between(-MAX_COORDINATE, MAX_COORDINATE)]
+Number = Annotated[int, between(0, ROBOTS - 1)]  # of a robot
+
+
+class RunHead(Struct, tag_field="kind", tag="head"):
+    """The first line. `mm`: of an arena px on the mat."""
+
+    format: Annotated[str, one_of(FORMAT)]
+    mm: Annotated[float, between(0.1, 100.0)]
+    emulated: bool = False
+
+
+class SentLine(Struct, tag_field="kind", tag="sent"):
+    """The commands of all robots; None: the motors were off."""
+
+    time: Moment
+    wheels: Annotated[tuple[tuple[WheelShare, WheelShare] | None, ...], Meta(min_length=ROBOTS, max_length=ROBOTS)]
+
+
+class SeenLine(Struct, tag_field="kind", tag="seen"):
+    """The fixes of a picture: robot, x, y, heading."""
+
+    captured: Moment
+    fixes: tuple[tuple[Number, Coordinate, Coordinate, Coordinate], ...]
+
+
+class PoseLine(Struct, tag_field="kind", tag="pose"):
+    """The tracker's estimates, which are not read."""
+
+
+class RunLine(Struct):
+    """Any line."""
+
+    line: RunHead | SentLine | SeenLine | PoseLine
+
+
 class _RecordingLines:
     """Parsed lines: `commands` of all robots, `observations` of each; `mm` is 0 before the header."""
 
@@ -120,50 +159,20 @@ class _RecordingLines:
         self.commands: list[Command] = []
         self.observations: list[list[Observation]] = [[] for _ in range(ROBOTS)]
 
-    def add(self, entry: Any) -> None:
-        """Parse one line. Raises ValueError, KeyError or TypeError."""
-        match entry["kind"]:
-            case "head":
-                if self.mm or entry["format"] != FORMAT:
-                    raise ValueError("another format")
-                self.mm, self.emulated = _number(entry["mm"], 0.1, 100.0), entry.get("emulated") is True
-            case "sent":
-                wheels = _list(entry["wheels"], ROBOTS)
-                both = [[0.0, 0.0] if pair is None else _shares(pair) for pair in wheels]
-                self.commands.append((_time(entry["time"]), both))
-            case "seen":
-                captured = _time(entry["captured"])
-                for fix in _list(entry["fixes"]):
-                    robot, x, y, heading = _list(fix, 4)
-                    if robot not in range(ROBOTS) or not isinstance(robot, int) or isinstance(robot, bool):
-                        raise ValueError(f"{quote(robot)} is no robot; there are 0 to {ROBOTS - 1}")
+    def add(self, entry: object) -> None:
+        """Take one line over. Raises ValueError."""
+        match typed({"line": entry}, RunLine).line:
+            case RunHead() as head:
+                if self.mm:
+                    raise ValueError("a second header")
+                self.mm, self.emulated = head.mm, head.emulated
+            case SentLine() as sent:
+                self.commands.append((sent.time, [[*(pair or (0.0, 0.0))] for pair in sent.wheels]))
+            case SeenLine() as seen:
+                for robot, x, y, heading in seen.fixes:
                     if len(self.observations[robot]) >= MAX_FIXES:
                         raise ValueError(f"more than {MAX_FIXES:,} poses of a robot")
-                    self.observations[robot].append((captured, _coordinate(x), _coordinate(y), _coordinate(heading)))
-
-
-def _list(value: Any, count: int | None = None) -> list[Any]:
-    if not isinstance(value, list) or (count is not None and len(value) != count):
-        raise ValueError(f"{quote(value)} is no list{'' if count is None else f' of {count}'}")
-    return value
-
-
-def _shares(pair: Any) -> list[float]:
-    return [_number(share, -2.0, 2.0) for share in _list(pair, 2)]
-
-
-def _time(value: Any) -> float:
-    return _number(value, -MAX_TIME, MAX_TIME)
-
-
-def _coordinate(value: Any) -> float:
-    return _number(value, -MAX_COORDINATE, MAX_COORDINATE)
-
-
-def _number(value: Any, low: float, high: float) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
-        raise ValueError(f"{quote(value)} is no number from {low:g} to {high:g}")
-    return float(value)
+                    self.observations[robot].append((seen.captured, x, y, heading))
 
 
 def _course(robot: int, commands: list[Command], fixes: list[Observation]) -> RobotRecording:

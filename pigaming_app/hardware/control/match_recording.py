@@ -1,16 +1,17 @@
 """Recording of a match with real robots: its replay, the robots at every tick, faults, and the run for `fidelity`.
 
 The file is a zip archive. Part `match.replay` is a replay file like that of simulated robots; `robots.bin` is a
-RobotTrack, with which the rules are judged again to the same end; `faults.json` has the faults; `run.jsonl.gz` is a run
-(see recordings). `things.json` has the moves of things on the mat, if there were any.
+RobotTrack, with which the rules are judged again to the same end; `incidents.json` has the faults, and the moves of
+things on the mat; `run.jsonl.gz` is a run (see recordings).
 """
 
-import json
 import zipfile
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from io import BytesIO
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
+
+from msgspec import Meta
 
 from pigaming_app.hardware.control.moving_things import ThingsMove
 from pigaming_app.hardware.control.recorded_plant import ROW, SIZE, RobotTrack
@@ -20,20 +21,19 @@ from pigaming_app.sim.things.spec import read_things, wall_capsules
 from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import ROBOTS, WALLS
 from pigaming_app.storage.parsing import parse_json
+from pigaming_app.storage.schema import Count, between, from_json, one_of, to_json
 
 MAX_TICKS = 180_000  # an hour
 MAX_SECONDS = 86_400.0  # s of a fault
 MAX_FAULTS = 10_000
 MAGIC = b"PK\x03\x04"
-REPLAY, ROBOTS_PART, FAULTS, MOVES = "match.replay", "robots.bin", "faults.json", "things.json"
+REPLAY, ROBOTS_PART, INCIDENTS = "match.replay", "robots.bin", "incidents.json"
 LIMITS = {  # bytes of a part, unpacked
     REPLAY: 8_000_000,
     ROBOTS_PART: ROW * SIZE * (MAX_TICKS + 1),
-    FAULTS: 1_000_000,
     RUN_PART: 100_000_000,
-    MOVES: 50_000_000,
+    INCIDENTS: 50_000_000,
 }
-OPTIONAL = {MOVES}
 MAX_BYTES = sum(LIMITS.values())
 MAX_MOVES = 60 * 60 * 30
 NAMES = frozenset(rule.name for rule in RULES) | frozenset(REMOTE.values())
@@ -47,11 +47,19 @@ class MatchFileError(ValueError):
 class RecordedFault:
     """A fault of a robot, counted from 0, or of all (None): the tick at which it began, and how long it lasted."""
 
-    name: str
-    robot: int | None
-    tick: int
+    name: Annotated[str, one_of(*NAMES)]
+    robot: Annotated[int, between(0, ROBOTS - 1)] | None
+    tick: Count
     pauses: bool  # True: the match waited
-    seconds: float = 0.0  # s of real time
+    seconds: Annotated[float, between(0.0, MAX_SECONDS)] = 0.0  # s of real time
+
+
+@dataclass(frozen=True)
+class RecordedIncidents:
+    """Part INCIDENTS."""
+
+    faults: Annotated[tuple[RecordedFault, ...], Meta(max_length=MAX_FAULTS)]
+    moves: Annotated[tuple[ThingsMove, ...], Meta(max_length=MAX_MOVES)]
 
 
 class MatchRecording(NamedTuple):
@@ -100,12 +108,10 @@ def pack(replay: bytes, recording: MatchRecording) -> bytes:
         for name, part in (
             (REPLAY, replay),
             (ROBOTS_PART, recording.track.pack()),
-            (FAULTS, json.dumps([asdict(fault) for fault in recording.faults]).encode()),
+            (INCIDENTS, to_json(RecordedIncidents(recording.faults, recording.moves)).encode()),
             (RUN_PART, recording.run),
-            (MOVES, json.dumps([asdict(move) for move in recording.moves]).encode()),
         ):
-            if name != MOVES or recording.moves:
-                archive.writestr(zipfile.ZipInfo(name), part)
+            archive.writestr(zipfile.ZipInfo(name), part)
     return file.getvalue()
 
 
@@ -114,7 +120,7 @@ def unpack(raw: bytes) -> dict[str, bytes]:
     try:
         with zipfile.ZipFile(BytesIO(raw)) as archive:
             sizes = {entry.filename: entry.file_size for entry in archive.infolist()}
-            if sizes.keys() | OPTIONAL != LIMITS.keys() or len(archive.infolist()) != len(sizes):
+            if sizes.keys() != LIMITS.keys() or len(archive.infolist()) != len(sizes):
                 raise MatchFileError("not a recording of a match")
             if any(size > LIMITS[name] for name, size in sizes.items()):
                 raise MatchFileError("not a recording of a match: a part of it is too big")
@@ -129,43 +135,12 @@ def recording_of(parts: Mapping[str, bytes], ticks: int) -> MatchRecording:
     """The recording in the parts of a file, whose replay has that many ticks. Raises MatchFileError."""
     try:
         track = RobotTrack.unpack(parts[ROBOTS_PART], ticks + 1)
-        faults = parse_json(parts[FAULTS])
-        if not isinstance(faults, list) or len(faults) > MAX_FAULTS:
-            raise ValueError("faults")
-        moves = parse_json(parts.get(MOVES, b"[]"))
-        if not isinstance(moves, list) or len(moves) > MAX_MOVES:
-            raise ValueError("moves")
-        return MatchRecording(
-            track,
-            tuple(_fault(one, ticks) for one in faults),
-            parts[RUN_PART],
-            tuple(_move(one, ticks) for one in moves),
-        )
-    except (ValueError, KeyError, TypeError, OverflowError, FieldError) as error:
-        raise MatchFileError(f"not a valid recording ({type(error).__name__}: {str(error)[:80]!a})") from None
-
-
-def _move(entry: Any, ticks: int) -> ThingsMove:
-    """Parse a move of things. Raises KeyError, TypeError, ValueError or FieldError."""
-    things = read_things(TomlTable({"thing": entry["things"]}))
-    move = ThingsMove(int(entry["tick"]), things, entry["routed"] is True)
-    if not 0 <= move.tick <= ticks:
-        raise ValueError("time of a move")
-    wall_capsules(move.things, WALLS)
-    return move
-
-
-def _fault(entry: Any, ticks: int) -> RecordedFault:
-    """Parse a fault. Raises KeyError, TypeError or ValueError."""
-    fault = RecordedFault(
-        str(entry["name"]),
-        entry["robot"] if entry["robot"] is None else int(entry["robot"]),
-        int(entry["tick"]),
-        entry["pauses"] is True,
-        float(entry["seconds"]),
-    )
-    if fault.name not in NAMES or fault.robot not in (None, *range(ROBOTS)):
-        raise ValueError("fault")
-    if not 0 <= fault.tick <= ticks or not 0.0 <= fault.seconds <= MAX_SECONDS:
-        raise ValueError("time of a fault")
-    return fault
+        known = from_json(parts[INCIDENTS], RecordedIncidents)
+        for move in known.moves:
+            read_things(TomlTable({"thing": parse_json(to_json(move.things))}))
+            wall_capsules(move.things, WALLS)
+        if any(not 0 <= tick <= ticks for tick in (one.tick for group in (known.faults, known.moves) for one in group)):
+            raise ValueError("a tick after the last")
+        return MatchRecording(track, known.faults, parts[RUN_PART], known.moves)
+    except (ValueError, FieldError) as error:
+        raise MatchFileError(f"not a valid recording ({str(error)[:80]!a})") from None

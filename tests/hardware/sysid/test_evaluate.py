@@ -163,7 +163,7 @@ def test_a_recording_that_breaks_off_leaves_the_one_before(tmp_path):
         ("", "too little"),
         ("hello\n" * 3, "line 1"),
         ('{"kind": "sent"}\n{}\n', "line 1"),
-        ('{"kind": "head", "format": "pigaming-run-9", "mm": 1}\n{}\n', "another format"),
+        ('{"kind": "head", "format": "pigaming-run-9", "mm": 1}\n{}\n', "line.format: expected"),
         ('{"kind": "head", "format": "pigaming-run-1", "mm": 1.3}\n', "too little"),
         ('{"kind": "sent", "time": 1.0, "seq": 1, "wheels": [null, null, null, null]}\n{}\n', "not a run"),
         (

@@ -103,10 +103,10 @@ def test_a_recorded_match_ends_as_it_did_and_shows_its_faults(
     assert 0 in run.courses
 
     parts = match_recording.unpack(file.read_bytes())
-    faults = json.loads(parts["faults.json"])
+    known = json.loads(parts["incidents.json"])
     plain, track = parts["match.replay"], replay.recording.track
     for wrong in ({"robot": 4}, {"robot": "x"}, {"tick": -1}, {"tick": None}, {"seconds": float("nan")}, {"name": "x"}):
-        parts["faults.json"] = json.dumps([faults[0] | wrong]).encode()
+        parts["incidents.json"] = json.dumps(known | {"faults": [known["faults"][0] | wrong]}).encode()
         with pytest.raises(match_recording.MatchFileError):
             match_recording.recording_of(parts, replay.length)
     shorter = match_recording.MatchRecording(track.first(9))
