@@ -425,7 +425,7 @@ def editor(game: str, problem: str = "", said: str = "") -> Callable[[Arcade], S
         scene.bench.checker.verdict = CheckResult(drawing, found, done=True)
         if said:
             scene.say(said, name=WIDEST)
-            scene.sentence_left = 999.0
+            scene._message_left = 999.0
         return scene
 
     return opened

@@ -29,33 +29,32 @@ from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.toolbar import Tile, ToolBar
 from pigaming_app.scenes.editor.workbench import Workbench
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
+from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, Color
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 
-IDLE = 600.0  # s without input until the title
-HEAD_Y, PROMPTS_Y, PROMPTS_W = 82, 984, 1728  # px
-SENTENCE_SECONDS = 4.0
+HEAD_Y = 82  # px
 REVEAL = 1.6  # s in which a surprise draws itself
-Hints = tuple[tuple[Button, str], ...]
 
 
-class Editor:
+class Editor(Page):
     """The editor of a drawing of the user, which is called `name`. `reveal`: it draws itself first."""
 
+    idle = 600.0
+    prompts_y, prompts_room = 984, 1728
+
     def __init__(self, context: Context, game: str, name: str, drawing: Drawing, reveal: bool = False) -> None:
-        self.context, self.game, self.tools = context, game, EDITORS[game]
+        super().__init__(context)
+        self.game, self.tools = game, EDITORS[game]
         self.bench, self.bar, self.ground = Workbench(self.tools, name, drawing, reveal), ToolBar(), Ground(self.tools)
         self.waiting: InputEvent | None = None  # asked to play or to save, as soon as it is checked
         self.saving = False
-        self.clock, self.reveal = 0.0, REVEAL if reveal else 0.0
-        self.sentence, self.sentence_left, self.wrong = "", 0.0, False
+        self.reveal = REVEAL if reveal else 0.0
         self.told = False  # that the disk refuses
-        self._prompts: dict[Hints, ButtonPrompts] = {}
 
     # ---- scene
 
@@ -69,15 +68,16 @@ class Editor:
         self.bench.close()
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """Draw, drag, choose tiles; X deletes, Y opens the tool bar, START plays, BACK lets go or leaves."""
+        """The tool bar follows the mouse."""
         self.bar.point(event)
-        event, bench = self.prompts.as_button(event), self.bench
+        return super().handle(event)
+
+    def press(self, event: InputEvent) -> StackOperation:
+        """Draw, drag, choose tiles; X deletes, Y opens the tool bar, START plays."""
+        bench = self.bench
         self.reveal = 0.0 if event.button not in (Button.POINT, Button.FOUND, Button.LOST) else self.reveal
-        if self.waiting and event.button in (Button.FIRE, Button.CLICK, Button.X, Button.BACK):
+        if event.button in (Button.FIRE, Button.CLICK, Button.X):
             self.waiting = None  # drawn on instead
-            if event.button is Button.BACK:
-                self._play("back")
-                return None
         match event.button:
             case Button.POINT if event.at:
                 bench.pointer.place(event.at)
@@ -96,16 +96,12 @@ class Editor:
                 self.bar.open = not self.bar.open and bench.hand is None
             case Button.START:
                 return self._ask(event, False)
-            case Button.BACK:
-                return self._back()
             case _:
                 pass
         return None
 
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         """Move the pointer and what is in hand; go on when the drawing is checked."""
-        self.clock += seconds
-        self.sentence_left -= seconds
         self.reveal -= seconds
         self.bar.update(seconds)
         if not self.bar.open:
@@ -118,9 +114,10 @@ class Editor:
         self.told = self.bench.autosave.failed
         if self.waiting:
             return self._ask(self.waiting, self.saving)
-        return Home() if self.context.idle > IDLE else None
+        return None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    def show(self, screen: pygame.Surface) -> None:
+        """Draw the board and the tools; the heading is a line."""
         screen.blit(backdrop(), (0, 0))
         bench, drawing, verdict = self.bench, self.bench.shown, self.bench.verdict
         in_hand = changed_items(self.tools, bench.hand.base, drawing) if bench.hand else ()
@@ -130,7 +127,7 @@ class Editor:
         if bench.symmetry is not Symmetry.OFF:
             draw_axes(screen, bench.symmetry)
         if verdict and not bench.hand and share >= 1.0:
-            draw_routes(screen, verdict.routes, self.clock)
+            draw_routes(screen, verdict.routes, self.age)
         draw_parts(screen, self.tools, drawing, in_hand, share)
         for item in in_hand:
             draw_outline(screen, self.tools, drawing, item)
@@ -138,21 +135,24 @@ class Editor:
             draw_outline(screen, self.tools, drawing, bench.selected)
             draw_grips(screen, self.tools, drawing, bench.selected)
         if verdict:
-            draw_problems(screen, verdict.problems, self.clock)
+            draw_problems(screen, verdict.problems, self.age)
         if bench.pointer.shown and not self.bar.open:
             draw_pointer(screen, bench.pointer.at)
         self.bar.draw(screen, self.tiles, self.context.words)
-        name = self.title if bench.named else self.context.words("editor.new")
+        name = self.drawing_title if bench.named else self.context.words("editor.new")
         text(name, LABEL, ICE, "head", "l", 620).draw(screen, LEFT, HEAD_Y)
         line, color = self.line
         if line:
             text(line, BODY, color, "body", "r", 1060).draw(screen, RIGHT, HEAD_Y)
+
+    def draw_foot(self, screen: pygame.Surface) -> None:
+        """Messages are the line at the top."""
         self.prompts.draw(screen)
 
     # ---- what is shown
 
     @property
-    def title(self) -> str:
+    def drawing_title(self) -> str:
         return store.title_of(self.bench.history.now, self.context.words.language)
 
     @property
@@ -181,36 +181,31 @@ class Editor:
         return tiles
 
     @property
-    def prompts(self) -> ButtonPrompts:
-        """The button prompts of the moment."""
+    def hints(self) -> Hints:
+        """The prompts of the moment."""
         bench = self.bench
-        common: Hints = (
+        common = (
             (Button.Y, "editor.hint_tools"),
             (Button.START, "editor.hint_play"),
             (Button.BACK, "editor.hint_back"),
         )
-        hints: Hints
         if bench.hand:
-            hints = ((Button.FIRE, "editor.hint_drop"), (Button.BACK, "editor.hint_cancel"))
-        elif self.bar.open:
-            hints = ((Button.FIRE, "editor.hint_choose"), (Button.Y, "editor.hint_draw"), *common[1:])
-        else:
-            pointed, meant = bench.pointed, bench.selected or bench.pointed
-            removable = meant is not None and self.tools.removable(bench.history.now, meant)
-            hints = (
-                (Button.FIRE, "editor.hint_take" if pointed else "editor.hint_draw"),
-                *(((Button.X, "editor.hint_delete"),) if removable else ()),
-                *common,
-            )
-        if hints not in self._prompts:
-            self._prompts[hints] = self.context.prompts(hints, PROMPTS_Y, PROMPTS_W)
-        return self._prompts[hints]
+            return ((Button.FIRE, "editor.hint_drop"), (Button.BACK, "editor.hint_cancel"))
+        if self.bar.open:
+            return ((Button.FIRE, "editor.hint_choose"), (Button.Y, "editor.hint_draw"), *common[1:])
+        pointed, meant = bench.pointed, bench.selected or bench.pointed
+        removable = meant is not None and self.tools.removable(bench.history.now, meant)
+        return (
+            (Button.FIRE, "editor.hint_take" if pointed else "editor.hint_draw"),
+            *(((Button.X, "editor.hint_delete"),) if removable else ()),
+            *common,
+        )
 
     @property
     def line(self) -> tuple[str, Color]:
         """The sentence at the top: a message, or the worst problem."""
-        if self.sentence_left > 0.0:
-            return self.sentence, ALARM if self.wrong else FOCUS
+        if self.message:
+            return self.message, ALARM if self.wrong else FOCUS
         verdict = self.bench.verdict
         if verdict and verdict.problems:
             worst = next((problem for problem in verdict.problems if problem.blocks), verdict.problems[0])
@@ -221,8 +216,7 @@ class Editor:
 
     def say(self, key: str, wrong: bool = False, **values: object) -> None:
         """Show a sentence for a while."""
-        self.sentence, self.sentence_left = self.context.words(key, **values), SENTENCE_SECONDS
-        self.wrong = wrong
+        self.show_message(self.context.words(key, **values), wrong)
         self._play("error" if wrong else "accept")
 
     # ---- input
@@ -244,9 +238,13 @@ class Editor:
         elif not event.repeat and not self.bench.pointer.tap(event.button):
             self.bar.open = event.button is Button.LEFT and self.bench.hand is None
 
-    def _back(self) -> StackOperation:
+    def leave(self) -> StackOperation:
+        """Let go of what is asked for, in hand, open or selected, one after the other; then leave."""
         self._play("back")
-        if self.bench.hand:
+        self.reveal = 0.0
+        if self.waiting:
+            self.waiting = None
+        elif self.bench.hand:
             self.bench.cancel()
         elif self.bar.open:
             self.bar.open = False
@@ -300,12 +298,12 @@ class Editor:
             self._play("accept")
             return Push(PlayTest(self.context, self.game, verdict.arena, event.device))
         if self.bench.named:
-            self.save(self.title)
+            self.save_as(self.drawing_title)
             return None
         self._play("accept")
-        return Push(ArenaNamePage(self.context, self.game, self.bench.name, "", self.save))
+        return Push(ArenaNamePage(self.context, self.game, self.bench.name, "", self.save_as))
 
-    def save(self, title: str) -> None:
+    def save_as(self, title: str) -> None:
         """Save the arena under a title. It is then the one that the lobby proposes."""
         if not self.bench.named and store.is_full(self.game):
             self.say("editor.full", wrong=True)

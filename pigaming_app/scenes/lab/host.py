@@ -27,7 +27,7 @@ class LabHost(Protocol):
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the Lab."""
 
-    def show_message(self, sentence: str, wrong: bool = False) -> None:
+    def show_message(self, message: str, wrong: bool = False) -> None:
         """Show a message for a few seconds."""
 
     def begin(self) -> None:

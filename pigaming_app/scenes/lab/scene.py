@@ -14,7 +14,7 @@ from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
+from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.host import dimmed_background
 from pigaming_app.scenes.lab.knob import LIMIT
@@ -27,27 +27,38 @@ from pigaming_app.scenes.lab.progress import TrainingProgress
 from pigaming_app.scenes.lab.saved_robots import RobotFileError
 from pigaming_app.scenes.lab.trainer import Trainer
 from pigaming_app.scenes.lab.view import SPEEDS, LabPage, LabState, speed_at, warming
+from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.play.drivers import new_seed
-from pigaming_app.ui.draw import ALARM, FOCUS
+from pigaming_app.ui.draw import FOCUS
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
 FIRST = replace(RECIPES[1], behind_always=1)  # each knob affects every decision, so that a change shows quickly
-IDLE = 300.0  # s without input before the return to the title, which resets the table for the next visitors
 INPUT_LOCKOUT = 0.35  # s during which input is ignored after entering
-CONFIRM_SECONDS = 20.0  # s before the end of IDLE at which a confirmation prompt appears
-MESSAGE_SECONDS = 4.0  # s, display time of a message
+CONFIRM_SECONDS = 20.0  # s before the title returns at which a confirmation prompt appears
 COMPILE_NOTICE = 2.0  # s of compiling before a notice is shown
 MIN_SCALE = 2.0  # Q value that fills at least one petal
+HINTS = (
+    (Button.FIRE, "lab.hint_choose"),
+    (Button.X, "lab.hint_play"),
+    (Button.Y, "lab.hint_faster"),
+    (Button.START, "lab.hint_more"),
+    (Button.BACK, "lab.hint_leave"),
+)
+TURNING = ((Button.RIGHT, "lab.hint_turn"), (Button.FIRE, "lab.hint_done"))
 TURNS = {Button.LEFT: -1, Button.DOWN: -1, Button.RIGHT: 1, Button.UP: 1}
 
 
-class Lab:
+class Lab(Page):
     """Two robots that know nothing at first. `fast`: the table's kernels are compiled; None: if numba is available."""
 
+    idle = 300.0  # then the title returns, and the table is reset for the next visitors
+    prompts_y = PROMPTS_Y
+
     def __init__(self, context: Context, fast: bool | None = None) -> None:
-        self.context = context
+        super().__init__(context, Focus(self._spots(context.words), "speed"))
         background = context.shared(LabBackground)
         self.table = Trainer(FIRST, new_seed(), fast, background.compiler)
         self.network = NetworkTrainer(new_seed(), background.network_compiler)
@@ -61,20 +72,11 @@ class Lab:
         self.page: LabPage | None = None
         self.seen = -1  # number of the last frame shown
         self.held = ""  # knob being adjusted
-        self.age = self.message_left = self.compiling = 0.0
-        self.sentence, self.wrong = "", False
-        self.focus = Focus(self._spots(), "speed")
-        self.prompts = context.prompts(
-            [
-                (Button.FIRE, "lab.hint_choose"),
-                (Button.X, "lab.hint_play"),
-                (Button.Y, "lab.hint_faster"),
-                (Button.START, "lab.hint_more"),
-                (Button.BACK, "lab.hint_leave"),
-            ],
-            PROMPTS_Y,
-        )
-        self.turning = context.prompts([(Button.RIGHT, "lab.hint_turn"), (Button.FIRE, "lab.hint_done")], PROMPTS_Y)
+        self.compiling = 0.0
+
+    @property
+    def hints(self) -> Hints:
+        return TURNING if self.held else HINTS
 
     # ---- scene
 
@@ -83,13 +85,17 @@ class Lab:
         self.context.sounds.music(True)
         if self.page and self.page.language != self.context.words.language:
             self.page = None
-            self.focus.set_spots(self._spots())
+            self.focus.set_spots(self._spots(self.context.words))
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """Adjust the held knob, or select, play, change speed, open the menu, leave."""
-        event = (self.turning if self.held else self.prompts).as_button(event)
-        if self.held and event.button not in (Button.X, Button.Y):
-            return self._turn(event)
+        """While a knob is held, BACK lets go of it."""
+        pressed = self.prompts.as_button(event)
+        if self.held and pressed.button not in (Button.X, Button.Y):
+            return self._turn(pressed)
+        return super().handle(event)
+
+    def press(self, event: InputEvent) -> StackOperation:
+        """Select, play, change speed, open the menu."""
         self.held = ""
         match event.button:
             case Button.X:
@@ -98,9 +104,6 @@ class Lab:
                 self._next_speed((self.trainer.speed + 1) % len(SPEEDS))
             case Button.START:
                 return self._menu()
-            case Button.BACK:
-                self.context.sounds.play("back")
-                return self.leave(Pop())
             case Button.FIRE | Button.CLICK:
                 self.focus.handle(event)
                 return self._choose(event) if self.age > INPUT_LOCKOUT else None
@@ -109,33 +112,30 @@ class Lab:
                     self.context.sounds.play("move")
         return None
 
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         """Feed the trainer and update the page."""
-        self.age += seconds
-        self.message_left -= seconds
-        self.focus.update(seconds)
         self.trainer.feed(seconds)
         self.compiling = self.compiling + seconds if self.trainer.compiling else 0.0
         if self.trainer.trouble:
             self._report_trouble()
         self._follow(seconds)
-        if self.context.idle > IDLE:
+        if self.context.idle > self.idle:
             self._reset()
-            return self.leave(Home())
         return None
 
-    def draw(self, screen: pygame.Surface) -> None:
+    def show(self, screen: pygame.Surface) -> None:
+        """Draw the match, the knobs and the curve; without a heading."""
         if self.page is None:
             self.page, self.seen = LabPage(self.context), -1
         self.page.draw(screen, self.shown)
         if not self.held:
             self.focus.draw(screen)
+
+    def draw_foot(self, screen: pygame.Surface) -> None:
+        """Draw the question whether anybody is still there, too."""
+        super().draw_foot(screen)
         words = self.context.words
-        if self.message_left > 0.0:
-            caption(self.sentence, ALARM if self.wrong else FOCUS).draw(screen, 960, PROMPTS_Y)
-        else:
-            (self.turning if self.held else self.prompts).draw(screen)
-        if self.context.idle > IDLE - CONFIRM_SECONDS:
+        if self.context.idle > self.idle - CONFIRM_SECONDS:
             caption(words("pause.still"), FOCUS, sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
         elif self.compiling > COMPILE_NOTICE:
             warming(words("lab.warming" if self.kind == TABLE else "lab.preparing")).draw(screen)
@@ -147,9 +147,9 @@ class Lab:
 
     # ---- interface for the pages above
 
-    def show_message(self, sentence: str, wrong: bool = False) -> None:
-        """Show a message for a few seconds."""
-        self.sentence, self.wrong, self.message_left = sentence, wrong, MESSAGE_SECONDS
+    def show_message(self, message: str, wrong: bool = False) -> None:
+        """Show a message for a few seconds, with its sound."""
+        super().show_message(message, wrong)
         self.context.sounds.play("error" if wrong else "accept")
 
     def play(self, device: Device) -> StackOperation:
@@ -199,7 +199,10 @@ class Lab:
             self.trainer.close()
             self.kind, self.page, self.held = kind, None, ""
 
-    def leave(self, operation: StackOperation) -> StackOperation:
+    def leave(self) -> StackOperation:
+        return self._paused(super().leave())
+
+    def _paused(self, operation: StackOperation) -> StackOperation:
         """Pause the training and return `operation`."""
         self.trainer.close()
         return operation
@@ -242,7 +245,9 @@ class Lab:
         self.network.enable()
         if kind == NETWORK and self.network.fetchable:
             self.context.sounds.play("accept")
-            return self.leave(Push(FetchPage(self.context, lambda: dimmed_background(self), self._networks_are_ready)))
+            return self._paused(
+                Push(FetchPage(self.context, lambda: dimmed_background(self), self._networks_are_ready))
+            )
         if kind == NETWORK and not self.network.available:
             self.show_message(self.context.words(self.network.refusal), wrong=True)
         elif kind != self.kind:
@@ -269,16 +274,17 @@ class Lab:
         self.show_kind(TABLE)
         self.names, self.seen = dict.fromkeys(KINDS, ""), -1
 
-    def _spots(self) -> list[FocusSpot]:
+    @staticmethod
+    def _spots(words: Words) -> list[FocusSpot]:
         knobs = [FocusSpot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)]
-        kind = FocusSpot("kind", kind_rect(self.context.words))
+        kind = FocusSpot("kind", kind_rect(words))
         return [kind, FocusSpot("speed", SPEED), FocusSpot("play", PLAY), *knobs]
 
     def _menu(self) -> StackOperation:
         from pigaming_app.scenes.lab.pages.menu import LabMenu
 
         self.context.sounds.play("accept")
-        return self.leave(Push(LabMenu(self)))
+        return self._paused(Push(LabMenu(self)))
 
     def _value(self, knob: str) -> int:
         return max(-LIMIT, min(LIMIT, int(getattr(self.trainer.recipe, knob))))

@@ -154,16 +154,16 @@ def test_a_full_disk_is_one_sentence_and_the_drawing_stays(mouse: Mouse) -> None
             checked(mouse)
             mouse.arcade.frame()
         assert mouse.arcade.sounds.heard.count("error") == 1
-        assert editor.sentence == editor.context.words("editor.disk")
+        assert editor.message == editor.context.words("editor.disk")
         assert store.opened("pitanks", "new-1") is None
-        editor.save("MINE")
+        editor.save_as("MINE")
         assert editor.bench.name == "new-1"
         assert own_arenas("pitanks") == []
     assert len(editor.bench.history.now.of("wall")) == 3
     mouse.drag((1000, 200), (1200, 200))
     checked(mouse)
     assert store.opened("pitanks", "new-1") == editor.bench.history.now
-    editor.save("MINE")
+    editor.save_as("MINE")
     assert own_arenas("pitanks") == ["mine"]
 
 

@@ -145,7 +145,7 @@ def test_a_pitch_is_drawn_played_saved_and_offered(arcade: Arcade, controls: Con
     assert (state.wall_count, state.mouth) == (1, 90.0)
     arcade.press(Button.START)
     checked(mouse)
-    editor.save("MINE")
+    editor.save_as("MINE")
     arcade.press(Button.BACK)
     while not isinstance(arcade.stack.top, MatchSetupPage):
         arcade.press(Button.BACK)

@@ -311,7 +311,7 @@ def test_what_it_knew_is_kept_at_the_start(arcade: Arcade) -> None:
 def test_when_nobody_is_there_the_next_visitors_begin_with_an_empty_table(arcade: Arcade) -> None:
     here = lab(arcade)
     here.table.recipe = RECIPES[2]
-    arcade.context.idle = scene.IDLE + 1.0
+    arcade.context.idle = Lab.idle + 1.0
     arcade.frame()
     assert arcade.stack.top is arcade.title
     assert here.table.training.experiences == 0
@@ -327,7 +327,7 @@ def test_the_moment_in_which_it_beats_the_hand_made_robot_is_cheered_once(arcade
         lab(arcade)
         arcade.frame()
     assert arcade.sounds.heard.count("win") == 1
-    assert here.sentence == arcade.context.words("lab.outdone")
+    assert here.message == arcade.context.words("lab.outdone")
     here.begin()
     arcade.frame()
     assert arcade.sounds.heard.count("win") == 1
@@ -344,7 +344,8 @@ def test_labels_fit_their_boxes(language: str, controls: Controls, home: Path) -
     words = Words(language)
     arcade = Arcade(controls, language)
     there = Lab(arcade.context, fast=False)
-    for row in (there.prompts, there.turning):
+    for there.held in ("", KNOB_NAMES[0]):
+        row = there.prompts
         ends = places(row.labels, ROOM)
         assert SAFE.left - 16 <= ends[0][0]
         assert ends[-1][1] <= SAFE.right + 16

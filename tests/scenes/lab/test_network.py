@@ -13,7 +13,7 @@ import pytest
 
 from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.ai.networks.files import TrainedNetwork
-from pigaming_app.scenes.lab import saved_robots, scene
+from pigaming_app.scenes.lab import saved_robots
 from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.extra_fetch import ExtraFetch
 from pigaming_app.scenes.lab.layout import MATCH
@@ -96,7 +96,7 @@ def test_the_network_is_chosen_learns_is_measured_played_against_saved_and_opene
     here = lab(arcade)
     trainer = choose_network(arcade)
     assert here.kind == NETWORK
-    assert here.sentence == arcade.context.words("lab.network_how")
+    assert here.message == arcade.context.words("lab.network_how")
     arcade.frame()
     assert not any(here.shown.levels), "the table's plan is still shown"
     trainer.speed = 2
@@ -133,7 +133,7 @@ def test_the_network_is_chosen_learns_is_measured_played_against_saved_and_opene
     assert (lab(arcade).kind, here.name) == (NETWORK, "NEON")
     assert trainer.trained("").updates == updates
     assert len(trainer.progress.measures) == len(saved.curve.rows) >= 2
-    assert here.sentence == arcade.context.words("lab.opened", name="NEON")
+    assert here.message == arcade.context.words("lab.opened", name="NEON")
     learn(arcade, updates + 2)
 
 
@@ -184,7 +184,7 @@ def test_a_process_that_is_killed_starts_again_where_it_was_and_the_page_shows_o
     os.kill(number, signal.SIGKILL)
     wait(arcade, lambda: pid_of(trainer) != number)
     here = lab(arcade)
-    assert (here.wrong, here.sentence) == (True, arcade.context.words("lab.interrupted"))
+    assert (here.wrong, here.message) == (True, arcade.context.words("lab.interrupted"))
     assert trainer.trained("").updates >= updates
     learn(arcade, updates + 2)
     assert here.kind == NETWORK
@@ -198,7 +198,7 @@ def test_where_the_network_cannot_train_only_the_table_is_left(arcade: Arcade, b
     here.network = NetworkTrainer(5, compiler, BROKEN)
     choose_network(arcade)
     wait(arcade, lambda: here.kind == TABLE)
-    assert (here.wrong, here.sentence) == (True, arcade.context.words("lab.failed"))
+    assert (here.wrong, here.message) == (True, arcade.context.words("lab.failed"))
     assert here.network._deaths == DEATHS
     choose_network(arcade)
     assert here.kind == TABLE
@@ -297,7 +297,7 @@ def test_in_another_language_the_switch_has_another_width(arcade: Arcade) -> Non
 def test_when_nobody_is_there_the_process_ends_and_the_next_visitors_begin_with_a_table(arcade: Arcade) -> None:
     trainer = learn(arcade)
     number, here = pid_of(trainer), lab(arcade)
-    arcade.context.idle = scene.IDLE + 1.0
+    arcade.context.idle = Lab.idle + 1.0
     arcade.frame()
     assert arcade.stack.top is arcade.title
     assert not runs(number)
@@ -308,7 +308,7 @@ CRASHING = f"""
 import time
 from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.scenes.lab.extra_fetch import ExtraFetch
-from pigaming_app.scenes.lab.background import Background
+from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.network.trainer import NetworkTrainer
 trainer = NetworkTrainer(1, Compiler({NOTHING!r}), {PLAIN!r})
 trainer.speed = 2

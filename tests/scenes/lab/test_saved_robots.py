@@ -74,7 +74,7 @@ def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Ar
         arcade.wait(0.1)
     here = lab(arcade)
     assert here.name == "B9"
-    assert here.sentence == arcade.context.words("lab.saved", name="B9")
+    assert here.message == arcade.context.words("lab.saved", name="B9")
     assert robots.names() == ["B9"]
     saved = robots.load_robot("B9")
     assert isinstance(saved, Trained)
@@ -145,7 +145,7 @@ def test_a_full_disk_is_one_sentence_and_the_training_goes_on(
     experiences = lab(arcade).table.training.experiences
     save(arcade, "ROBI")
     here = lab(arcade)
-    assert (here.wrong, here.sentence) == (True, arcade.context.words(key))
+    assert (here.wrong, here.message) == (True, arcade.context.words(key))
     assert here.table.training.experiences >= experiences > 0
     assert here.name == ""
 
@@ -154,7 +154,7 @@ def test_a_folder_that_cannot_be_made_is_one_sentence(arcade: Arcade, home: Path
     home.mkdir(exist_ok=True)
     (home / "data").write_text("in the way")
     save(arcade, "ROBI")
-    assert lab(arcade).sentence == arcade.context.words("lab.no_writing")
+    assert lab(arcade).message == arcade.context.words("lab.no_writing")
     assert robots.names() == []
 
 
@@ -166,7 +166,7 @@ def test_a_damaged_file_is_one_sentence_and_the_robot_of_the_moment_stays(arcade
     menu(arcade, "open")
     arcade.press(Button.FIRE)
     here = lab(arcade)
-    assert (here.wrong, here.sentence) == (True, arcade.context.words("lab.broken"))
+    assert (here.wrong, here.message) == (True, arcade.context.words("lab.broken"))
     assert here.table.training is before
 
 
@@ -179,7 +179,7 @@ def test_a_robot_of_another_engine_is_opened_and_that_is_said(arcade: Arcade, la
     menu(arcade, "open")
     arcade.press(Button.FIRE)
     here = lab(arcade)
-    assert (here.wrong, here.sentence) == (False, arcade.context.words("lab.opened_other", name="ROBI"))
+    assert (here.wrong, here.message) == (False, arcade.context.words("lab.opened_other", name="ROBI"))
     assert here.table.training.matches >= 2
 
 
