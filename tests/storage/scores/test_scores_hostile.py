@@ -14,7 +14,14 @@ from pigaming_app.storage.scores import FILE, Scores, ScoreTable
 
 GOOD = '{ initials = "ABC", score = 4, when = 2026-11-21T12:00:00Z }'
 TABLE = ScoreTable("pitanks", "classic", "points", rules="plain", length=2, people=1)
-HEAD = 'format = 1\n[[table]]\ngame = "pitanks"\narena = "{arena}"\nfeat = "points"\ntimed = false\nrules = "plain"\n'
+HEAD = """format = 1
+[[table]]
+game = "pitanks"
+arena = "{arena}"
+achievement = "points"
+timed = false
+rules = "plain"
+"""
 ROWS = [
     '{ initials = "ABC", score = 1, when = 0001-01-01T00:00:00Z }',
     '{ initials = "ABC", score = 1, when = 0001-01-01T00:00:00 }',
