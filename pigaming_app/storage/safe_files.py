@@ -22,7 +22,7 @@ from pigaming_app.storage.parsing import MAX_BYTES, describe_error, one_line, re
 T = TypeVar("T")
 MAX_BACKUP = 16_000_000  # bytes, largest file that gets a `.bak`
 STALE = 86_400.0  # s, age at which a temporary file counts as abandoned, on file systems without locks
-_TEMPORARY = re.compile(r"\.(pigaming|.+\.(toml|bak|json|npz))-\w{8}(\.tmp)?")  # until 1.3.0 named after the file
+_TEMPORARY = re.compile(r"\.pigaming-[0-9a-f]{8}\.tmp")
 
 
 class NotSaved(OSError):

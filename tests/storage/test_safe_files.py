@@ -129,9 +129,9 @@ def test_a_file_that_another_instance_is_writing_is_not_deleted(tmp_path):
     assert content(tmp_path) == {"file": b"in the middle"}
 
 
-def test_temporary_files_of_version_1_3_0_are_deleted_and_no_others(tmp_path):
-    left = {".settings.toml-abcd_123", ".scores.toml.bak-aaaaaaaa", ".VOLT.npz-12345678", ".pigaming-0123abcd.tmp"}
-    others = {"settings.toml", ".hidden", "pigaming-0123abcd.tmp", ".pigaming-notes.txt", "a.toml-12345678"}
+def test_temporary_files_are_deleted_and_no_others(tmp_path):
+    left = {".pigaming-0123abcd.tmp"}
+    others = {"settings.toml", ".hidden", "pigaming-0123abcd.tmp", ".pigaming-notes.txt", ".settings.toml-abcd_123"}
     for name in left | others:
         (tmp_path / name).write_text("")
     (tmp_path / ".pigaming-89abcdef.tmp").mkdir()

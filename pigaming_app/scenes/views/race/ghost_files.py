@@ -7,22 +7,24 @@ against the rules, and dropped if it violates them. One file per track, named af
 """
 
 import hashlib
-import json
 import logging
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from threading import Thread
-from typing import Any
+from typing import Annotated
+
+from msgspec import Meta
 
 from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.state import LINES, RaceRules
 from pigaming_app.sim.arena import Arena
-from pigaming_app.storage.parsing import parse_json, quote
+from pigaming_app.storage.parsing import parse_json
 from pigaming_app.storage.safe_files import NotSaved, read_or_restore, write_with_backup
+from pigaming_app.storage.schema import Line, between, to_json, to_plain, typed
 
 RATE = 10.0  # poses per second
 FOLDER = "ghosts"
@@ -30,7 +32,8 @@ LONGEST = 600.0  # s
 FARTHEST = 10_000.0  # px from the centre, or rad
 SLACK = 1.1  # tolerance: real robots may be slightly faster than the rules, and tracked poses jitter
 NEAR = 50.0  # px along the track between a robot and the line it crosses
-Pose = tuple[float, float, float]  # px, px, rad
+Coordinate = Annotated[float, between(-FARTHEST, FARTHEST)]
+Pose = tuple[Coordinate, Coordinate, Coordinate]  # px, px, rad
 log = logging.getLogger(__name__)
 
 
@@ -38,9 +41,9 @@ log = logging.getLogger(__name__)
 class Ghost:
     """A lap from line `line` to itself, RATE poses/s; `crossed`: time at each line in s, starting with 0."""
 
-    line: int
-    seconds: float
-    crossed: tuple[float, ...]
+    line: Annotated[int, between(0, LINES - 1)]
+    seconds: Annotated[float, between(1.0, LONGEST)]
+    crossed: Annotated[tuple[float, ...], Meta(min_length=LINES, max_length=LINES)]
     poses: tuple[Pose, ...]
 
     def since(self, line: int, later: int) -> float:
@@ -57,10 +60,17 @@ class Ghost:
         at = (self.crossed[(line - self.line) % LINES] + seconds) % self.seconds * RATE
         k = min(int(at), len(self.poses) - 1)
         after = k + 1 if k + 1 < len(self.poses) else 0
-        return between(self.poses[k], self.poses[after], min(1.0, at - k))
+        return pose_between(self.poses[k], self.poses[after], min(1.0, at - k))
 
 
-def between(a: Pose, b: Pose, share: float) -> Pose:
+@dataclass(frozen=True)
+class GhostFile:
+    """What a file has beside the ghost."""
+
+    engine: Line
+
+
+def pose_between(a: Pose, b: Pose, share: float) -> Pose:
     """Interpolated pose, turning the short way."""
     turn = (b[2] - a[2] + math.pi) % math.tau - math.pi
     return a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * turn
@@ -74,7 +84,7 @@ def ghost_of(line: int, seconds: float, crossed: Sequence[float], track: Sequenc
         while k + 2 < len(track) and track[k + 1][0] < at:
             k += 1
         (before, a), (after, b) = track[k], track[k + 1]
-        x, y, heading = between(a, b, max(0.0, min(1.0, (at - before) / (after - before))))
+        x, y, heading = pose_between(a, b, max(0.0, min(1.0, (at - before) / (after - before))))
         poses.append((round(x, 1), round(y, 1), round(heading, 3)))
     return Ghost(line, round(seconds, 4), tuple(round(time, 4) for time in crossed), tuple(poses))
 
@@ -120,7 +130,7 @@ def drivable(ghost: Ghost, arena: Arena) -> bool:
 
 def save_ghost(folder: Path, arena: Arena, ghost: Ghost) -> Thread:
     """Save a ghost in the background, since an SD card may take a tenth of a second. Errors are logged."""
-    text = json.dumps({"engine": engine_hash(), **asdict(ghost)}, separators=(",", ":"))
+    text = to_json({"engine": engine_hash(), **to_plain(ghost)})
 
     def save() -> None:
         try:
@@ -141,25 +151,10 @@ def delete_ghosts(folder: Path) -> None:
 
 def _parsed(text: str) -> tuple[str, Ghost]:
     """Parse a ghost file into engine hash and ghost. Raises ValueError."""
-    match parse_json(text):
-        case {"engine": str(engine), "line": int(line), "seconds": seconds, "crossed": crossed, "poses": poses}:
-            pass
-        case _:
-            raise ValueError("not a ghost")
-    (lap,) = _numbers([seconds], 1, 1.0, LONGEST)
-    if line is True or not 0 <= line < LINES or not isinstance(poses, list) or len(poses) != int(lap * RATE) + 1:
+    plain = parse_json(text)
+    engine, ghost = typed(plain, GhostFile).engine, typed(plain, Ghost)
+    if len(ghost.poses) != int(ghost.seconds * RATE) + 1:
         raise ValueError("the lap is incomplete")
-    lines = _numbers(crossed, LINES, 0.0, lap)
-    if lines[0] != 0.0 or any(before >= after for before, after in pairwise((*lines, lap))):
+    if ghost.crossed[0] != 0.0 or any(not a < b for a, b in pairwise((*ghost.crossed, ghost.seconds))):
         raise ValueError("the lap does not cross the lines in order")
-    ways = (_numbers(pose, 3, -FARTHEST, FARTHEST) for pose in poses)
-    return engine, Ghost(line, lap, lines, tuple((x, y, heading) for x, y, heading in ways))
-
-
-def _numbers(values: Any, count: int, low: float, high: float) -> tuple[float, ...]:
-    """Validate `count` numbers between `low` and `high`. Raises ValueError."""
-    if not isinstance(values, list) or len(values) != count:
-        raise ValueError(f"{quote(values)} should be {count} numbers")
-    if not all(isinstance(v, int | float) and not isinstance(v, bool) and low <= v <= high for v in values):
-        raise ValueError(f"{quote(values)} are not all numbers from {low:g} to {high:g}")
-    return tuple(float(value) for value in values)
+    return engine, ghost
