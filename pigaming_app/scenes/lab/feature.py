@@ -44,7 +44,6 @@ FEATURE = Feature(
     preload=(
         "pigaming_app.scenes.lab.scene",
         "pigaming_app.scenes.lab.pages.menu",
-        "pigaming_app.scenes.lab.pages.name_page",
         "pigaming_app.scenes.lab.pages.open_page",
         "pigaming_app.scenes.lab.pages.compare_page",
         "pigaming_app.scenes.lab.pages.challenge",

@@ -74,9 +74,8 @@ class SessionMat:
         things: Sequence[ThingSpec] | None = None,
         after: Callable[..., Any] | None = None,
     ) -> Scene:
+        from pigaming_app.scenes.mat.before_match import UnavailablePage, UnplayablePage
         from pigaming_app.scenes.mat.robots.match_scene import RealMatch
-        from pigaming_app.scenes.mat.robots.unavailable import UnavailablePage
-        from pigaming_app.scenes.mat.things.unplayable_page import UnplayablePage
 
         context, again = self.context, partial(self.match, game_choice=game_choice, after=after)
         real = [seat for seat in real if setup.seats[seat].brain != "off"]

@@ -8,8 +8,7 @@ import pytest
 
 from pigaming_app.ai.qlearning.table_files import Trained, decode, encode
 from pigaming_app.scenes.lab import saved_robots as robots
-from pigaming_app.scenes.lab.pages.menu import LabMenu
-from pigaming_app.scenes.lab.pages.name_page import RobotNamePage
+from pigaming_app.scenes.lab.pages.menu import LabMenu, RobotNamePage
 from pigaming_app.scenes.lab.pages.open_page import COLUMNS, ROWS, OpenPage
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.sim.record import digest

@@ -1,12 +1,13 @@
-"""Lab menu: save the robot, open another one, compare, start over."""
+"""Lab menu: save the robot under a name, open another one, compare, start over."""
 
 import pygame
 
 from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
 from pigaming_app.scenes.lab.host import IDLE, LabHost, dimmed_background
 from pigaming_app.scenes.lab.pages.compare_page import ComparePage
-from pigaming_app.scenes.lab.pages.name_page import RobotNamePage
 from pigaming_app.scenes.lab.pages.open_page import OpenPage
+from pigaming_app.scenes.lab.saved_robots import LENGTH, RobotFileError, names, proposal
+from pigaming_app.scenes.pages import name_page
 from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import menu_spots, sheet_title
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST
@@ -69,3 +70,24 @@ class LabMenu(Sheet):
         sheet_title(layer, None, words("lab.title"), ICE)
         for spot in self.focus.spots:
             layer.canvas.text(words(f"lab.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
+
+
+class RobotNamePage(name_page.NamePage):
+    """Prompts for a name and saves the robot under it."""
+
+    def __init__(self, lab: LabHost) -> None:
+        super().__init__(lab.context, "lab.name_title", lab.name or proposal(), LENGTH, IDLE)
+        self.lab = lab
+
+    def is_taken(self, name: str) -> bool:
+        return name != self.lab.name and name in names()
+
+    def keep(self, name: str) -> StackOperation:
+        words = self.context.words
+        try:
+            self.lab.trainer.save(name)
+            self.lab.name = name
+            self.lab.show_message(words("lab.saved", name=name))
+        except RobotFileError as error:
+            self.lab.show_message(words(str(error)), wrong=True)
+        return Pop()

@@ -14,11 +14,11 @@ from pigaming_app.hardware.robot_kinds import KINDS
 from pigaming_app.hardware.scan.things import Thing, ThingKind, ThingLayout
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.mat.before_match import UnplayablePage
 from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.mat.radio.page import RadioPage
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.things.arena_page import ArenaPage
-from pigaming_app.scenes.mat.things.unplayable_page import UnplayablePage
 from pigaming_app.scenes.play.pause import SimulatedRobots
 from pigaming_app.storage.messages import OperatorMessage
 from tests.scenes.arcade import KEYS, Arcade, setup

@@ -9,8 +9,8 @@ from pigaming_app.events.event import Event
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.events.next_page import INPUT_LOCKOUT, NextMatch
+from pigaming_app.scenes.mat.before_match import UnavailablePage
 from pigaming_app.scenes.mat.robots.match_scene import RealMatch
-from pigaming_app.scenes.mat.robots.unavailable import UnavailablePage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.input.events import Button

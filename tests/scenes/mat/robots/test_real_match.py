@@ -16,10 +16,10 @@ from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.features.replays import verify
 from pigaming_app.scenes.kiosk.operator.page import OperatorPage, end_all
+from pigaming_app.scenes.mat.before_match import UnavailablePage
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.robots.match_scene import RealMatch
 from pigaming_app.scenes.mat.robots.swap_page import SwapPage
-from pigaming_app.scenes.mat.robots.unavailable import UnavailablePage
 from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene, match_of

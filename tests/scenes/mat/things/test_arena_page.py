@@ -15,6 +15,7 @@ from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.things_on_mat import load_layout, save_layout, things_in_play
 from pigaming_app.scenes.features.replays import decode, pack, replay_of, verify
 from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.mat.before_match import UnplayablePage
 from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.robots.match_scene import RealMatch
@@ -22,7 +23,6 @@ from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.mat.things.arena_page import ArenaPage
 from pigaming_app.scenes.mat.things.moved_page import MovedPage
 from pigaming_app.scenes.mat.things.sweep_page import SweepPage
-from pigaming_app.scenes.mat.things.unplayable_page import UnplayablePage
 from pigaming_app.scenes.play.scene import match_of
 from pigaming_app.sim.things.spec import Use
 from pigaming_app.ui.draw.pixels import pixels_of
