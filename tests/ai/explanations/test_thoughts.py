@@ -115,8 +115,8 @@ def check(told: Thoughts, words: dict[str, str]) -> None:
     words[f"brain.{told.behaviour}"].format(**told.names)
     if told.reason:
         words[f"brain.because_{told.reason}"].format(**told.names)
-    assert len(told.rose) == PETALS
-    assert all(-1.0 <= value <= 1.0 for value in told.rose)
+    assert len(told.petals) == PETALS
+    assert all(-1.0 <= value <= 1.0 for value in told.petals)
     assert all(0.0 <= value <= 1.0 for value in told.utilities.values())
     assert all(-1.0 <= value <= 1.0 for value in told.moves.values())
     assert all(isfinite(value) for value in told.facts.values())
