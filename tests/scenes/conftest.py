@@ -1,10 +1,14 @@
 """Fixtures of tests with screens."""
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
+from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.ui.draw import read_large
+from pigaming_app.ui.input.controls import Controls
+from tests.scenes.arcade import Arcade
 
 
 @pytest.fixture(autouse=True)
@@ -13,3 +17,15 @@ def _usual_text() -> Iterator[None]:
     read_large(False)
     yield
     read_large(False)
+
+
+@pytest.fixture
+def arcade(controls: Controls, home: Path) -> Arcade:
+    """An arcade with folders of its own, `home`."""
+    return Arcade(controls)
+
+
+@pytest.fixture
+def _nothing_prewarmed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Matches begin at once."""
+    monkeypatch.setattr(MatchRunner, "prewarm", lambda runner, milliseconds: True)

@@ -1,12 +1,9 @@
 """Layout: no text overlaps another, crosses a frame or leaves the picture; both languages, longest values."""
 
-from pathlib import Path
-
 import pytest
 
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import KEYS, Arcade
@@ -19,12 +16,9 @@ LARGE = ("event", "widest event", "next match", "widest next", "entrants", "corr
 LISTS = ("options", "operator", "robots menu", "setup", "added games", "arena and radio")
 
 
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
-    return arcade
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

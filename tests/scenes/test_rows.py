@@ -1,14 +1,11 @@
 """Pages of rows: each row has a picture of its own, and a new option is a setting, a row and a picture."""
 
-from pathlib import Path
-
 import pygame
 import pytest
 
 from pigaming_app.scenes.options.page import SECTIONS, OptionsPage, switch
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.storage.settings import Settings, folders
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.setting_row import CENTRE
 from pigaming_app.ui.window import Canvas
@@ -19,12 +16,9 @@ PAGES = ("operator", "operator day", "robots menu", "arena and radio", *(f"optio
 SHARED = ("kind", "quiet_until", "fullscreen", "board")  # rows with the picture of the one above them
 
 
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
-    return arcade
 
 
 def picture(page: SettingsPage, row: str) -> bytes:

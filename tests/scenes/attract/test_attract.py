@@ -117,11 +117,6 @@ def replays() -> dict[str, Replay]:
     return {game: recording(game) for game in games()}
 
 
-@pytest.fixture
-def arcade(controls: Controls, home: Path) -> Arcade:
-    return Arcade(controls)
-
-
 def until_clip(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> tuple[Attract, Clip]:
     """Attract mode up to its next highlight, with short shows and without prewarming."""
     monkeypatch.setattr("pigaming_app.scenes.attract.scene.MINUTES", 0.02)

@@ -39,11 +39,6 @@ SEATS["football"] = ["level5", "net", "level1", "random"]
 READABLE = 0.85  # minimum horizontal scale of readable text
 
 
-@pytest.fixture
-def arcade(controls: Controls) -> Arcade:
-    return Arcade(controls)
-
-
 def f4(arcade: Arcade) -> None:
     """Press and release F4."""
     for kind in (pygame.KEYDOWN, pygame.KEYUP):

@@ -1,7 +1,6 @@
 """The controls test shows pressed buttons, and every device can leave it."""
 
 import math
-from pathlib import Path
 
 import pygame
 import pytest
@@ -13,19 +12,15 @@ from pigaming_app.sim.robot import LAG
 from pigaming_app.ui.draw import BODY
 from pigaming_app.ui.draw.theme import CAPITALS
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import measuring
 from tests.ui.input.virtual_pad import VirtualPad
 
 
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.open(ControlsTest(arcade.context))
-    return arcade
 
 
 def light(arcade: Arcade, x: int, y: int, w: int, h: int) -> int:

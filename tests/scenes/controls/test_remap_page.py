@@ -9,19 +9,15 @@ import pytest
 from pigaming_app.scenes.controls.remap_page import WAIT, RemapPage
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import faults, measuring
 from tests.ui.input.test_keyboard import key
 
 
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.open(RemapPage(arcade.context))
-    return arcade
 
 
 def give(arcade: Arcade, function: str, code: int) -> RemapPage:
@@ -40,24 +36,24 @@ def kept(tmp_path: Path) -> object:
     return tomllib.loads((tmp_path / "config" / "settings.toml").read_text()).get("controls")
 
 
-def test_a_new_key_is_used_and_kept(arcade: Arcade, tmp_path: Path) -> None:
+def test_a_new_key_is_used_and_kept(arcade: Arcade, home: Path) -> None:
     give(arcade, "fire", pygame.KSCAN_Q)
     assert arcade.context.controls.label(KEYS[0], Button.FIRE) == "Q"
-    assert kept(tmp_path) == {"keys1": {"fire": pygame.KSCAN_Q}}
-    loaded, problems = Settings.load(tmp_path / "config")
+    assert kept(home) == {"keys1": {"fire": pygame.KSCAN_Q}}
+    loaded, problems = Settings.load(home / "config")
     assert (loaded.controls, problems) == ({"keys1": {"fire": pygame.KSCAN_Q}}, [])
 
 
-def test_a_key_that_is_taken_changes_places_and_all_can_be_as_usual_again(arcade: Arcade, tmp_path: Path) -> None:
+def test_a_key_that_is_taken_changes_places_and_all_can_be_as_usual_again(arcade: Arcade, home: Path) -> None:
     page = give(arcade, "fire", pygame.KSCAN_LSHIFT)
-    assert kept(tmp_path) == {"keys1": {"fire": pygame.KSCAN_LSHIFT, "turbo": pygame.KSCAN_SPACE}}
+    assert kept(home) == {"keys1": {"fire": pygame.KSCAN_LSHIFT, "turbo": pygame.KSCAN_SPACE}}
     give(arcade, "up", pygame.KSCAN_I)
     assert arcade.context.controls.label(KEYS[2], Button.UP) == "W", "of another player"
     while page.focus.name != "normal":
         arcade.press(Button.DOWN)
     arcade.press(Button.FIRE)
     assert arcade.context.controls.label(KEYS[0], Button.FIRE) == "SPACE"
-    assert not kept(tmp_path)
+    assert not kept(home)
 
 
 @pytest.mark.parametrize("code", [pygame.KSCAN_ESCAPE, pygame.KSCAN_F1, pygame.KSCAN_RETURN])

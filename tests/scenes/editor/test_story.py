@@ -26,11 +26,6 @@ from tests.ui.input.virtual_pad import VirtualPad
 pytestmark = pytest.mark.usefixtures("home")
 
 
-@pytest.fixture
-def arcade(controls: Controls) -> Arcade:
-    return Arcade(controls)
-
-
 def begin(arcade: Arcade) -> None:
     """From the setup of a match to an empty arena."""
     arcade.open(MatchSetupPage(arcade.context, "pitanks", seats("pitanks")))

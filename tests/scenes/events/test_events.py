@@ -34,7 +34,6 @@ from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.stack import Pop
 from pigaming_app.scenes.phones.link import PhoneLink
 from pigaming_app.scenes.play.pause import Pause
-from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.storage.safe_files import NotSaved
@@ -42,7 +41,6 @@ from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import BODY
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phone_messages import SeatView
 from pigaming_app.ui.input.phone_pads import Phones
@@ -51,12 +49,7 @@ from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.events.drawn import an_event, played, result_of, running, saved
 from tests.ui.input.virtual_pad import VirtualPad
 
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    monkeypatch.setattr(MatchRunner, "prewarm", lambda runner, milliseconds: True)
-    return Arcade(controls)
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
 
 
 def at_next(arcade: Arcade, run: RunningEvent) -> NextMatch:

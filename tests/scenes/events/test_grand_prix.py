@@ -1,7 +1,5 @@
 """A Grand Prix on the screens: single players and teams, AIs on the seats that stay empty, and a restart in between."""
 
-from pathlib import Path
-
 import pytest
 
 from pigaming_app.events.event import Event
@@ -14,7 +12,6 @@ from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
 from pigaming_app.scenes.events.table_page import TablePage
-from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.scenes.views.registry import shown_games
@@ -23,12 +20,7 @@ from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.events.drawn import played, running, saved
 
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    monkeypatch.setattr(MatchRunner, "prewarm", lambda runner, milliseconds: True)
-    return Arcade(controls)
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
 
 
 def new_event(arcade: Arcade, *teams: str) -> RunningEvent:

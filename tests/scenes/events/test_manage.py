@@ -16,17 +16,10 @@ from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.stack import Pop
 from pigaming_app.storage.safe_files import NotSaved, backup_of
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import Arcade
 from tests.scenes.events.drawn import an_event, played, running, saved
 from tests.ui.input.virtual_pad import VirtualPad
-
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    return Arcade(controls)
 
 
 def managed(arcade: Arcade, run: RunningEvent, row: str) -> EventPage:

@@ -1,7 +1,6 @@
 """Names of entrants in the match, at its end and on the pages, shortened where they are long."""
 
 from collections.abc import Sequence
-from pathlib import Path
 
 import pytest
 
@@ -20,7 +19,6 @@ from pigaming_app.scenes.results.headline import EndedMatch, headline
 from pigaming_app.ui.draw import BODY, readable, text_width
 from pigaming_app.ui.draw.glow import GlowCanvas
 from pigaming_app.ui.i18n import LANGUAGES, Words
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets import setting_row
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD
@@ -30,12 +28,6 @@ from tests.scenes.events.drawn import running
 from tests.scenes.measuring import faults, measuring
 
 NAMES = ("Ana", "Maximilian v. Hohenstein", "HAL", "Wolfgang Wimmersbacher")
-
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    return Arcade(controls)
 
 
 def a_match(arcade: Arcade, game: str, seats: int, variant: str) -> MatchScene:

@@ -1,7 +1,6 @@
 """A tied knock-out match on the screen: the same people at once play an extra match, which the file keeps."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -11,23 +10,16 @@ from pigaming_app.scenes.events.manage.corrections import Correction, ResultsLis
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
-from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.winner import WinnersMoment
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.events.examples import level
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.events.drawn import an_event, result_of, running, saved
 
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
+
 SEED = 2
-
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    monkeypatch.setattr(MatchRunner, "prewarm", lambda runner, milliseconds: True)
-    return Arcade(controls)
 
 
 def begun(arcade: Arcade, run: RunningEvent) -> MatchScene:

@@ -2,7 +2,6 @@
 
 from collections import Counter
 from itertools import pairwise
-from pathlib import Path
 
 import pygame
 import pytest
@@ -15,7 +14,6 @@ from pigaming_app.scenes.events.overview import overview
 from pigaming_app.scenes.events.poster import PosterJob
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.input.controls import Controls
 from tests.events.examples import by_chance, new_event, ranked
 from tests.events.examples import played as all_played
 from tests.scenes.arcade import Arcade
@@ -23,12 +21,6 @@ from tests.scenes.events.drawn import an_event, played, running
 from tests.scenes.measuring import faults, measuring
 
 SIZES = (3, 8, 16, 33, 64)
-
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    return Arcade(controls)
 
 
 @pytest.mark.parametrize("count", [*range(1, 65)])

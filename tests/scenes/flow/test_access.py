@@ -3,7 +3,6 @@
 import random
 from collections.abc import Iterator
 from contextlib import ExitStack
-from pathlib import Path
 
 import pygame
 import pytest
@@ -22,7 +21,6 @@ from pigaming_app.scenes.play.reconnect import StillThere
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import LATE, LEAVE, Results
 from pigaming_app.scenes.title.scene import Title
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import PLAYSTATION, VirtualPad
@@ -40,12 +38,6 @@ EVERY = (
     Button.RIGHT,
     Button.LEAVE_SEAT,
 )
-
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    return Arcade(controls)
 
 
 @pytest.fixture

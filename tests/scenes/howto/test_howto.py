@@ -1,7 +1,6 @@
 """How to play: the pages of every game, and the lessons on them."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -13,15 +12,8 @@ from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.storage.settings import Choice
 from pigaming_app.ui.draw import TITLE, button_width, text_width
 from pigaming_app.ui.draw.layers import LEFT
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, InputEvent
 from tests.scenes.arcade import KEYS, Arcade
-
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    return Arcade(controls)
 
 
 def test_left_and_right_turn_all_pages_of_all_games(arcade: Arcade) -> None:

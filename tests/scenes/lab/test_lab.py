@@ -36,14 +36,12 @@ from tests.ui.input.virtual_pad import VirtualPad
 SAFE = pygame.Rect(96, 54, 1728, 972)
 
 
-@pytest.fixture
-def arcade(controls: Controls, home: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(progress, "MATCHES", {True: 2, False: 2})
     monkeypatch.setattr(progress, "MINUTES", {True: 0.2, False: 0.2})
-    arcade = Arcade(controls)
     arcade.open(Lab(arcade.context, fast=False))
     arcade.wait(0.5)
-    return arcade
 
 
 def lab(arcade: Arcade) -> Lab:

@@ -13,7 +13,6 @@ from pigaming_app.scenes.lab.pages.open_page import COLUMNS, ROWS, OpenPage
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests import tags
 from tests.cases import one_in
@@ -21,12 +20,10 @@ from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
 
-@pytest.fixture
-def arcade(controls: Controls, home: Path) -> Arcade:
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.open(Lab(arcade.context, fast=False))
     arcade.wait(0.5)
-    return arcade
 
 
 def lab(arcade: Arcade) -> Lab:

@@ -17,25 +17,21 @@ from pigaming_app.scenes.ladder.rungs import LadderPage, after_match
 from pigaming_app.scenes.ladder.strengths import Strengths, shown
 from pigaming_app.scenes.ladder.summit import Summit
 from pigaming_app.scenes.play.pause import Pause
-from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.initials import Initials
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
 
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    monkeypatch.setattr(MatchRunner, "prewarm", lambda runner, milliseconds: True)
-    arcade = Arcade(controls)
+
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.open(LadderChoice(arcade.context, "pitanks"))
-    return arcade
 
 
 def saved() -> list[Climb]:

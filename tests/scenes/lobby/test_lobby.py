@@ -27,13 +27,10 @@ from tests.scenes.arcade import KEYS, Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
 
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.stack.scenes[1:] = []
     arcade.open(Lobby(arcade.context, "pitanks"))
-    return arcade
 
 
 def kinds(arcade: Arcade) -> str:

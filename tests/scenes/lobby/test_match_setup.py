@@ -20,21 +20,17 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.settings import Choice
 from pigaming_app.ui.draw.text import SMALLEST, fit_lines
 from pigaming_app.ui.i18n import LANGUAGES, Words
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
 
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     seats = LobbySeats()
     seats.join(KEYS[0])
     seats.add_ai()
     arcade.open(MatchSetupPage(arcade.context, "pitanks", seats))
-    return arcade
 
 
 def page(arcade: Arcade) -> MatchSetupPage:
@@ -50,7 +46,7 @@ def test_every_arena_comes_by_and_the_first_again(arcade: Arcade) -> None:
     assert page(arcade).chosen.arena == seen[0]
 
 
-def test_the_selection_is_played_and_remembered_if_choices_are_kept(arcade: Arcade, tmp_path: Path) -> None:
+def test_the_selection_is_played_and_remembered_if_choices_are_kept(arcade: Arcade, home: Path) -> None:
     arcade.context.settings.keep_choices = True
     for button in (Button.RIGHT, Button.DOWN, Button.RIGHT, Button.DOWN, Button.DOWN, Button.RIGHT):
         arcade.press(button)
@@ -64,7 +60,7 @@ def test_the_selection_is_played_and_remembered_if_choices_are_kept(arcade: Arca
     assert (match.setup.arena, match.setup.minutes, match.setup.variant) == (arena, 3.0, variant)
     assert [seat.brain for seat in match.setup.seats] == ["human", "level3", "off", "off"]
     assert match.devices == [KEYS[0], None, None, None]
-    saved = tomllib.loads((tmp_path / "config" / "settings.toml").read_text())
+    saved = tomllib.loads((home / "config" / "settings.toml").read_text())
     assert tuple(saved["games"]["pitanks"][name] for name in ("arena", "minutes", "variant")) == (arena, 3, variant)
 
 

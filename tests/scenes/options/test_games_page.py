@@ -16,7 +16,6 @@ from pigaming_app.storage.plugins import consent
 from pigaming_app.storage.plugins.consent import is_on, switch
 from pigaming_app.storage.plugins.found import Plugin, found, user_folder
 from pigaming_app.storage.settings import Settings
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets import setting_row
 from pigaming_app.ui.widgets.button_prompts import places
@@ -25,12 +24,10 @@ from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
 
-@pytest.fixture
-def arcade(controls: Controls, home: Path) -> Arcade:
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     write(user_folder() / "tag", "tag")
-    return arcade
 
 
 def tag() -> Plugin:

@@ -15,7 +15,6 @@ from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import BODY, readable
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.window import Canvas
@@ -26,14 +25,11 @@ CLEAR = 2.0  # s for which a button is held to clear the high scores
 TABLE = ScoreTable("pitanks", "classic", "points", rules="plain", length=2, people=1)
 
 
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     arcade.stack.scenes[1:] = []
     arcade.open(OptionsPage(arcade.context))
-    return arcade
 
 
 def go(arcade: Arcade, name: str) -> OptionsPage:
@@ -53,22 +49,22 @@ def kept(tmp_path: Path) -> dict[str, object]:
     return tomllib.loads((tmp_path / "config" / "settings.toml").read_text())
 
 
-def test_the_language_changes_immediately(arcade: Arcade, tmp_path: Path) -> None:
+def test_the_language_changes_immediately(arcade: Arcade, home: Path) -> None:
     go(arcade, "language")
     arcade.press(Button.RIGHT)
     assert arcade.context.words("options.title") == "Opções"
-    assert kept(tmp_path)["language"] == "pt"
+    assert kept(home)["language"] == "pt"
     arcade.shown(OptionsPage)
 
 
-def test_volumes_go_from_0_to_10_and_no_further(arcade: Arcade, tmp_path: Path) -> None:
+def test_volumes_go_from_0_to_10_and_no_further(arcade: Arcade, home: Path) -> None:
     go(arcade, "music")
     for _ in range(12):
         arcade.press(Button.LEFT)
     assert arcade.context.settings.music == 0
     for _ in range(12):
         arcade.press(Button.RIGHT)
-    assert kept(tmp_path)["music"] == 10
+    assert kept(home)["music"] == 10
 
 
 def test_fire_cycles_through_the_values(arcade: Arcade) -> None:
@@ -107,7 +103,7 @@ def test_all_toggles_end_within_their_row(arcade: Arcade, language: str) -> None
 
 
 @pytest.mark.parametrize("kiosk", [False, True])
-def test_high_scores_go_only_when_a_button_is_held_for_two_seconds(arcade: Arcade, tmp_path: Path, kiosk: bool) -> None:
+def test_high_scores_go_only_when_a_button_is_held_for_two_seconds(arcade: Arcade, home: Path, kiosk: bool) -> None:
     arcade.context.kiosk = kiosk
     arcade.open(OptionsPage(arcade.context, operator=True))
     arcade.context.scores.add(TABLE, "ANA", 7, datetime(2026, 5, 1, 12))
@@ -125,7 +121,7 @@ def test_high_scores_go_only_when_a_button_is_held_for_two_seconds(arcade: Arcad
         pad.press("a")
         arcade.wait(CLEAR + 0.1)
     assert not arcade.context.scores.best(TABLE)
-    assert not Scores.load(tmp_path / "data")[0].tables()
+    assert not Scores.load(home / "data")[0].tables()
 
 
 @pytest.mark.parametrize("kiosk", [False, True])
@@ -219,22 +215,22 @@ def test_the_test_of_the_controls_is_one_press_away(arcade: Arcade) -> None:
     assert arcade.shown(OptionsPage).focus.name == "padtest"
 
 
-def test_rumbling_can_be_switched_off_and_on_again_with_a_sample(arcade: Arcade, tmp_path: Path) -> None:
+def test_rumbling_can_be_switched_off_and_on_again_with_a_sample(arcade: Arcade, home: Path) -> None:
     with VirtualPad() as pad:
         arcade.wait(0.1)
         go(arcade, "rumble")
         pad.tap("left")
         arcade.frame()
-        assert kept(tmp_path)["rumble"] is False
+        assert kept(home)["rumble"] is False
         arcade.shown(OptionsPage)
         assert pad.rumbles == []
         pad.tap("right")
         arcade.frame()
-        assert kept(tmp_path)["rumble"] is True
+        assert kept(home)["rumble"] is True
         assert max(pad.rumbles[0]) > 0
 
 
-def test_what_makes_it_easier_has_a_page_of_its_own(arcade: Arcade, tmp_path: Path) -> None:
+def test_what_makes_it_easier_has_a_page_of_its_own(arcade: Arcade, home: Path) -> None:
     go(arcade, "ease")
     arcade.press(Button.FIRE)
     page = arcade.shown(OptionsPage)
@@ -243,7 +239,7 @@ def test_what_makes_it_easier_has_a_page_of_its_own(arcade: Arcade, tmp_path: Pa
     arcade.press(Button.RIGHT)
     go(arcade, "large")
     arcade.press(Button.RIGHT)
-    assert (kept(tmp_path)["calm"], kept(tmp_path)["large_text"]) == (True, True)
+    assert (kept(home)["calm"], kept(home)["large_text"]) == (True, True)
     arcade.press(Button.LEFT)
     assert readable(BODY) == BODY
 

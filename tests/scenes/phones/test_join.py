@@ -21,19 +21,12 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import PLAYERS
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.input.phone_messages import BITS, SeatView, Touches
 from pigaming_app.ui.input.phone_pads import Phones
 from tests.scenes.arcade import KEYS, Arcade
 
 MOUSE = Device("mouse")
-
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    return Arcade(controls)
 
 
 @pytest.fixture
@@ -340,13 +333,13 @@ def test_only_the_operator_switches_phones_in_a_kiosk(arcade: Arcade) -> None:
     assert "phones" in OptionsPage(arcade.context, operator=True, section="controls").rows
 
 
-def test_the_operators_page_changes_and_keeps_the_settings(arcade: Arcade, tmp_path: Path) -> None:
+def test_the_operators_page_changes_and_keeps_the_settings(arcade: Arcade, home: Path) -> None:
     page = PhonesPage(arcade.context)
     arcade.open(page)
     page.draw(arcade.screen)
     arcade.press(Button.RIGHT)
     assert arcade.context.settings.phones
-    assert Settings.load(tmp_path / "config")[0].phones
+    assert Settings.load(home / "config")[0].phones
     arcade.press(Button.FIRE)
     assert not arcade.context.settings.phones
     if page.networks:

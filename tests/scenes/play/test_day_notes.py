@@ -9,15 +9,12 @@ from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.stack import Home
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.day_log import DayLog, PlayedMatch, read_day
-from pigaming_app.ui.input.controls import Controls
 from tests.scenes.arcade import KEYS, Arcade, setup
 
 
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path) -> Arcade:
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade, tmp_path: Path) -> None:
     arcade.context.day_log = DayLog(tmp_path)
-    return arcade
 
 
 def notes(folder: Path) -> list[PlayedMatch]:

@@ -12,14 +12,8 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.sim.record import digest, from_bytes, to_bytes
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade, setup
-
-
-@pytest.fixture
-def arcade(controls: Controls) -> Arcade:
-    return Arcade(controls)
 
 
 def party(minutes=0.05, brains="idle idle off off"):

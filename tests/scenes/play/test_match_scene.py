@@ -19,17 +19,11 @@ from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import VirtualPad
 
 COUNTDOWN = 3.8  # seconds until GO
-
-
-@pytest.fixture
-def arcade(controls: Controls) -> Arcade:
-    return Arcade(controls)
 
 
 @pytest.fixture

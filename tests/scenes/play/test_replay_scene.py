@@ -17,17 +17,11 @@ from pigaming_app.scenes.play.side_hints import boxes
 from pigaming_app.scenes.replays.watch import IDLE, LINE_LEFT, LINE_RIGHT, LINE_Y, ReplayScene
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests import tags
 from tests.scenes.arcade import Arcade, setup
 from tests.scenes.attract.test_attract import scores_of
 from tests.scenes.measuring import faults, measuring
-
-
-@pytest.fixture
-def arcade(controls: Controls) -> Arcade:
-    return Arcade(controls)
 
 
 def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) -> None:

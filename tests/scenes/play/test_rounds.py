@@ -1,7 +1,5 @@
 """Best of three, played to the podium: breaks, pauses, pulled pads, the end, the rematch."""
 
-from pathlib import Path
-
 import pygame
 import pytest
 
@@ -10,7 +8,6 @@ from pigaming_app.scenes.play.ending import FREEZE_SECONDS
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.round_break import margin, round_title
-from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.podium import Stand, stands
 from pigaming_app.scenes.results.podium_page import PodiumPage
@@ -25,14 +22,9 @@ from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.measuring import faults, measuring
 from tests.ui.input.virtual_pad import VirtualPad
 
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
+
 MINUTES = 0.02
-
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    monkeypatch.setattr(MatchRunner, "prewarm", lambda runner, milliseconds: True)
-    return Arcade(controls)
 
 
 def begin(arcade: Arcade, before: int = 0, device: Device = KEYS[0]) -> Rounds:

@@ -12,17 +12,11 @@ from pigaming_app.scenes.views.factory import view as factory
 from pigaming_app.scenes.views.pitanks import view as pitanks
 from pigaming_app.scenes.views.race import view as race
 from pigaming_app.scenes.views.rumble import BEST, DELIVERED, FINISH, LAP, TAKEN, rumbles
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import VirtualPad
 
 QUIET = (0, 0)
-
-
-@pytest.fixture
-def arcade(controls: Controls) -> Arcade:
-    return Arcade(controls)
 
 
 @pytest.fixture

@@ -1,13 +1,11 @@
 """The list of replays, operated by keys and mouse; saving on the results page."""
 
 from datetime import datetime, timedelta
-from pathlib import Path
 
 import pytest
 
 from pigaming_app.games.replay import Replay, to_match
 from pigaming_app.scenes.flow.stack import Stack
-from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.replays.page import CONFIRM_SECONDS, ReplaysPage
@@ -16,21 +14,15 @@ from pigaming_app.scenes.replays.watch import ReplayScene
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.button_prompts import places
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import faults, measuring
 from tests.scenes.recordings.test_store import NOON, replay
 
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
+
 __all__ = ["replay"]
-
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    monkeypatch.setattr(MatchRunner, "prewarm", lambda runner, milliseconds: True)
-    return Arcade(controls)
 
 
 def opened(arcade: Arcade, replay: Replay, count: int) -> ReplaysPage:

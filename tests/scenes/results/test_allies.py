@@ -13,17 +13,10 @@ from pigaming_app.scenes.results.view import TOP
 from pigaming_app.scenes.views.sprites.stars import HIGH
 from pigaming_app.ui.draw.layers import span
 from pigaming_app.ui.i18n import LANGUAGES, Words
-from tests.scenes.arcade import Arcade
 from tests.scenes.screens import FACTS, Ending
 
 ALLIES = (0, 0, 0, 0)
 BRAINS = "human human level5 level3"
-
-
-@pytest.fixture
-def arcade(controls, tmp_path, monkeypatch):
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    return Arcade(controls)
 
 
 def ended(monkeypatch, number, variant="together", teams=ALLIES, winners=(0, 1, 2, 3)):

@@ -1,7 +1,6 @@
 """The high-score page: initial table and navigation."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import pygame
 import pytest
@@ -20,12 +19,6 @@ PAIR = replace(ALONE, people=2)
 ISLANDS = replace(ALONE, arena="islands")
 LAP = ScoreTable("race", "classic", "lap", True, "standard", 3, 1)
 THREE = replace(PAIR, people=3)
-
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    return Arcade(controls)
 
 
 def opened(arcade: Arcade, at: ScoreTable, *filled: ScoreTable) -> HighScores:

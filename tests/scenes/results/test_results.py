@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from datetime import datetime
-from pathlib import Path
 
 import pygame
 import pytest
@@ -19,7 +18,6 @@ from pigaming_app.scenes.results.scene import IDLE, Results
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 from tests.scenes.arcade import KEYS, Arcade, setup
@@ -28,12 +26,6 @@ ALONE = ScoreTable("pitanks", "classic", "points", rules="plain", length=1, peop
 LAP = ScoreTable("race", "classic", "lap", True, "standard", 3, 1)
 RACE = replace(LAP, achievement="race")
 LONG = 4.0  # s after which the page is complete and accepts input
-
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    return Arcade(controls)
 
 
 def outcome(scores: dict[int, int], winners: tuple[int, ...], teams: tuple[int, ...] = (0, 1, 2, 3)) -> Outcome:

@@ -23,11 +23,6 @@ from tests.scenes.screens import ENDINGS
 FRAME = 1 / 30
 
 
-@pytest.fixture
-def arcade(controls: Controls) -> Arcade:
-    return Arcade(controls)
-
-
 def moment(arcade: Arcade, brains: str, ended: Outcome, teams: tuple[int, ...] = (0, 1, 2, 3)) -> WinnersMoment:
     match = setup(brains, 1.0, teams)
     devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(match.seats)]

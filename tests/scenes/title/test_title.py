@@ -1,7 +1,6 @@
 """The title: its targets, missing pages, and the operator's access."""
 
 from itertools import combinations
-from pathlib import Path
 
 import numpy as np
 import pygame
@@ -18,7 +17,6 @@ from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views.game_tile import TileStrip
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.focus import Focus
 from pigaming_app.ui.window import Canvas
@@ -26,13 +24,10 @@ from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
 
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     arcade.stack = Stack(Title(arcade.context))
-    return arcade
 
 
 def title(arcade: Arcade) -> Title:

@@ -12,16 +12,13 @@ from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.flow.stack import Home
 from pigaming_app.scenes.kiosk.operator.group_limit import FAREWELL, WARNED, GroupLimit
 from pigaming_app.scenes.play.scene import MatchScene
-from pigaming_app.ui.input.controls import Controls
 from tests.scenes.arcade import Arcade, Floor, setup
 from tests.scenes.events.drawn import an_event
 
 
-@pytest.fixture
-def arcade(controls: Controls) -> Arcade:
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.context.settings.group_minutes = 5
-    return arcade
 
 
 def test_the_title_returns_after_a_countdown(arcade: Arcade) -> None:

@@ -1,7 +1,6 @@
 """The operator's page: by pad, keyboard and mouse; changes apply at once and last."""
 
 import json
-from pathlib import Path
 
 import pygame
 import pytest
@@ -19,7 +18,6 @@ from pigaming_app.storage.safe_mode import DEFAULTS, VARIABLE
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.draw.text import fit_lines
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.window import Canvas
@@ -27,12 +25,10 @@ from tests.scenes.arcade import Arcade, setup
 from tests.ui.input.virtual_pad import VirtualPad
 
 
-@pytest.fixture
-def arcade(controls: Controls, home: Path) -> Arcade:
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     arcade.context.day_log = DayLog(folders().data)
-    return arcade
 
 
 def focus(arcade: Arcade, row: str) -> OperatorPage:

@@ -1,7 +1,6 @@
 """The second screen: the right contents, painted in slices, only what has changed."""
 
 from collections.abc import Hashable, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -24,16 +23,13 @@ from pigaming_app.scenes.results.snapshot import sides, snapshot
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES, Words
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import KEYS, Arcade, setup
 
 
-@pytest.fixture
-def arcade(controls: Controls, home: Path) -> Arcade:
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
-    return arcade
 
 
 class Lamps:

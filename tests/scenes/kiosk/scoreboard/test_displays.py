@@ -3,8 +3,6 @@
 Their sizes are made up, as SDL's dummy driver has one display; the windows are SDL's, opened as the arcade asks.
 """
 
-from pathlib import Path
-
 import pygame
 import pytest
 
@@ -12,18 +10,15 @@ from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
 from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
 from pigaming_app.scenes.kiosk.scoreboard.window import WINDOWED, ScoreboardWindow
 from pigaming_app.storage.settings import Settings
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
 DUMMY = (1024, 768)  # px, the display of SDL's dummy driver
 
 
-@pytest.fixture
-def arcade(controls: Controls, home: Path) -> Arcade:
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
-    return arcade
 
 
 class Displays:

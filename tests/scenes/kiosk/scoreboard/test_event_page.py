@@ -28,7 +28,6 @@ from pigaming_app.scenes.results.snapshot import MatchSnapshot
 from pigaming_app.scenes.walk import second_screen
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade, service_of
 from tests.scenes.events.drawn import an_event, played, running
@@ -53,11 +52,6 @@ class Clock:
 
     def __call__(self) -> float:
         return self.seconds
-
-
-@pytest.fixture
-def arcade(controls: Controls, home: Path) -> Arcade:
-    return Arcade(controls)
 
 
 def a_match(arcade: Arcade, run: RunningEvent, minutes: float = 1.0) -> MatchScene:

@@ -17,7 +17,6 @@ from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import FOCUS
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
@@ -25,13 +24,10 @@ from tests.scenes.arcade import Arcade
 ASKEW = [40, 20, 1880, 60, 1900, 1060, 10, 1000]
 
 
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls)
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade) -> None:
     arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     arcade.open(CornerPinPage(arcade.context))
-    return arcade
 
 
 def shown(canvas: Canvas) -> pygame.Surface:
@@ -82,11 +78,11 @@ def test_fire_cycles_through_the_corners_and_a_click_selects_one(arcade: Arcade)
         assert page.chosen == corner
 
 
-def test_a_saved_pin_persists(arcade: Arcade, tmp_path: Path) -> None:
+def test_a_saved_pin_persists(arcade: Arcade, home: Path) -> None:
     for button in (Button.RIGHT, Button.DOWN, Button.FIRE, Button.LEFT, Button.START):
         arcade.press(button)
     assert arcade.stack.top is arcade.setup
-    settings, wrong = Settings.load(tmp_path / "config")
+    settings, wrong = Settings.load(home / "config")
     assert not wrong
     assert settings.corners == [10, 10, 1910, 0, 1920, 1080, 0, 1080]
     arcade.context.settings.corners = settings.corners
@@ -104,12 +100,12 @@ def test_leaving_without_saving_restores_the_pin(arcade: Arcade) -> None:
     assert arcade.context.canvas.corners == tuple(ASKEW)
 
 
-def test_reset_is_straight_and_costs_nothing(arcade: Arcade, tmp_path: Path) -> None:
+def test_reset_is_straight_and_costs_nothing(arcade: Arcade, home: Path) -> None:
     arcade.context.canvas.pin(CornerPin(ASKEW))
     arcade.press(Button.Y)
     assert arcade.context.canvas.corners == ()
     arcade.press(Button.START)
-    assert Settings.load(tmp_path / "config")[0].corners == []
+    assert Settings.load(home / "config")[0].corners == []
     assert arcade.context.canvas.screen is pygame.display.get_surface()
 
 

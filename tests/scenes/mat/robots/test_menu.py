@@ -15,22 +15,18 @@ from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
 
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+@pytest.fixture(autouse=True)
+def _prepared(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("pigaming_app.hardware.calibration.site.cameras", lambda: [])
-    arcade = Arcade(controls)
     arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     arcade.open(OptionsPage(arcade.context))
     go(arcade, OptionsPage, "robots")
     arcade.press(Button.FIRE)
-    return arcade
 
 
 def go(arcade: Arcade, kind: type[OptionsPage] | type[RobotsMenu], name: str) -> None:
@@ -53,19 +49,19 @@ def test_every_page_is_a_press_away_and_leads_back(arcade: Arcade, name: str, ki
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_the_sheet_is_written_and_it_says_where(arcade: Arcade, tmp_path: Path, language: str) -> None:
+def test_the_sheet_is_written_and_it_says_where(arcade: Arcade, home: Path, language: str) -> None:
     arcade.context.words.switch(language)
     go(arcade, RobotsMenu, "sheet")
     arcade.press(Button.FIRE)
-    written = tmp_path / "data" / SHEET
+    written = home / "data" / SHEET
     assert written.read_bytes().startswith(b"%PDF")
     assert str(written) in arcade.shown(RobotsMenu).message
 
 
 def test_a_sheet_that_cannot_be_written_is_one_sentence(
-    arcade: Arcade, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    arcade: Arcade, home: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / "data" / SHEET).mkdir(parents=True)
+    (home / "data" / SHEET).mkdir(parents=True)
     go(arcade, RobotsMenu, "sheet")
     arcade.press(Button.FIRE)
     assert arcade.shown(RobotsMenu).message == arcade.context.words("app.unsaved")

@@ -56,11 +56,6 @@ class MatSession:
 
 
 @pytest.fixture
-def arcade(controls: Controls) -> Arcade:
-    return Arcade(controls)
-
-
-@pytest.fixture
 def played(arcade: Arcade) -> RealMatch:
     """A match of one real robot against a simulated one, with a fault that paused it."""
     session = MatSession()  # type: ignore[assignment]
