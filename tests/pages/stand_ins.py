@@ -74,6 +74,7 @@ WITHOUT_ROBOTS = ("arena", "microbit", "sheet", "wifi_config")  # but not with t
 
 MINUTES_LONG = "it takes minutes"
 ELSEWHERE = (
+    Elsewhere(r".*tests\.pages\.api --write", "it writes a page of this tree", "tests/api/test_face.py"),
     Elsewhere(r"(python3 main\.py )?(test|bundle)\b.*", MINUTES_LONG, ".ci/run"),
     Elsewhere(r"(python3 main\.py )?bench robots\b.*", MINUTES_LONG, "tests/jobs/bench/test_robots.py"),
     Elsewhere(r"(python3 main\.py )?bench (?!robots|phones).*", MINUTES_LONG, "tests/jobs/bench/test_yardsticks.py"),
