@@ -20,7 +20,6 @@ from pigaming_app.scenes.features.registry import corner_pin, features
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
 from pigaming_app.scenes.launch import Options
-from pigaming_app.scenes.options.new_game import game_name
 from pigaming_app.storage.messages import OperatorError
 from pigaming_app.storage.plugins.found import Plugin
 from pigaming_app.storage.plugins.parts import is_running, stopped
@@ -288,6 +287,8 @@ class App:
 
     def _excuse(self) -> str:
         """The sentence about a failure: which game is left out, or that something went wrong."""
+        from pigaming_app.scenes.options.new_game import game_name  # late: the title does not wait for it
+
         words, plugin = self.context.words, self.blamed
         return words("app.game_failed", game=game_name(words, plugin)) if plugin else words("app.error")
 

@@ -8,22 +8,24 @@ has its page beside it, README.md. The former is imported before the title appea
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import pygame
 
-from pigaming_app.games.match import Match
 from pigaming_app.scenes.features.board_page import BoardPage
 from pigaming_app.scenes.features.replay_kind import ReplayKind
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.scenes.flow.stack import Scene, Stack, StackOperation
 from pigaming_app.scenes.launch import Options
-from pigaming_app.scenes.views.view import MatchView
 from pigaming_app.ui.draw import GlowCanvas
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device, InputEvent
 from pigaming_app.ui.window import Pin
+
+if TYPE_CHECKING:  # the title does not wait for these
+    from pigaming_app.games.match import Match
+    from pigaming_app.scenes.views.view import MatchView
 
 
 class MenuItem(NamedTuple):
@@ -141,7 +143,7 @@ class Feature:
     service: Callable[[Context, Options], Service | None] | None = None
     join: Callable[[Context], JoinOffer] | None = None
     draw_arena: Callable[[Context, str], Callable[[], Scene] | None] | None = None  # opens the drawn arenas of a game
-    overlay: Callable[[Match, MatchView, Words], MatchOverlay] | None = None
+    overlay: Callable[["Match", "MatchView", Words], MatchOverlay] | None = None
     board_pages: Callable[[Context], Sequence[BoardPage]] | None = None  # of the second screen
     next_line: Callable[[Context, Sequence[Scene]], str] | None = None  # what comes next, for the second screen
     without_limit: Callable[[Sequence[Scene]], bool] | None = None  # the time limit of a group does not apply

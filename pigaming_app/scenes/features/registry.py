@@ -4,17 +4,20 @@ import logging
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from pigaming_app.games.match import Match
 from pigaming_app.scenes.features.feature import Feature, JoinOffer, MatchOverlay, MenuItem
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.launch import Options
-from pigaming_app.scenes.views.view import MatchView
 from pigaming_app.storage.optional import is_there, optional
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.window import Pin
+
+if TYPE_CHECKING:  # the title does not wait for these
+    from pigaming_app.games.match import Match
+    from pigaming_app.scenes.views.view import MatchView
 
 NAMES = (
     *("attract", "brain", "controls", "howto", "ladder", "events"),
@@ -85,7 +88,7 @@ def join_offer(context: Context) -> JoinOffer | None:
     return next((feature.join(context) for feature in features() if feature.join), None)
 
 
-def match_overlay(match: Match, view: MatchView, words: Words) -> MatchOverlay | None:
+def match_overlay(match: "Match", view: "MatchView", words: Words) -> MatchOverlay | None:
     """What can be drawn over a match for one of its AIs, if anything."""
     return next((feature.overlay(match, view, words) for feature in features() if feature.overlay), None)
 

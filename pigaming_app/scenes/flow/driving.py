@@ -1,7 +1,6 @@
 """The driving style of each device: chosen by its player, remembered for its kind of device."""
 
 from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT, TURN
-from pigaming_app.ai.registry import AIS
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.events import Device
 
@@ -31,10 +30,11 @@ class DrivingStyles:
 
         The default of pads and phones in party rules is to point.
         """
+        styles = _styles(game)
         last = self.settings.pad_driving if device.has_stick else self.settings.keys_driving
         for style in (self.chosen.get(device, ""), self.remembered.setdefault(device, last)):
             for name in (style, UNHELPED.get(style, "")):
-                if name in AIS[game].driving:
+                if name in styles:
                     return name
         return POINT if device.has_stick and variant == PARTY else TURN
 
@@ -43,7 +43,7 @@ class DrivingStyles:
 
         One button is a need of one person, so it is not remembered for others.
         """
-        names = list(AIS[game].driving)
+        names = _styles(game)
         style = names[(names.index(self.of(device, game, variant)) + delta) % len(names)]
         self.chosen[device] = style
         if style == ONE_BUTTON:
@@ -61,3 +61,10 @@ class DrivingStyles:
         """Give the style of the device that drove before to a device whose player has not chosen."""
         if before in self.chosen:
             self.chosen.setdefault(device, self.chosen[before])
+
+
+def _styles(game: str) -> list[str]:
+    """The styles of a game, in their order."""
+    from pigaming_app.ai.registry import AIS  # late: the title does not wait for AIs
+
+    return list(AIS[game].driving)

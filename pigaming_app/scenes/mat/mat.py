@@ -17,7 +17,6 @@ from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.launch import Options
-from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.storage.messages import OperatorMessage
@@ -80,6 +79,8 @@ class SessionMat:
         context, again = self.context, partial(self.match, game_choice=game_choice, after=after)
         real = [seat for seat in real if setup.seats[seat].brain != "off"]
         if not real:
+            from pigaming_app.scenes.play.scene import MatchScene  # late: the title does not wait for it
+
             return MatchScene(context, setup, devices, game_choice=game_choice, rounds=rounds, after=after)
         try:
             if reason := self.problem:

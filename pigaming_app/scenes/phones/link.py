@@ -3,19 +3,20 @@
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.phones.host import phone_host
-from pigaming_app.scenes.play.drivers import Drivers
-from pigaming_app.scenes.results.headline import EndedMatch
-from pigaming_app.scenes.results.snapshot import match_of, snapshot
 from pigaming_app.ui.draw import MIST, PLAYERS
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device
 from pigaming_app.ui.input.phone_messages import SeatView
+
+if TYPE_CHECKING:  # the title does not wait for these
+    from pigaming_app.scenes.play.drivers import Drivers
+    from pigaming_app.scenes.results.headline import EndedMatch
 
 PAGE_TEXTS = (
     "page_player", "page_join", "page_fire", "page_turbo", "page_ok", "page_back", "page_lost", "page_old",
@@ -35,14 +36,14 @@ class Seated(Protocol):
 class Driven(Protocol):
     """A scene in which devices drive robots."""
 
-    drivers: Drivers
+    drivers: "Drivers"
 
 
 @runtime_checkable
 class Ended(Protocol):
     """A scene after a match."""
 
-    ended: EndedMatch
+    ended: "EndedMatch"
 
 
 @dataclass(frozen=True)
@@ -100,6 +101,8 @@ def tallies(scenes: Sequence[Scene], words: Words) -> dict[int, Tally]:
     if scenes and isinstance(scenes[-1], Ended):
         rows = scenes[-1].ended.outcome.rows
         return {row.seat: Tally(place=f"{row.place}{words(f'race.place_{row.place}')}") for row in rows}
+    from pigaming_app.scenes.results.snapshot import match_of, snapshot  # late: the title does not wait for it
+
     match, on_top = match_of(scenes)
     if match is None:
         return {}

@@ -98,7 +98,7 @@ def finish(walker: TourWalker) -> None:
     """The podium, once all other matches have a result."""
     walker.top.running.change(ended)
     walker.set_screen("events: podium")
-    walker.wait_until(lambda: walker.shows("PodiumPage"))
+    walker.wait_until(lambda: walker.shows("EventPodiumPage"))
     walker.wait(6.0)
     walker.set_screen("events: table")
     walker.press("space", pause=1.0)

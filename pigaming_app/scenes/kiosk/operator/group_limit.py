@@ -5,13 +5,15 @@ An event has no limit: its entrants would have to open it again every few minute
 
 import math
 from collections.abc import Sequence
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from pigaming_app.scenes.features.registry import without_limit
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
-from pigaming_app.scenes.play.drivers import Drivers
-from pigaming_app.scenes.play.pause import Robots
+
+if TYPE_CHECKING:  # the title does not wait for these
+    from pigaming_app.scenes.play.drivers import Drivers
+    from pigaming_app.scenes.play.pause import Robots
 
 WARNED = 60.0  # s before the limit, from which the rest is shown
 STEP = 10  # s between two sentences: each new one costs a few milliseconds of a match
@@ -31,8 +33,8 @@ class Untimed(Protocol):
 class InMatch(Protocol):
     """A match that is being played."""
 
-    drivers: Drivers
-    robots: Robots
+    drivers: "Drivers"
+    robots: "Robots"
 
 
 class GroupLimit:
