@@ -89,7 +89,7 @@ class SessionMat:
                 things = self.things
             arena = with_things(setup.game, load(setup.game, setup.arena), things) if things else None
             match = RealMatch(context, setup, devices, real, self.session, again, game_choice, rounds, arena, after)
-            match.watchers = self.watchers
+            match.robots.watchers = self.watchers
             return match
         except ArenaError as error:
             log.warning("%s", error)

@@ -111,7 +111,10 @@ class PausedMatch(Protocol):
     restart_allowed: bool
     runner: MatchRunner
     drivers: Drivers
-    robots: Robots
+
+    @property
+    def robots(self) -> Robots:
+        """What drives."""
 
     def restart(self) -> None:
         """Restart the match."""

@@ -34,7 +34,9 @@ class PlayedScene(Protocol):
     runner: MatchRunner
     drivers: Drivers
     records: bool
-    robots: Robots
+
+    @property
+    def robots(self) -> Robots: ...
 
     @property
     def after(self) -> Callable[[Any], AfterMatch] | None: ...

@@ -144,7 +144,7 @@ class FaultPage:
 
     def _examine(self, seconds: float) -> list[tuple[float, float]]:
         """Advance while the watch compares this page's picture with the camera's; places of moved things, arena px."""
-        self.match.advance_examined(seconds)
+        self.match.robots.advance_examined(seconds)
         return self.match.watch.places
 
     def _stoppers(self) -> list[Device]:

@@ -39,11 +39,5 @@ class InterruptedMatch(MatchAmongThings, Protocol):
     def real(self) -> set[int]:
         """Seats with real robots, including those still driving to their start positions."""
 
-    def advance_examined(self, seconds: float) -> None:
-        """As `advance_paused`, while the watch examines the picture below it."""
-
     def set_real(self, seat: int, real: bool) -> None:
         """Hand a seat over to its simulated or its real robot."""
-
-    def apply_pairing(self, channels: Sequence[int], turned: Collection[int]) -> None:
-        """Apply a new pairing of radios and robots. `turned`: robots that turned as commanded."""

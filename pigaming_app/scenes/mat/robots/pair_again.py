@@ -91,7 +91,7 @@ class PairAgain:
     def _apply(self, pairing: Pairing) -> StackOperation:
         """Apply the result; close if there is no fault."""
         turned = [finding.marker for finding in pairing.findings if finding.case in GOOD and finding.marker is not None]
-        self.match.apply_pairing(pairing.channels, turned)
+        self.match.robots.apply_pairing(pairing.channels, turned)
         fault = worst_finding([finding for finding in pairing.findings if finding.case not in GOOD])
         if fault is None:
             self.context.sounds.play("accept")

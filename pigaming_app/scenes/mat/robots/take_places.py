@@ -72,6 +72,13 @@ class TakePlaces:
         seen = self.plant.rig.sense()
         return [robot for robot in sorted(self.plant.real | self.plant.arriving) if seen[robot].age > UNSEEN_AFTER]
 
+    @property
+    def stuck(self) -> list[int]:
+        """Robots that cannot reach their start positions on their own."""
+        troubled = {fault.robot for fault in self.plant.faults if fault.pauses}
+        late = [place for place in self.plant.places if not place.arrived]
+        return [place.robot for place in late if not place.moving or {None, place.robot} & troubled]
+
     def draw(self, screen: pygame.Surface) -> None:
         """Draw outlines, paths and captions; the discs are drawn on top by the caller."""
         words, places = self.context.words, self.plant.places

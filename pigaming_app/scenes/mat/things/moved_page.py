@@ -1,7 +1,7 @@
 """Page over a match whose things were moved: it shows where, on the mat. Scan again, or go on as it is."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Protocol
 
 import pygame
@@ -15,7 +15,7 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.mat.things.match_watch import MatchWatch
 from pigaming_app.scenes.mat.things.sweep_page import SweepPage
-from pigaming_app.scenes.play.pause import Pause, PausedMatch
+from pigaming_app.scenes.play.pause import Pause, PausedMatch, Robots
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import ALARM, BODY, ICE, LABEL, LINE, MIST, GlowCanvas
 from pigaming_app.ui.draw.sprites import Sprite, trim
@@ -31,6 +31,16 @@ RADIUS = 76  # px of the rings
 HEAD, BELOW = pygame.Rect(0, 0, 1920, 138), pygame.Rect(0, 138, 1920, 942)
 
 
+class ExaminedRobots(Robots, Protocol):
+    """Real robots, as the pages above their match need them."""
+
+    def advance_examined(self, seconds: float) -> None:
+        """As `advance_paused`, while the watch examines the picture below it."""
+
+    def apply_pairing(self, channels: Sequence[int], turned: Collection[int]) -> None:
+        """Apply a new pairing of radios and robots. `turned`: robots that turned as commanded."""
+
+
 class MatchAmongThings(PausedMatch, Protocol):
     """A paused match with real robots among things."""
 
@@ -38,6 +48,10 @@ class MatchAmongThings(PausedMatch, Protocol):
     plant: MixedPlant
     session: RobotSession
     watch: MatchWatch
+
+    @property
+    def robots(self) -> ExaminedRobots:
+        """What drives."""
 
     def rebuild(self, layout: ThingLayout) -> bool:
         """Go on among things that were scanned anew; false if that is impossible."""

@@ -19,7 +19,6 @@ from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.mat.radio.page import RadioPage
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.things.arena_page import ArenaPage
-from pigaming_app.scenes.play.pause import SimulatedRobots
 from pigaming_app.storage.messages import OperatorMessage
 from tests.scenes.arcade import KEYS, Arcade, setup
 
@@ -44,8 +43,7 @@ def fault_page(arcade: Arcade, rule: SafetyRule) -> FaultPage:
         access=Access(arcade.context, lambda: KEYS),
         real={0, 1, 2, 3},
         runner=SimpleNamespace(picture=lambda: pygame.Surface((1920, 1080))),
-        robots=SimulatedRobots(),
-        advance_examined=lambda seconds: None,
+        robots=SimpleNamespace(draw_overlay=lambda screen: None, advance_examined=lambda seconds: None),
         preparing=False,
         watch=SimpleNamespace(note=lambda screen: None, examine=lambda: None, places=[]),
     )

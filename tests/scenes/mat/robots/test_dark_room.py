@@ -98,5 +98,5 @@ def test_a_robot_lost_in_a_match_is_found_again_in_the_dark(arcade: Arcade, mat:
     arcade.shown(FaultPage)
     assert arcade.screen.get_at((200, 900))[:3] != (LIGHT,) * 3, "the page can be read first"
     play(arcade, 3.5, lit=True)
-    assert not match.blocked
+    assert not match.robots.blocked
     assert arcade.stack.top is match

@@ -378,10 +378,10 @@ def test_no_match_begins_with_robots_on_a_cable(arcade: Arcade, mat: EmulatedSes
         arcade.context.settings.radio = "stock"
         arcade.open(match_of(arcade.context, match_for("race", "level3 level1 off off", 0.1), [], (0,)))
     page = arcade.shown(UnavailablePage)
-    assert "no deadman" in sentence(page.message)
+    assert "no deadman" in sentence(page.reason)
     arcade.frame(draw=True)
     arcade.press(Button.X)
-    assert "no deadman" in sentence(arcade.shown(UnavailablePage).message)
+    assert "no deadman" in sentence(arcade.shown(UnavailablePage).reason)
     assert mat._rig is None
     mat.arena.advance(0.3)
     assert mat.arena.clock() - max(mat.arena.last_driven) > 0.2
@@ -397,7 +397,7 @@ def test_the_reason_is_shown_and_simulated_robots_play(
     page = match_of(arcade.context, match_for("pitanks", "level3 level1 off off", 0.1), [], (0,))
     assert isinstance(page, UnavailablePage)
     arcade.open(page)
-    assert sentence(arcade.shown(UnavailablePage).message) == "There is no camera 3: plug one in."
+    assert sentence(arcade.shown(UnavailablePage).reason) == "There is no camera 3: plug one in."
     arcade.press(Button.FIRE)
     assert type(arcade.shown(MatchScene)) is MatchScene
 

@@ -120,11 +120,11 @@ def test_an_arena_that_things_block_is_built_again_or_played_without_them(simula
     simulated.press(Button.X)  # removes the bar
     simulated.press(Button.BACK)
     simulated.frame()
-    assert simulated.shown(RealMatch).things == ()
+    assert simulated.shown(RealMatch).robots.things == ()
     keep(simulated, bar, thing(ThingKind.TALL, 700.0, 300.0, 90.0, 60.0))
     without = page.without()
     assert isinstance(without, RealMatch)
-    assert without.things == ()
+    assert without.robots.things == ()
 
 
 def test_results_among_things_are_no_records_and_a_rematch_keeps_the_things(simulated: Arcade) -> None:
@@ -135,7 +135,7 @@ def test_results_among_things_are_no_records_and_a_rematch_keeps_the_things(simu
     keep(simulated)
     again = match.sequel.rematch(simulated.context, match.setup, [])
     assert isinstance(again, RealMatch)
-    assert again.things == match.things != ()
+    assert again.robots.things == match.robots.things != ()
 
 
 @pytest.mark.long(first=True)
