@@ -258,7 +258,7 @@ class Settings:
         """The settings to be saved: choices of the house in place of the visitors', unless these are kept."""
         if self._house is None or self.keep_choices:
             return _flat(self)
-        return {key: value for key, value in _flat(self).items() if key not in _choices(self)} | self._house
+        return {key: value for key, value in _flat(self).items() if not _is_choice(key)} | self._house
 
     def _changed(self) -> list[Key]:
         """The settings changed by this instance since it last loaded or saved."""
@@ -288,7 +288,12 @@ def _flat(settings: Settings) -> Flat:
 
 def _choices(settings: Settings) -> Flat:
     """The settings that visitors choose."""
-    return {key: value for key, value in _flat(settings).items() if key[0] is not None or key[1] in VISITORS}
+    return {key: value for key, value in _flat(settings).items() if _is_choice(key)}
+
+
+def _is_choice(key: Key) -> bool:
+    """Whether visitors choose a setting."""
+    return key[0] is not None or key[1] in VISITORS
 
 
 def _differing(now: Flat, before: Flat) -> list[Key]:
