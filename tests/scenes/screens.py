@@ -246,7 +246,8 @@ def summit(arcade: Arcade) -> Summit:
 def strengths(arcade: Arcade) -> Strengths:
     scene = Strengths(arcade.context, "pitanks")
     rows = [
-        (brain, 900.0 - 160.0 * i) for i, brain in enumerate((*AIS["pitanks"].rivals, "classic", "random", "hand1"))
+        (brain, 900.0 - 160.0 * i)
+        for i, brain in enumerate(dict.fromkeys((*AIS["pitanks"].rivals, "classic", "random", "hand1")))
     ]
     rated = tuple(Strength(brain, rating, (rating - 90.0, rating + 90.0)) for brain, rating in rows)
     scene.ratings, scene.age = Ratings("pitanks", "original", 100_000, rated), 9.0

@@ -13,8 +13,9 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw import ALARM, FOCUS
-from pigaming_app.ui.draw.layers import LitImage, backdrop
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage, backdrop
+from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.button_prompts import ROOM, ButtonPrompts
 from pigaming_app.ui.widgets.caption import caption
@@ -22,6 +23,7 @@ from pigaming_app.ui.widgets.focus import DIRECTIONS, Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import heading
 
 Hints = Sequence[tuple[Button, str]]
+MESSAGE_ROOM = RIGHT - LEFT - 60  # px
 NOWHERE = FocusSpot("", pygame.Rect(0, 0, 0, 0))
 log = logging.getLogger("pigaming")
 
@@ -142,8 +144,10 @@ class Page:
 
     def draw_foot(self, screen: pygame.Surface) -> None:
         """Draw the message in place of the prompts, or the prompts."""
-        if self.message:
-            caption(self.message, ALARM if self.wrong else FOCUS).draw(screen, 960, self.prompts_y)
+        message, color = self.message, ALARM if self.wrong else FOCUS
+        if message:
+            fitting = fit_size(message, BODY, MESSAGE_ROOM, "body")
+            caption(message, color, size=fitting if fitting < BODY else 0).draw(screen, 960, self.prompts_y)
         else:
             self.prompts.draw(screen)
 

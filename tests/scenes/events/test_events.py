@@ -27,11 +27,12 @@ from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.seats import EventSeats
 from pigaming_app.scenes.events.setup.arenas_page import ArenasPage
 from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft
-from pigaming_app.scenes.events.setup.entrants_page import SENTENCE_ROOM, EntrantsPage
+from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.stack import Pop
+from pigaming_app.scenes.pages.page import MESSAGE_ROOM
 from pigaming_app.scenes.phones.link import PhoneLink
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
@@ -201,7 +202,7 @@ def test_what_is_said_of_a_list_is_legible_on_the_page(arcade: Arcade, language:
     lists = (name, "Ana\nAna", f"Ana,a,b,{name}", f"Ana={name}", "\n".join(f"N{i}" for i in range(99)))
     for text in (*lists, f"Name;Anmerkungen;Jahrgangsstufe;{name};Klassenleitung\nAna\nBea\n"):
         page.add_list(text, "Anmeldungen Tag der offenen Tür.csv")
-        assert fit_size(page.message, BODY, SENTENCE_ROOM, "body") >= 36, page.message
+        assert fit_size(page.message, BODY, MESSAGE_ROOM, "body") >= 36, page.message
     assert len(page.draft.entrants) == 2
 
 

@@ -29,14 +29,12 @@ from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, fit_text, text
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out
 from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 
 MAX_LIST = 100_000  # bytes of a dropped file
 MAX_SHOWN, MOST_SHOWN = 20, 44  # characters of a file's name, of a line that is refused; of columns
-SENTENCE_ROOM = RIGHT - LEFT - 60  # px
 TEAMS = 4  # that can be chosen here
 TOP, GAP = 204, 14  # px
 NARROW = 300  # px: a cell with little room for a team
@@ -109,14 +107,6 @@ class EntrantsPage(Page):
             text(words("events.nobody"), LABEL, MIST, "head").draw(screen, 960, 610)
             text(words("events.drop"), BODY, MIST).draw(screen, 960, 690)
         self.focus.draw(screen)
-
-    def draw_foot(self, screen: pygame.Surface) -> None:
-        """Draw the message, which may be long, or the prompts."""
-        if self.message:
-            size = fit_size(self.message, BODY, SENTENCE_ROOM, "body")
-            caption(self.message, FOCUS, size=size).draw(screen, 960, self.prompts_y)
-        else:
-            self.prompts.draw(screen)
 
     # ---- changes
 
