@@ -14,7 +14,7 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 
-from pigaming_app.hardware.vision.markers import CORNER_IDS, OLD_IDS, ROBOT_IDS, MarkerDetector, SearchWindow
+from pigaming_app.hardware.vision.markers import CORNER_IDS, ROBOT_IDS, MarkerDetector, SearchWindow
 
 CELL = 50.0 / 6.0  # mm
 LINE = 1 / 30 / 1080  # s from one row to the next
@@ -83,7 +83,6 @@ def main() -> None:
     for number in sorted(shares, key=lambda number: -sum(shares[number])):
         worn = {**dict.fromkeys(BLOCKS, "block"), **dict.fromkeys(CORNER_IDS, "corner")}
         worn |= {id_: f"robot {i + 1}" for i, id_ in enumerate(ROBOT_IDS)}
-        worn |= {id_: f"robot {i + 1}, old" for i, id_ in enumerate(OLD_IDS)}
         cells = [f"{100 * found:.0f}" for found in shares[number]]
         print(f"| {number} | {' | '.join(cells)} | {worn.get(number, '')} |", flush=True)
 

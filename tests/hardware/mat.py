@@ -121,10 +121,6 @@ class Mat:
     def predict(self, now, ahead):
         return self.sense(now), [self.sense(now + more)[i] for i, more in enumerate(ahead)]
 
-    @property
-    def old_markers(self):
-        return {}
-
     delay = wrong_size = None
     wait = 0.015
 

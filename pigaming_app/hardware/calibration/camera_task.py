@@ -141,7 +141,6 @@ class DriftCheck(CameraTask):
         self.drift: DriftMonitor | None = None
         self.mm: float | None = None  # None: not yet measured
         self.marker_mm: float | None = None
-        self.worn: int | None = None  # number of that marker
         self.heights: TwoHeights | None = None  # of that marker
         self.quality: CameraQuality | None = None  # of the present picture
         self._load = load
@@ -173,7 +172,7 @@ class DriftCheck(CameraTask):
         marks = self._robots.refine(frame.image, self._robots.detect(frame.image))
         away = [ground.on_mat(mark.corners).mean(axis=0) - np.array(SPOT) for mark in marks]
         mark = next((mark for mark, way in zip(marks, away, strict=True) if float(way @ way) < NEAR * NEAR), None)
-        self.marker_mm, self.worn = (ground.edge_mm(mark), mark.number) if mark else (None, None)
+        self.marker_mm = ground.edge_mm(mark) if mark else None
         self.heights.add(mark)
 
     def _assess(self, frame: CameraFrame, drift: DriftMonitor) -> None:

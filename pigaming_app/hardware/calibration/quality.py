@@ -2,14 +2,13 @@
 share of the pictures in which a driving robot's marker is found, by `detection`.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Annotated
 
 from pigaming_app.hardware.calibration.detection import found_share
 from pigaming_app.hardware.signals import ExposureKept, ExposureState
 from pigaming_app.hardware.vision.exposure import LONGEST
-from pigaming_app.hardware.vision.markers import OLD_IDS, ROBOT_IDS, WEARERS
+from pigaming_app.hardware.vision.markers import ROBOT_IDS
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.schema import Share, between, one_of
 
@@ -29,15 +28,14 @@ class CameraQuality:
     blur_px: Pixels = 0.0  # standard deviation, camera px
     detection: Share = 0.0  # predicted share of the pictures in which the weakest marker of a driving robot is found
     anyway: bool = False  # the operator saved it despite a prediction below NEEDED
-    old_detection: Share = 0.0  # the same for the markers of older sheets; 0: not predicted
     cause: Annotated[str, one_of("", *CAUSES)] = ""  # key of the main cause of a weak prediction
 
     def with_edge(self, marker_px: float) -> "CameraQuality":
         """The same picture with markers of another size, px."""
         look = marker_px, self.blur_px, self.exposure
-        detection, old_detection = (weakest(*look, ids) for ids in (ROBOT_IDS, OLD_IDS))
+        detection = weakest(*look)
         cause = "" if detection >= NEEDED else _cause(*look)
-        return replace(self, marker_px=marker_px, detection=detection, old_detection=old_detection, cause=cause)
+        return replace(self, marker_px=marker_px, detection=detection, cause=cause)
 
     @property
     def measured(self) -> bool:
@@ -72,20 +70,15 @@ def used_anyway(quality: CameraQuality) -> OperatorMessage:
     return OperatorMessage("used_anyway", share=round(100 * quality.detection))
 
 
-def old_marker(number: int) -> OperatorMessage:
-    """The message about a marker of an older sheet."""
-    return OperatorMessage("old_marker", robot=WEARERS[number] + 1, number=number)
-
-
 def assessed(marker_px: float, blur_px: float, state: ExposureState) -> CameraQuality:
     """The quality of a picture. Without a figure of the driver the exposure is taken to be LONGEST."""
     seconds = state.seconds or 0.0
     return CameraQuality(seconds, state.gain, blur_px=blur_px).with_edge(marker_px)
 
 
-def weakest(marker_px: float, blur_px: float, exposure: float, numbers: Iterable[int] = ROBOT_IDS) -> float:
-    """The predicted share, 0..1, of the marker that is found least of these."""
-    return min(found_share(number, marker_px, blur_px, exposure) for number in numbers)
+def weakest(marker_px: float, blur_px: float, exposure: float) -> float:
+    """The predicted share, 0..1, of the robots' marker that is found least."""
+    return min(found_share(number, marker_px, blur_px, exposure) for number in ROBOT_IDS)
 
 
 def _cause(marker_px: float, blur_px: float, exposure: float) -> str:

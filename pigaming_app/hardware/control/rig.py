@@ -65,9 +65,6 @@ class TrackerPort(Protocol):
     def rejections(self) -> Mapping[int, str]: ...
 
     @property
-    def old_markers(self) -> Mapping[int, int]: ...
-
-    @property
     def wrong_size(self) -> float | None: ...
 
     @property

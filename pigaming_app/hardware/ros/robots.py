@@ -90,10 +90,6 @@ class RosPoses(PoseFilters):
         return set()
 
     @property
-    def old_markers(self) -> Mapping[int, int]:
-        return {}
-
-    @property
     def wrong_size(self) -> float | None:
         return None
 

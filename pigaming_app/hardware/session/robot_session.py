@@ -123,9 +123,9 @@ def fault_of(rig: "Rig") -> OperatorMessage | None:
 
 
 def camera_warning(session: RobotSession, rig: "Rig") -> OperatorMessage | None:
-    """Warning about a session's camera: exposure, sharpness, the arena's width, markers of older sheets; or None."""
+    """Warning about a session's camera: exposure, sharpness, the arena's width; or None."""
     from pigaming_app.hardware.calibration.ground_plane import MARKER
-    from pigaming_app.hardware.calibration.quality import old_marker, used_anyway
+    from pigaming_app.hardware.calibration.quality import used_anyway
     from pigaming_app.hardware.vision.exposure import warning_of
 
     quality = session.quality
@@ -134,7 +134,7 @@ def camera_warning(session: RobotSession, rig: "Rig") -> OperatorMessage | None:
         return used_anyway(quality)
     if warning is None and rig.tracker.wrong_size is not None:
         return OperatorMessage("marker_off", mm=f"{rig.tracker.wrong_size:.1f}", true=f"{MARKER:.0f}")
-    return warning or next((old_marker(number) for number in rig.tracker.old_markers.values()), None)
+    return warning
 
 
 def cause_of(rig: "Rig", fault: str) -> OperatorMessage | None:

@@ -5,7 +5,7 @@ never moves or stops a robot: `safety` judges ages, `duplicates` and `last_captu
 """
 
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from math import cos, inf, pi, sin, sqrt
 
 import numpy as np
@@ -17,7 +17,6 @@ from pigaming_app.hardware.tracking.camera_delay import CameraDelay
 from pigaming_app.hardware.tracking.ekf import COAST
 from pigaming_app.hardware.tracking.pose_filters import PoseFilters
 from pigaming_app.hardware.vision.markers import (
-    OLD_IDS,
     ROBOT_IDS,
     WEARERS,
     MarkerDetector,
@@ -57,7 +56,6 @@ class Tracker(PoseFilters):
         self.drift = drift  # gets the same frames, for the corner markers
         self._markers = MarkerDetector(WEARERS)
         self._rejections: dict[tuple[int, str], float] = {}  # s, by robot and reason
-        self._worn: dict[int, int] = {}  # marker last seen on each robot
         self._sizes: deque[float] = deque(maxlen=SIZES)  # mm
         self._glanced = self._searched = self._sized = -inf
         self._dim = False  # mode of the last quick search
@@ -84,11 +82,6 @@ class Tracker(PoseFilters):
                 accepted.append(fixes[0])
                 self.delay.record_fix(fixes[0])
         return accepted
-
-    @property
-    def old_markers(self) -> Mapping[int, int]:
-        """Markers of older sheets, by the robots on which they were seen last."""
-        return {robot: number for robot, number in self._worn.items() if number in OLD_IDS}
 
     @property
     def wrong_size(self) -> float | None:
@@ -120,7 +113,7 @@ class Tracker(PoseFilters):
         """Search near predictions, and the whole image periodically, more often while a robot is missing."""
         marks = []
         for robot, spot in self._spots(frame.captured - self.delay.seconds).items():
-            mark = self._markers.detect_in(frame.image, spot, ROBOT_IDS[robot], OLD_IDS[robot])
+            mark = self._markers.detect_in(frame.image, spot, ROBOT_IDS[robot])
             if mark is not None:
                 marks.append(mark)
         seen = {WEARERS[mark.number] for mark in marks}
@@ -172,7 +165,6 @@ class Tracker(PoseFilters):
                 if captured - self._sized > GLANCE:
                     self._sized = captured
                     self._sizes.append(self.ground.edge_mm(mark))
-                self._worn[robot] = mark.number
         return fixes
 
 

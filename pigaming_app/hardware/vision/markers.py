@@ -16,8 +16,7 @@ from pigaming_app.hardware.vision.subpixel import refined
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 ROBOT_IDS = (16, 17, 43, 45)  # of the robots 0 to 3: those missed least of all that blocks and corners leave free
-OLD_IDS = (0, 1, 2, 3)  # of the same robots with older sheets
-WEARERS = {number: robot for ids in (ROBOT_IDS, OLD_IDS) for robot, number in enumerate(ids)}
+WEARERS = {number: robot for robot, number in enumerate(ROBOT_IDS)}
 CORNER_IDS = (10, 11, 12, 13)  # projected in the margins of the canvas, see `drift`
 READABLE = 23.0  # px of a marker's edge in a downscaled image: 96 % are detected from 22 px, 52 % at 14 px
 SMALLEST = 0.5  # lowest scale of a downscaled image; below, noise is no longer averaged
@@ -86,8 +85,8 @@ class MarkerDetector:
                 marks.append(self.detect_in(image, SearchWindow(x, y, 1.5 * edge, edge), mark.number))
         return [mark for mark in marks if mark is not None]
 
-    def detect_in(self, image: Image, spot: SearchWindow, *numbers: int) -> DetectedMarker | None:
-        """The marker with one of these ids in the search window, or None; large markers are downscaled first."""
+    def detect_in(self, image: Image, spot: SearchWindow, number: int) -> DetectedMarker | None:
+        """The marker with this id in the search window, or None; large markers are downscaled first."""
         left, top = max(0, round(spot.x - spot.half)), max(0, round(spot.y - spot.half))
         part = image[top : max(0, round(spot.y + spot.half)), left : max(0, round(spot.x + spot.half))]
         if min(part.shape) < 2.0 * spot.edge * NARROW:
@@ -100,7 +99,7 @@ class MarkerDetector:
         for i, windows in enumerate(((window, window), (window, window), (3, 3 * window))):
             picture = part if i == 2 else self._dimmed(part if i == 0 else self._sharp(part, edge), NEAR)
             for mark in self._look(self._detector(windows, NARROW * rate, WIDE * rate), picture):
-                if mark.number in numbers:
+                if mark.number == number:
                     return DetectedMarker(mark.number, (mark.corners + 0.5) * fold - 0.5 + np.array((left, top)))
         return None
 

@@ -1,6 +1,6 @@
 """Tables of robots on the emulated mat, and of their markers."""
 
-from pigaming_app.hardware.vision.markers import OLD_IDS, ROBOT_IDS
+from pigaming_app.hardware.vision.markers import ROBOT_IDS
 from pigaming_app.jobs.bench.robots import TARGETS, measure
 from tests.bench import detection, marker_ids
 
@@ -46,9 +46,8 @@ def proof(share: float) -> list[list[str]]:
 
 
 def markers(share: float) -> list[list[str]]:
-    """Share of the pictures in which robots' markers are found, of older sheets and of the present one, %."""
-    worn = {id_: f"robot {i + 1}, older sheet" for i, id_ in enumerate(OLD_IDS)}
-    worn |= {id_: f"robot {i + 1}" for i, id_ in enumerate(ROBOT_IDS)}
+    """Share of the pictures in which robots' markers are found, %."""
+    worn = {id_: f"robot {i + 1}" for i, id_ in enumerate(ROBOT_IDS)}
     rows = [["number", *map(named, marker_ids.VIEWS), "worn by"]]
     for number, wearer in worn.items():
         found = (marker_ids.share(number, view, max(1, round(100 * share))) for view in marker_ids.VIEWS)

@@ -9,6 +9,7 @@ import pytest
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, to_toml
 from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.signals import DetectedMarker
+from pigaming_app.hardware.vision.markers import ROBOT_IDS
 from tests.hardware.grounds import nominal
 from tests.hardware.sentences import refused, sentence
 
@@ -20,7 +21,7 @@ def edge_on(ground, robot, x, y, height, edge=50.0):
     """The detection of an upright marker, `edge` mm wide, `height` mm above a place."""
     half = 0.5 * edge / ground.mm
     corners = np.array([(x + half, y - half), (x + half, y + half), (x - half, y + half), (x - half, y - half)])
-    return DetectedMarker(robot, ground.to_camera(corners, height))
+    return DetectedMarker(ROBOT_IDS[robot], ground.to_camera(corners, height))
 
 
 def test_straightening_undoes_bending_all_over_the_picture():
@@ -71,7 +72,7 @@ def test_a_tilted_marker_is_no_robot():
     ground = nominal()
     mark = edge_on(ground, 0, 500.0, 500.0, 70.0)
     squeezed = mark.corners.mean(axis=0) + (mark.corners - mark.corners.mean(axis=0)) * (1.0, 0.75)
-    assert ground.fixes([DetectedMarker(0, squeezed)], 0.0) == ["tilted"]
+    assert ground.fixes([DetectedMarker(ROBOT_IDS[0], squeezed)], 0.0) == ["tilted"]
 
 
 def test_a_mat_that_was_measured_wrongly_shows_in_the_size_of_a_marker():
@@ -154,6 +155,6 @@ def test_garbage_is_refused():
 def test_a_heading_is_where_the_top_of_the_marker_points():
     ground = nominal()
     mark = edge_on(ground, 1, 800.0, 400.0, 70.0)
-    turned = DetectedMarker(1, np.roll(mark.corners, -1, axis=0))
+    turned = DetectedMarker(ROBOT_IDS[1], np.roll(mark.corners, -1, axis=0))
     (fix,) = ground.fixes([turned], 0.0)
     assert abs(fix.heading) == pytest.approx(pi / 2.0)

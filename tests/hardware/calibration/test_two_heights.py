@@ -35,7 +35,7 @@ def sights(arena):
     detector, page = MarkerDetector(WEARERS), np.zeros((1080, 1920), np.uint8)
     cv2.circle(page, (round(SPOT[0] + ARENA_AT[0]), round(SPOT[1] + ARENA_AT[1])), 90, 128, -1)
     random, trials = np.random.default_rng(1), []
-    for number in (16, 0, 45):
+    for number in (16, 17, 45):
         trials.append([])
         for height in (LID_HEIGHT, 0.0):
             ((x, y),) = arena.optics.mat(np.array([SPOT]) + ARENA_AT + random.uniform(-15.0, 15.0, 2)).tolist()

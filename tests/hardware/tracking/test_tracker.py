@@ -21,7 +21,7 @@ POSES = ((300.0, 200.0, 0.4), (1300.0, 250.0, 2.5), (1200.0, 700.0, 4.0), (250.0
 def marks(poses, height=70.0):
     """Markers as seen by a perfect camera; `poses`: {robot: pose}, or pairs."""
     pairs = poses.items() if isinstance(poses, dict) else poses
-    return [DetectedMarker(robot, GROUND.to_camera(square(pose, EDGE), height)) for robot, pose in pairs]
+    return [DetectedMarker(ROBOT_IDS[robot], GROUND.to_camera(square(pose, EDGE), height)) for robot, pose in pairs]
 
 
 def photo(poses, seed=1, height=70.0, noise=2.0):
@@ -194,13 +194,3 @@ def test_a_picture_without_robots_costs_nothing_but_time(wide):
     for frame in range(3):
         assert tracker.process(CameraFrame(noise, frame * 0.1, frame)) == []
     assert tracker.process(CameraFrame(np.zeros((8, 8), np.uint8), 1.0, 9)) == []
-
-
-def test_markers_of_older_sheets_still_work_and_are_told():
-    mat = Mat([0, 1])
-    new = (1300.0, 250.0, 2.5)
-    assert mat.show({0: (300.0, 200.0, 0.4), ROBOT_IDS[1]: new}, 3) == {0, 1}
-    assert mat.away(1, new)[0] < 1.0
-    assert mat.tracker.old_markers == {0: 0}
-    mat.show({0: (300.0, 200.0, 0.4), ROBOT_IDS[0]: (900.0, 600.0, 0.4)}, 8)
-    assert mat.tracker.duplicates() == {0}, "two robots 1, one with an old marker"

@@ -6,14 +6,16 @@ import pytest
 cv2 = pytest.importorskip("cv2")
 
 from pigaming_app.hardware.signals import DetectedMarker  # noqa: E402
-from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector, SearchWindow, detections  # noqa: E402
+from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector, SearchWindow, detections  # noqa: E402
 from tests.hardware.pictures import SIZE, lids, speckled, square  # noqa: E402
+
+IDS = (0, 1, 2, 3, *ROBOT_IDS)
 
 
 def test_markers_of_others_are_not_looked_at():
     places = ((0, (200.0, 200.0, 0.4)), (18, (800.0, 200.0, 2.0)), (11, (600.0, 500.0, 4.0)))
     picture = speckled(lids([(number, square(pose, 30.0)) for number, pose in places], SIZE))
-    found = MarkerDetector(WEARERS).detect(picture)
+    found = MarkerDetector(IDS).detect(picture)
     assert [mark.number for mark in found] == [0]
 
 
@@ -22,7 +24,7 @@ def test_markers_of_others_are_not_looked_at():
 def test_markers_are_found_however_large(edge, way):
     corners = square((400.3, 300.8, 0.7), edge)
     picture = speckled(lids([(3, corners)], SIZE))
-    markers = MarkerDetector(WEARERS)
+    markers = MarkerDetector(IDS)
     found = {
         "detect_quickly": lambda: markers.detect_quickly(picture, edge, dim=False),
         "detect_in": lambda: [markers.detect_in(picture, SearchWindow(405.0, 296.0, 1.3 * edge + 8.0, edge), 3)],
@@ -45,7 +47,7 @@ def striped(corners, bright=210):
 
 def test_what_is_projected_across_a_marker_does_not_hide_it():
     """Hard bright edges hide a marker from the plain detector (it finds 0 to 48 %); its black stays darkest."""
-    markers = MarkerDetector(WEARERS)
+    markers = MarkerDetector(IDS)
     near, glanced, tries = 0, 0, 20
     for i in range(tries):
         corners = square((400.0 + 2 * i, 300.0 + i, 0.3 * i), 37.0)
@@ -59,7 +61,7 @@ def test_what_is_projected_across_a_marker_does_not_hide_it():
 
 def test_a_blurred_marker_is_found_where_it_must_be():
     """As with a defocused lens, or in a long exposure of a turning robot."""
-    markers = MarkerDetector(WEARERS)
+    markers = MarkerDetector(IDS)
     for i in range(10):
         corners = square((400.0 + 2 * i, 300.0 + i, 0.3 * i), 37.0)
         picture = cv2.GaussianBlur(lids([(3, corners)], SIZE, ground=150.0), (0, 0), 2.2)
@@ -68,7 +70,7 @@ def test_a_blurred_marker_is_found_where_it_must_be():
 
 @pytest.mark.parametrize("light", [0.2, 0.5, 1.0])
 def test_markers_are_found_in_dim_light(light):
-    markers = MarkerDetector(WEARERS)
+    markers = MarkerDetector(IDS)
     for i in range(5):
         corners = square((400.0 + 2 * i, 300.0 + i, 0.3 * i), 37.0)
         picture = speckled(light * lids([(3, corners)], SIZE, ground=150.0), noise=1.5)
@@ -77,7 +79,7 @@ def test_markers_are_found_in_dim_light(light):
 
 
 def test_corners_are_exact_to_a_tenth_of_a_pixel():
-    markers = MarkerDetector(WEARERS)
+    markers = MarkerDetector(IDS)
     misses = []
     for i in range(12):
         corners = square((400.3 + 0.37 * i, 300.8 - 0.21 * i, 0.7 + 0.5 * i), 34.0)
@@ -91,14 +93,14 @@ def test_corners_are_exact_to_a_tenth_of_a_pixel():
 def test_corners_that_cannot_be_made_exact_stay_as_they_are():
     corners = square((400.0, 300.0, 0.2), 34.0)
     for picture in (np.full((720, 1280), 90, np.uint8), np.zeros((720, 1280), np.uint8)):
-        assert np.array_equal(MarkerDetector(WEARERS).refine(picture, [DetectedMarker(0, corners)])[0].corners, corners)
-    assert MarkerDetector(WEARERS).refine(picture, []) == []
+        assert np.array_equal(MarkerDetector(IDS).refine(picture, [DetectedMarker(0, corners)])[0].corners, corners)
+    assert MarkerDetector(IDS).refine(picture, []) == []
 
 
 def test_near_the_edge_of_the_picture_a_marker_is_found_if_it_is_all_there():
     corners = square((40.0, 36.0, 0.2), 34.0)
     picture = speckled(lids([(1, corners)], SIZE))
-    markers = MarkerDetector(WEARERS)
+    markers = MarkerDetector(IDS)
     assert markers.detect_in(picture, SearchWindow(40.0, 36.0, 60.0, 34.0), 1) is not None
     assert markers.detect_in(picture, SearchWindow(-300.0, 36.0, 60.0, 34.0), 1) is None
 

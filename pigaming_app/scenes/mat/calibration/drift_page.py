@@ -7,11 +7,11 @@ import pygame
 from pigaming_app.hardware.calibration.camera_task import SPOT, DriftCheck
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
 from pigaming_app.hardware.calibration.ground_plane import MAX_SIZE_ERROR
-from pigaming_app.hardware.calibration.quality import old_marker, used_anyway
+from pigaming_app.hardware.calibration.quality import used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.vision.exposure import warning_of
-from pigaming_app.hardware.vision.markers import OLD_IDS, OpenCVMissing
+from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
@@ -114,8 +114,6 @@ class DriftPage(Page):
         message = quality.advice if not quality.sufficient else warning_of(state) or quality.advice
         if message is None and quality.anyway:
             message = used_anyway(quality)
-        if message is None and self.work.worn in OLD_IDS:
-            message = old_marker(self.work.worn)
         if message is not None:
             color = FOCUS if quality.sufficient else ALARM
             for i, row in enumerate(paragraph(words.sentence(message), ROOM, 2, color, "c")):

@@ -157,13 +157,11 @@ class ResultPage(Page):
     def _facts(self, ground: GroundPlane, quality: CameraQuality) -> list[tuple[str, str, bool]]:
         """Name, value and warning of the quantities without a limit of their own."""
         words, state, robot = self.context.words, self.finding.exposure, self.finding.marker_mm
-        old_missed = 100.0 * (1.0 - quality.old_detection)
         facts = [
             ("height", words("calibrate.metres", m=f"{ground.height / 1000.0:.2f}"), False),
             ("edge", words("calibrate.px", px=f"{quality.marker_px:.0f}"), quality.marker_px < SMALL_EDGE),
             ("blur", words("calibrate.px", px=f"{quality.blur_px:.1f}"), _cause(quality) == "finds_blurred"),
             ("exposure", exposure_text(words, state), warning_of(state) is not None),
-            ("old_missed", words("calibrate.percent", share=f"{old_missed:.0f}"), False),
         ]
         if robot:
             wrong = abs(robot / ground.marker - 1.0) > MAX_SIZE_ERROR

@@ -20,12 +20,12 @@ KNOWN = ExposureState(1 / 60, 1 / 30, 120.0, False, True)
 SHARP = CameraQuality(1 / 60, 120.0, 28.0, 0.8, 1.0, False, 0.99)
 PICTURES: dict[str, tuple[CameraQuality, ExposureState]] = {
     "sharp": (SHARP, KNOWN),
-    "blurred": (replace(SHARP, blur_px=12.4, detection=0.0, old_detection=0.0, cause="finds_blurred"), KNOWN),
+    "blurred": (replace(SHARP, blur_px=12.4, detection=0.0, cause="finds_blurred"), KNOWN),
     "smeared": (
-        replace(SHARP, exposure=1 / 30, detection=0.4, old_detection=0.6, cause="finds_smeared"),
+        replace(SHARP, exposure=1 / 30, detection=0.4, cause="finds_smeared"),
         KNOWN._replace(seconds=1 / 30),
     ),
-    "tiny": (replace(SHARP, marker_px=12.0, detection=0.5, old_detection=0.2, cause="finds_small"), KNOWN),
+    "tiny": (replace(SHARP, marker_px=12.0, detection=0.5, cause="finds_small"), KNOWN),
     "small": (replace(SHARP, marker_px=18.0, blur_px=0.5), KNOWN),
     "dark": (SHARP, KNOWN._replace(dark=True)),
     "unknown": (replace(SHARP, exposure=0.0), KNOWN._replace(seconds=None)),
