@@ -204,6 +204,6 @@ def to_csv(report: DayReport) -> str:
     writer = csv.writer(out, lineterminator="\r\n")
     writer.writerow(COLUMNS)
     for match in report.matches:
-        row = (match.game, f"{match.seconds:.1f}", match.people, match.ais, match.robots)
+        row = (match.game, round(match.seconds, 1), match.people, match.ais, match.robots)
         writer.writerow([match.at.isoformat(" ", "seconds"), *row])
     return out.getvalue()

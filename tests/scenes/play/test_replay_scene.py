@@ -18,7 +18,6 @@ from pigaming_app.scenes.replays.watch import IDLE, LINE_LEFT, LINE_RIGHT, LINE_
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button, Device, InputEvent
-from tests import tags
 from tests.scenes.arcade import Arcade, setup
 from tests.scenes.attract.test_attract import scores_of
 from tests.scenes.measuring import faults, measuring
@@ -196,12 +195,10 @@ def test_the_bar_of_a_replay_stands_beside_the_arena(
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_replay_of_another_engine_plays_with_a_notice(
-    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str
+    arcade: Arcade, recorded: tuple[Path, str], monkeypatch: pytest.MonkeyPatch, language: str
 ) -> None:
     arcade.context.words.switch(language)
-    scene = ReplayScene(
-        arcade.context, replace(load_replay(tags.FOLDER / "2.0.0" / "pitanks.replay"), engine="another")
-    )
+    scene = ReplayScene(arcade.context, replace(load_replay(recorded[0]), engine="another"))
     arcade.open(scene)
     notice = arcade.context.words("replay.other_engine")
     with measuring(monkeypatch) as screen:
