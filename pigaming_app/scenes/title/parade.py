@@ -27,7 +27,7 @@ def parade(screen: pygame.Surface, seconds: float) -> None:
     for player in range(4):
         age = seconds - STAGGER * player
         head, tail = _reach(age, player)
-        if head > tail:
+        if head > max(0.0, tail):
             lit = line(player)
             left = max(0, round(tail) - lit.at[0])
             area = (left, 0, round(head) - lit.at[0] - left, lit.image.get_height())
@@ -36,7 +36,7 @@ def parade(screen: pygame.Surface, seconds: float) -> None:
     for player in range(4):
         age = seconds - STAGGER * player
         head, _ = _reach(age, player)
-        if head < FAR:
+        if age > 0.0 and head < FAR:
             x, y, heading = _at(player, head)
             blit_sprite(screen, tank(player, step(heading + _look(age, player), HEADINGS)), x, y)
 
