@@ -43,7 +43,11 @@ def fault_page(arcade: Arcade, rule: SafetyRule) -> FaultPage:
         access=Access(arcade.context, lambda: KEYS),
         real={0, 1, 2, 3},
         runner=SimpleNamespace(picture=lambda: pygame.Surface((1920, 1080))),
-        robots=SimpleNamespace(draw_overlay=lambda screen: None, advance_examined=lambda seconds: None),
+        robots=SimpleNamespace(
+            draw_overlay=lambda screen: None,
+            advance_paused=lambda seconds: None,
+            advance_examined=lambda seconds: None,
+        ),
         preparing=False,
         watch=SimpleNamespace(note=lambda screen: None, examine=lambda: None, places=[]),
     )
