@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from threading import Event
 
 MMAP_THRESHOLD = -3  # M_MMAP_THRESHOLD in malloc.h
+MANY = 20_000  # objects
 LARGE = 128 * 1024  # bytes; glibc's initial value
 
 
@@ -55,13 +56,11 @@ def gc_paused() -> Iterator[None]:
 
 
 def settle() -> None:
-    """Collect all garbage, and exempt what is left from collections until the next call.
+    """Collect all garbage; exempt what is left from later collections where it is much, such as new modules.
 
-    Most of it stays alive, and traversing it would take 15 ms or more whenever a scene is freed.
+    Traversing that would take 15 ms or more whenever a scene is freed.
     """
-    if not _busy.is_set():
-        gc.unfreeze()
-        gc.collect()
+    if collect() and len(gc.get_objects()) > MANY:
         gc.freeze()
 
 
