@@ -236,7 +236,6 @@ def test_what_a_killed_process_left_is_swept_at_the_next_start(here, tmp_path):
     left = [
         tmp_path / "home" / name / ".pigaming-0123abcd.tmp" for name in ("config", "data", "data/ghosts", "data/robots")
     ]
-    left.append(tmp_path / "home" / "config" / ".settings.toml-a_b1c2d3")
     for path in left:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text("half")

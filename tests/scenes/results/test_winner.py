@@ -100,7 +100,7 @@ def test_it_takes_three_seconds_and_leaves_the_results_ready(arcade: Arcade) -> 
     scene = moment(arcade, "human human level5 human", WON)
     waited = arcade.until(lambda: arcade.stack.top is scene.then)
     assert waited == pytest.approx(LENGTH, abs=0.1)
-    assert scene.then.prewarm(0.0)
+    assert scene.then.prewarm(1.0)
 
 
 def test_players_skip_it_after_a_second_and_free_devices_do_not(arcade: Arcade) -> None:
