@@ -62,7 +62,8 @@ def test_a_visitor_drives_a_race_to_its_finish(style: str) -> None:
     """With the stick alone, looked at as often as on the stage, in both driving styles of a kiosk."""
     seats = Seat("human", 0), Seat("off", 1), Seat("off", 2), Seat("off", 3)
     match = new_match(Setup("race", "classic", seats, 10.0, 1, "standard", 1))
-    scene, stick = SimpleNamespace(match=match, devices=[Device("pad", 1)], style_of=lambda device: style), StickState()
+    drivers = SimpleNamespace(style_of=lambda device: style)
+    scene, stick = SimpleNamespace(match=match, devices=[Device("pad", 1)], drivers=drivers), StickState()
     visit = Visit(SimpleNamespace(reactions={}))
     match.sit(0, make_person("race", style, lambda: stick, 3))
     while not match.over and match.seconds < 20.0:

@@ -86,6 +86,7 @@ ELSEWHERE = (
     Elsewhere(r".*fidelity (record|identify|replay)\b.*", "a minute of driving", "tests/jobs/mat/test_robots.py"),
     Elsewhere(r".*calibrate --emulate .*--json.*", "half a minute of pictures", "tests/jobs/mat/test_calibrate.py"),
     Elsewhere(r".*play pitanks --real .*", "robots take their places first", "tests/jobs/bench/test_robots.py"),
+    Elsewhere(r".*tests\.tags --write VERSION", "it writes into the tests' data", "tests/test_tags.py"),
     Elsewhere(r".*tests\.golden( --write)?", "a minute; it may change what tests compare with", "tests/test_golden.py"),
     Elsewhere(r".*tests\.bench\.open_day.*", MINUTES_LONG, "tests/bench/test_open_day.py"),
     Elsewhere(

@@ -153,8 +153,8 @@ def beats(value: int, other: int, timed: bool) -> bool:
 
 
 def table_key(table: Mapping[str, Any]) -> str:
-    """A table as one text."""
-    return json.dumps(dict(table), sort_keys=True)
+    """A table as one text; lengths are floats, as in the file."""
+    return json.dumps({**table, "length": float(table["length"])}, sort_keys=True)
 
 
 def clean(data: Path, kills: int) -> Iterator[str]:

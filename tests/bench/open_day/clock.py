@@ -2,17 +2,20 @@
 
 `install` replaces `datetime.datetime` and `datetime.date` in this process by classes whose `now` and `today` follow it:
 the day log, the high scores, the quiet hours and the names of files then have simulated times. It has to be called
-before PiGaming is imported.
+before the rest of PiGaming is imported. Types of files keep the real classes, which the schema layer knows.
 """
 
 import datetime as datetime_module
 import mmap
 import struct
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 OPENING = datetime_module.datetime(2026, 6, 20, 10, 0)  # local time
 RECORD = struct.Struct("<dIII")  # seconds, process, place, frames
+STORAGE = "pigaming_app.storage"
+EARLY = (f"{STORAGE}.day_log", f"{STORAGE}.scores.book", f"{STORAGE}.scores.table", "pigaming_app.events.climb_files")
 PLACES = ("other", "title", "match", "event", "ending", "results")
 REAL_DATETIME, REAL_DATE = datetime_module.datetime, datetime_module.date
 
@@ -72,5 +75,7 @@ def install(clock: DayClock) -> None:
         def today(cls) -> Any:
             return (OPENING + datetime_module.timedelta(seconds=clock.seconds)).date()
 
+    for module in map(import_module, EARLY):
+        vars(module)["datetime"] = SimulatedDatetime
     datetime_module.datetime = SimulatedDatetime  # type: ignore[misc]
     datetime_module.date = SimulatedDate  # type: ignore[misc]

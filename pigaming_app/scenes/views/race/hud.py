@@ -82,7 +82,7 @@ class RaceHud:
             changes: list[dict[str, Any]] = [{"sign": "wrong"}, {"done": True}, {"moved": 1}, {"moved": -1}]
             changes += [{"sign": "missed", "missed": sign} for sign in self.signs]
             changes += [{"item": icon, "slip": True} for icon in ICONS if party]
-            changes += [{"lap": i, "gap": decimal(self.words, f"+{i}.{i}")} for i in range(10)]
+            changes += [{"lap": i, "gap": decimal(self.words, figure(1.1 * i))} for i in range(10)]
             changes += [{"place": i + 1, "ending": ending} for i, ending in enumerate(self.endings)]
             yield from (drawn(card_bits, replace(card, **change), 0) for change in changes)
         if party and self.words:
