@@ -58,7 +58,7 @@ LESSONS = {
     "light": Lesson((Actor(450, 470, -60, "wait 5.2, go 490 280"), FAR), 7.0, MIDDLE),
     "bounty": Lesson((GUNNER, TARGET), 3.5, MIDDLE, _with_leader),
     "finale": Lesson(
-        (Actor(800, 200, -40, "wait 2, fire wait 0.2"), Actor(905, 112, 140)), 3.8, (910.0, 60.0), _before_finale
+        (Actor(750, 200, -40, "wait 2, fire wait 0.2"), Actor(855, 112, 140)), 3.8, (835.0, 35.0), _before_finale
     ),
 }
 
