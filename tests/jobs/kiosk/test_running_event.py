@@ -53,7 +53,7 @@ with opened(Options(headless=True, kiosk=True, step=0.05, heartbeat=child.heartb
         if last == "MatchScene" and top.match.state.tick > 40 and before.count("KILL") < kills:
             note("KILL")
             os.kill(os.getpid(), signal.SIGKILL)
-        if last == "PodiumPage":
+        if last == "EventPodiumPage":
             app.stack.clear()
             return False
         return compose(seconds)
@@ -99,7 +99,7 @@ def test_a_kiosk_killed_in_a_match_comes_back_to_the_event_and_plays_it_to_its_p
     assert [one.detail for one in restarts(data)] == ["ended by SIGKILL"] * 3
     runs = [words.split() for words in diary.read_text().split("KILL")]
     assert runs[:3] == [["NextMatch", "MatchScene"]] * 3
-    assert runs[3] == ["NextMatch", "MatchScene", "WinnersMoment"] * 3 + ["NextMatch", "PodiumPage"]
+    assert runs[3] == ["NextMatch", "MatchScene", "WinnersMoment"] * 3 + ["NextMatch", "EventPodiumPage"]
     event, problems = load(file)
     assert event
     assert event.over
@@ -164,7 +164,7 @@ def arcade(pipe, beats):
             name = type(top).__name__
             if name != shown:
                 shown = name
-                if name in ("NextMatch", "PodiumPage"):
+                if name in ("NextMatch", "EventPodiumPage"):
                     results = len(top.running.event.outcomes)
                 elif name == "WinnersMoment":
                     results += 1
