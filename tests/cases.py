@@ -9,12 +9,13 @@ from hypothesis import settings
 
 
 def one_in(count: int, cases: Iterable[Any]) -> list[Any]:
-    """Values for `parametrize`: every `count`-th, from the first, unmarked; the others marked `long`.
+    """Values for `parametrize`: every `count`-th, from the first, unmarked; the others `long`, each second `again`.
 
     A tuple holds the values of several arguments.
     """
     values = [case if isinstance(case, tuple) else (case,) for case in cases]
-    return [pytest.param(*value, marks=[pytest.mark.long] if i % count else []) for i, value in enumerate(values)]
+    marks = (pytest.mark.long, pytest.mark.again)
+    return [pytest.param(*value, marks=marks[: (i % count > 0) * (1 + i % 2)]) for i, value in enumerate(values)]
 
 
 def repeated(cases: Iterable[Any]) -> list[Any]:

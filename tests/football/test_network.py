@@ -118,6 +118,7 @@ def test_rewards_are_those_of_the_own_side():
 
 
 @needs_numba
+@pytest.mark.again  # both bodies: test_every_game.py; networks: ai/networks
 @pytest.mark.long
 def test_both_bodies_play_the_same_match_to_the_last_bit():
     one, two = (brain_of(random_network(seed, "football", handicap=Handicap(0.1, 0.1, 0.8))) for seed in (1, 2))

@@ -144,6 +144,7 @@ def ticks_of(brain, seeds):
     return [match.tick for match in batch.ended()]
 
 
+@pytest.mark.again  # higher levels need less time: test_planner.py
 @pytest.mark.long
 def test_easy_needs_about_twice_as_long_as_hard():
     easy, hard = (np.mean(ticks_of(brain, range(1, 21))) * DT for brain in ("hand1", "hand3"))

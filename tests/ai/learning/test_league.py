@@ -107,6 +107,7 @@ def test_left_and_right_swapped_is_the_same_duel_seen_from_the_other_side():
     assert one.wilson95 == wilson(one.wins, 8)
 
 
+@pytest.mark.again  # both bodies: test_every_game.py
 @pytest.mark.long
 def test_compiled_or_plain_the_scores_are_the_same():
     plain, fast = (  # the loop of another test, which is in the cache

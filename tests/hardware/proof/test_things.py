@@ -34,6 +34,7 @@ def test_in_fifty_scenes_every_thing_is_found_and_no_other(first):
     assert max(map(abs, run.heights)) < 6.0
 
 
+@pytest.mark.again  # with the camera from above, of the same scenes
 @pytest.mark.long(first=True)
 @pytest.mark.parametrize("first", repeated((1, 6)))
 def test_a_tilted_camera_of_720p_finds_them_too(first):

@@ -157,6 +157,7 @@ def test_leaving_and_returning_waits_for_the_same_process(endless: Compiler) -> 
     assert trainer.join(10.0)
 
 
+@pytest.mark.again  # copies that load what the first compiled: sim/test_kernel.py
 @pytest.mark.long
 @needs_numba
 def test_a_second_training_in_the_same_arcade_is_compiled_at_once(trainer: Trainer) -> None:
