@@ -4,7 +4,7 @@ from math import cos, hypot, pi, sin
 from random import Random
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from pigaming_app.sim.arena import WallSpec
@@ -16,7 +16,6 @@ from pigaming_app.sim.world import DT
 from pigaming_football.physics import note_steps, reflect
 from pigaming_football.rules import judge, move
 from pigaming_football.state import Ball
-from tests.cases import examples
 from tests.football.pitch import ARENAS, BALL, ROBOT, overlap, put_ball, put_robot, state
 
 SLOP = 2e-6  # px
@@ -50,7 +49,7 @@ def moments(draw):
     return football
 
 
-@examples(3000)
+@settings(max_examples=3000, deadline=None)
 @given(moments())
 def test_no_ball_is_ever_in_a_wall_or_a_robot(football):
     note_steps(football)
@@ -85,7 +84,21 @@ def test_no_ball_is_ever_in_a_wall_or_a_robot_whatever_happens():
         assert football.goals > 3
 
 
-@examples(2000)
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
+def test_a_bounce_takes_no_time_and_gives_none(share):
+    """Straight at the upper edge: the way before it and the way after it, at its slower speed, are one tick."""
+    football, speed = state(present=()), 3000.0
+    football.rules.friction = 0.0
+    ball = football.ball
+    put_ball(football, 800.0, BALL + share * speed * DT, 0.0, -speed)
+    note_steps(football)
+    move(football)
+    slower = 0.75 * speed  # docs/football.md
+    assert (ball.x, ball.vy) == pytest.approx((800.0, slower))
+    assert ball.y == pytest.approx(BALL + (1.0 - share) * slower * DT, abs=1e-4)
+
+
+@settings(max_examples=2000, deadline=None)
 @given(st.floats(0.0, 2.0 * pi), st.floats(58.1, 300.0), st.floats(-1.5, 1.5), st.floats(0.0, ABSURD), STEP, STEP)
 def test_no_ball_tunnels_through_a_robot(way, distance, off, speed, dx, dy):
     """It touches a robot, whatever the speeds, if and only if the ways of the two bring them together."""
@@ -108,7 +121,7 @@ def test_no_ball_tunnels_through_a_robot(way, distance, off, speed, dx, dy):
         assert ball.touched == 0
 
 
-@examples(300)
+@settings(max_examples=300, deadline=None)
 @given(st.integers(0, 10**6), st.sampled_from((10, 30, 100)))
 def test_no_ball_tunnels_through_a_wall(seed, thick):
     """A wall across the whole pitch keeps the ball on its side for ever, with robots that push it against the wall."""
@@ -135,7 +148,7 @@ def test_no_ball_tunnels_through_a_wall(seed, thick):
         assert ball.x < 800.0 - thick / 2 - BALL + SLOP
 
 
-@examples(3000)
+@settings(max_examples=3000, deadline=None)
 @given(
     SPEEDS, SPEEDS, st.floats(-400.0, 400.0), st.floats(-400.0, 400.0), st.floats(0.0, 2.0 * pi), st.floats(0.05, 1.0)
 )
@@ -174,7 +187,7 @@ def test_friction_stops_a_ball_where_mechanics_says():
     assert football.ball.x - 200.0 == pytest.approx(500.0**2 / (2.0 * 200.0), abs=500.0 * DT)
 
 
-@examples(400)
+@settings(max_examples=400, deadline=None)
 @given(moments(), st.integers(1, 25))
 def test_the_rules_favour_no_side(football, ticks):
     """The moment turned by half a circle goes on as the turned moment."""

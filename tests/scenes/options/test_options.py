@@ -199,11 +199,7 @@ def rows_of_section(arcade: Arcade, operator: bool, name: str) -> tuple[str, ...
 def test_children_in_a_kiosk_find_neither_volume_nor_display_nor_the_way_out(arcade: Arcade) -> None:
     arcade.context.kiosk = True
     children, operator = rows_of(arcade, False), rows_of(arcade, True)
-    assert children >= {"language", "controls", "rumble", "padtest", "ease", "calm", "flashes", "shake", "large"}
-    assert children.isdisjoint(
-        {"picture", "music", "sounds", "display", "fullscreen", "remap", "phones", "robots", "day"}
-    )
-    assert children.isdisjoint({"games", "added", "reset", "close"})
+    assert children == {"language", "controls", "rumble", "padtest", "ease", "calm", "flashes", "shake", "large"}
     assert operator == {"close", *(row for section in ("", *SECTIONS) for row in options_of(section))}
     arcade.open(OptionsPage(arcade.context, operator=True))
     go(arcade, "close")
