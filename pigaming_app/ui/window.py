@@ -38,8 +38,8 @@ class Warp(Protocol):
 
     size: tuple[int, int]
 
-    def draw(self, picture: Any, window: Any) -> None:
-        """Draw the canvas over the whole window; both are pixels, (height, width, 4)."""
+    def apply(self, picture: Any) -> Any:
+        """The whole window with the canvas in it; both are pixels, (height, width, 4)."""
 
     def to_canvas(self, at: tuple[float, float]) -> tuple[float, float]:
         """The canvas position, px, shown at a window position."""
@@ -220,12 +220,12 @@ class Canvas:
         self._pointer_moved = time.monotonic()
 
     def _draw_warped(self, picture: pygame.Surface, window: pygame.Surface, area: pygame.Rect) -> None:
-        from pigaming_app.ui.draw.pixels import pixels_of
+        from pigaming_app.ui.draw.pixels import bgra_surface, pixels_of
 
         if self._warp is None or self._warp.size != area.size:
             assert self._pin is not None
             self._warp = self._pin.fit(area.size)
-        self._warp.draw(pixels_of(picture), pixels_of(window)[area.top : area.bottom, area.left : area.right])
+        window.blit(bgra_surface(self._warp.apply(pixels_of(picture))), area)
 
     def _hide_pointer(self) -> None:
         now, pointer = time.monotonic(), pygame.mouse.get_pos()

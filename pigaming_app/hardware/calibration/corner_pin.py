@@ -64,10 +64,10 @@ class PerspectiveWarp:
         middle[:2, 2], edge[:2, 2] = 0.5, -0.5
         self._pixels = edge @ self._matrix @ middle
 
-    def draw(self, picture: Pixels, window: Pixels) -> None:
-        """Draw the canvas's picture over the whole window, black outside the corners. Both (height, width, 4)."""
-        drawn = self._cv.warpPerspective(picture, self._pixels, self.size, flags=self._cv.INTER_NEAREST)
-        np.copyto(window, drawn)
+    def apply(self, picture: Pixels) -> Pixels:
+        """The whole window with the canvas's picture in it, black outside the corners. Both (height, width, 4)."""
+        warped = self._cv.warpPerspective(picture, self._pixels, self.size, flags=self._cv.INTER_NEAREST)
+        return np.asarray(warped, np.uint8)
 
     def to_canvas(self, at: tuple[float, float]) -> tuple[float, float]:
         """The canvas point under a window point, px: the inverse of the warp."""

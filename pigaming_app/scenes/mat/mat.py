@@ -138,10 +138,7 @@ def _make_ready(session: RobotSession, context: Context) -> None:
 
 
 def _projected(canvas: Canvas, window: pygame.Surface) -> object:
-    """The pixels projected onto the emulated mat: with bars cropped, or the whole window of a pinned picture.
-
-    A copy: a view that somebody keeps would lock the surface.
-    """
+    """The pixels projected onto the emulated mat: with bars cropped, or the whole window of a pinned picture."""
     from pigaming_app.ui.draw.pixels import pixels_of
 
-    return pixels_of(window if canvas.corners else canvas.screen).copy()
+    return pixels_of(window if canvas.corners else canvas.screen)

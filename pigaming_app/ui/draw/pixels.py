@@ -8,10 +8,21 @@ Pixels = NDArray[np.uint8]
 
 
 def pixels_of(surface: pygame.Surface) -> Pixels:
-    """A writable view of a 32-bit surface, (height, width, 4), BGRA. The surface is locked while the view is in use."""
+    """A copy of a 32-bit surface's pixels, (height, width, 4), BGRA.
+
+    No view: whoever keeps one, be it a thread that holds the frame of a running call, keeps the surface locked.
+    """
     (w, h), pitch = surface.get_size(), surface.get_pitch()
-    rows = np.frombuffer(surface.get_buffer(), np.uint8).reshape(h, pitch)  # type: ignore[call-overload]
-    return np.asarray(rows[:, : 4 * w].reshape(h, w, 4))
+    rows = np.frombuffer(surface.get_buffer().raw, np.uint8).reshape(h, pitch)
+    return rows[:, : 4 * w].reshape(h, w, 4)
+
+
+def bgra_surface(image: Pixels) -> pygame.Surface:
+    """An opaque surface of an image, (height, width, 4), BGRA, whose memory it shares."""
+    h, w = image.shape[:2]
+    surface = pygame.image.frombuffer(np.ascontiguousarray(image).data, (w, h), "BGRA")
+    surface.set_alpha(None)
+    return surface
 
 
 def grey_surface(image: Pixels) -> pygame.Surface:

@@ -118,7 +118,7 @@ def test_an_operator_previews_calibrates_and_saves(wizard: Wizard) -> None:
 def test_the_boards_are_shown_with_no_other_light(arcade: Operated) -> None:
     arcade.begin()
     arcade.picture()
-    shown = pixels_of(arcade.context.canvas.screen)[:, :, 0].copy()
+    shown = pixels_of(arcade.context.canvas.screen)[:, :, 0]
     plain = calibrating.BOARD.picture()
     assert np.array_equal(shown[:1044], plain[:1044])
     assert not np.array_equal(shown[1044:], plain[1044:]), "the progress is in the margin below"
