@@ -12,26 +12,7 @@ import pygame
 from pigaming_app.ai.brain.thoughts import MoveKey
 from pigaming_app.scenes.brain.rose import tone
 from pigaming_app.scenes.views.sprites.factory import state_icon
-from pigaming_app.ui.draw import (
-    BLACK,
-    BODY,
-    ICE,
-    ICONS,
-    LABEL,
-    LINE,
-    MIST,
-    PLAYERS,
-    THIN,
-    WHITE,
-    Color,
-    GlowCanvas,
-    badge,
-    cut_box,
-    dim,
-    icon,
-    mix,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put, trim
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, word
@@ -59,7 +40,7 @@ SIGNS = {
 
 def blank(screen: pygame.Surface, left: int, right: int) -> None:
     """Clear the HUD between two x coordinates of the canvas."""
-    screen.fill(BLACK, (left, 0, right - left, Y + H + 4))
+    screen.fill(kit.BLACK, (left, 0, right - left, Y + H + 4))
 
 
 def draw_words(screen: pygame.Surface, x: int, w: int, seat: int, doing: str, because: str) -> None:
@@ -91,7 +72,7 @@ def draw_wishes(
     for i, (name, value) in enumerate(wishes.items()):
         at = left + pitch * (i + 0.5)
         draw_bar(screen, light, at, seat, value, name == chosen, width)
-        put(light, sign(signs.get(name, name), WHITE if name == chosen else MIST), at, Y + SIGN_Y)
+        put(light, sign(signs.get(name, name), kit.WHITE if name == chosen else kit.MIST), at, Y + SIGN_Y)
     screen.fblits(light, pygame.BLEND_RGB_ADD)
 
 
@@ -123,7 +104,7 @@ def draw_heads(
         left = x + (w - CHOICE_PITCH * (len(shown) - 1)) / 2
         for i, chance in enumerate(shown):
             draw_bar(screen, light, left + CHOICE_PITCH * i, seat, chance, choices[name] == first + i, CHOICE_W)
-        put(light, sign(signs.get(name, name), MIST), x + w / 2, Y + SIGN_Y)
+        put(light, sign(signs.get(name, name), kit.MIST), x + w / 2, Y + SIGN_Y)
         x += w + HEAD_GAP
     screen.fblits(light, pygame.BLEND_RGB_ADD)
 
@@ -141,10 +122,10 @@ def head_width(chances: Sequence[float]) -> float:
 def draw_held(screen: pygame.Surface, right: int, seat: int, held: MoveKey, buttons: Sequence[tuple[str, int]]) -> None:
     """Stick and buttons at the right end of that box; `right` is its x."""
     light: Batch = []
-    stick(light, right - 128, Y + H / 2, {}, held, PLAYERS[seat])
+    stick(light, right - 128, Y + H / 2, {}, held, kit.PLAYERS[seat])
     for i, (name, down) in enumerate(buttons):
         y = Y + H / 2 + 44 * (i - (len(buttons) - 1) / 2)
-        put(light, sign(name, WHITE if down else dim(MIST, 0.35)), right - 46, y)
+        put(light, sign(name, kit.WHITE if down else kit.dim(kit.MIST, 0.35)), right - 46, y)
     screen.fblits(light, pygame.BLEND_RGB_ADD)
 
 
@@ -165,24 +146,27 @@ def draw_moves(
             (linear, angular): value for (linear, angular, with_fire), value in moves.items() if with_fire == fire
         }
         held = chosen if isinstance(chosen, tuple) and chosen[2] == fire else None
-        stick(light, at, Y + H / 2, values, held, PLAYERS[seat])
+        stick(light, at, Y + H / 2, values, held, kit.PLAYERS[seat])
         if fire:
-            put(light, sign("fire", WHITE if held else dim(MIST, 0.5)), at + 76, Y + H / 2)
+            put(light, sign("fire", kit.WHITE if held else kit.dim(kit.MIST, 0.5)), at + 76, Y + H / 2)
     screen.fblits(light, pygame.BLEND_RGB_ADD)
     lines(screen, x + 360, w - 380, *sure)
 
 
 def lines(screen: pygame.Surface, x: float, room: float, title: str, text: str) -> None:
     """A title and a smaller line below it, starting at x."""
-    for line, size, face, color, y in ((title, LABEL, "head", WHITE, 34), (text, BODY, "body", MIST, 80)):
+    for line, size, face, color, y in (
+        (title, kit.LABEL, "head", kit.WHITE, 34),
+        (text, kit.BODY, "body", kit.MIST, 80),
+    ):
         if line:
             size = fit_size(line, size, room, face)
             lit = word(line, size, color, face, 0.35 if face == "head" else 0.0)
-            lit.draw(screen, x + text_width(line, size, face) / 2, Y + y)
+            lit.draw(screen, x + kit.text_width(line, size, face) / 2, Y + y)
 
 
 def stick(
-    light: Batch, x: float, y: float, values: Mapping[tuple[int, int], float], held: MoveKey | None, color: Color
+    light: Batch, x: float, y: float, values: Mapping[tuple[int, int], float], held: MoveKey | None, color: kit.Color
 ) -> None:
     """Nine cells round (x, y), ahead is up. `values`: -1..1 per cell; the held one has a white edge."""
     for linear in (1, 0, -1):
@@ -204,58 +188,58 @@ def put_on(screen: pygame.Surface, image: pygame.Surface, x: float, y: float) ->
 @cached
 def box(seat: int, w: int, named: bool) -> pygame.Surface:
     """The outline of a box; `named`: with the robot's badge and the AI sign."""
-    ink, color = GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), PLAYERS[seat]
-    ink.line(cut_box(0, 0, w, H), color, THIN, True)
+    ink, color = kit.GlowCanvas(w + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE), kit.PLAYERS[seat]
+    ink.line(kit.cut_box(0, 0, w, H), color, kit.THIN, True)
     if named:
-        badge(ink, seat, 52, 36, 24)
-        icon(ink, "ai", 52, 82, 20, mix(color, WHITE, 0.5), 3)
+        kit.badge(ink, seat, 52, 36, 24)
+        kit.icon(ink, "ai", 52, 82, 20, kit.mix(color, kit.WHITE, 0.5), 3)
     return ink.lit(0.7)
 
 
 @cached
 def bar(seat: int, chosen: bool, full: bool, w: int) -> Sprite:
     """A bar `w` px wide, full or empty, anchored at the middle of its top."""
-    ink = GlowCanvas(w + 2 * EDGE, BAR_H + 2 * EDGE).set_transform(EDGE + w / 2, EDGE)
-    outline = cut_box(-w / 2, 0, w, BAR_H, min(6, w / 4))
-    color = WHITE if chosen else dim(PLAYERS[seat], 0.75)
+    ink = kit.GlowCanvas(w + 2 * EDGE, BAR_H + 2 * EDGE).set_transform(EDGE + w / 2, EDGE)
+    outline = kit.cut_box(-w / 2, 0, w, BAR_H, min(6, w / 4))
+    color = kit.WHITE if chosen else kit.dim(kit.PLAYERS[seat], 0.75)
     if full:
         ink.fill(outline, color)
         return Sprite(ink.lit(0.5), -EDGE - w // 2, -EDGE)
-    ink.line(outline, ICE if chosen else dim(color, 0.5), LINE - 3, True)
+    ink.line(outline, kit.ICE if chosen else kit.dim(color, 0.5), kit.LINE - 3, True)
     return Sprite(ink.plain(), -EDGE - w // 2, -EDGE)
 
 
 @cached
 def divider(seat: int) -> Sprite:
     """The line between two parts of a box, anchored at its upper edge."""
-    ink = GlowCanvas(2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
-    ink.line([(0, 14), (0, H - 14)], dim(PLAYERS[seat], 0.5), THIN)
+    ink = kit.GlowCanvas(2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    ink.line([(0, 14), (0, H - 14)], kit.dim(kit.PLAYERS[seat], 0.5), kit.THIN)
     return Sprite(ink.plain(), -EDGE, -EDGE)
 
 
 @cached
-def sign(name: str, color: Color) -> Sprite:
+def sign(name: str, color: kit.Color) -> Sprite:
     """The sign of a wish: an icon, or a crate's state. A circle for what is unknown: plug-ins name their own wishes."""
-    ink = GlowCanvas(96, 96, 3).set_transform(48, 48)
+    ink = kit.GlowCanvas(96, 96, 3).set_transform(48, 48)
     if name in CRATES:
         state_icon(ink, CRATES[name], 0, 0, 17, color)
     elif name in PAIRS:
         for side, part in zip((-1, 1), PAIRS[name], strict=True):
             dx, dy = (0, 10 * side) if name == "drive" else (10 * side, 0)
-            icon(ink, part, dx, dy, 10, color, 4)
+            kit.icon(ink, part, dx, dy, 10, color, 4)
     elif name == "walls":
-        ink.line(cut_box(-19, -6, 38, 12, 4), color, 4, True)
+        ink.line(kit.cut_box(-19, -6, 38, 12, 4), color, 4, True)
     else:
-        icon(ink, SIGNS.get(name, name if name in ICONS else "circle"), 0, 0, 18, color, 5)
+        kit.icon(ink, SIGNS.get(name, name if name in kit.ICONS else "circle"), 0, 0, 18, color, 5)
     return trim(ink.lit(0.4), 48, 48)
 
 
 @cached
-def cell(fill: Color, held: bool) -> Sprite:
+def cell(fill: kit.Color, held: bool) -> Sprite:
     """One cell of a stick."""
     half = CELL / 2 - 2
-    ink = GlowCanvas(64, 64, 3).set_transform(32, 32)
-    ink.fill(cut_box(-half, -half, 2 * half, 2 * half, 5), fill)
+    ink = kit.GlowCanvas(64, 64, 3).set_transform(32, 32)
+    ink.fill(kit.cut_box(-half, -half, 2 * half, 2 * half, 5), fill)
     if held:
-        ink.line(cut_box(-half - 1, -half - 1, 2 * half + 2, 2 * half + 2, 5), WHITE, THIN, True)
+        ink.line(kit.cut_box(-half - 1, -half - 1, 2 * half + 2, 2 * half + 2, 5), kit.WHITE, kit.THIN, True)
     return trim(ink.lit(0.4), 32, 32)

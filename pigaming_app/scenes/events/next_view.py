@@ -14,23 +14,7 @@ from pigaming_app.scenes.events.running import progress_line
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
 from pigaming_app.scenes.flow.match_words import game_title, match_length, sudden_death_key
 from pigaming_app.scenes.lobby import seat_card
-from pigaming_app.ui.draw import (
-    ARROWS,
-    BODY,
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    PLAYERS,
-    THIN,
-    TITLE,
-    badge,
-    cut_box,
-    dim,
-    icon,
-    panel,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, step
@@ -53,20 +37,20 @@ def card_rect(index: int, count: int) -> pygame.Rect:
 
 def frame_steps(seat: int, name: str, sign: str, driver: str, state: str) -> Steps[LitImage]:
     """A card with its seat, the name of the entrant, and icon and name of their device; keys with arrows are drawn."""
-    layer, color = Layer(0, 0, W, H), PLAYERS[seat]
+    layer, color = Layer(0, 0, W, H), kit.PLAYERS[seat]
     if state == WANTED:
-        layer.glow.dashes(cut_box(0, 0, W, H, 20), dim(color, 0.8), THIN, 22, 16)
+        layer.glow.dashes(kit.cut_box(0, 0, W, H, 20), kit.dim(color, 0.8), kit.THIN, 22, 16)
     else:
-        panel(layer.glow, 0, 0, W, H, color, LINE if state == TAKEN else THIN)
-    badge(layer.glow, seat, 68, 70, 34)
-    icon(layer.glow, sign, 144, 70, 30, MIST, 4)
-    if driver and all(mark in ARROWS for mark in driver):
+        kit.panel(layer.glow, 0, 0, W, H, color, kit.LINE if state == TAKEN else kit.THIN)
+    kit.badge(layer.glow, seat, 68, 70, 34)
+    kit.icon(layer.glow, sign, 144, 70, 30, kit.MIST, 4)
+    if driver and all(mark in kit.ARROWS for mark in driver):
         for i, mark in enumerate(driver):
-            icon(layer.glow, ARROWS[mark], 210 + 44 * i, 70, 15, MIST, 5)
+            kit.icon(layer.glow, kit.ARROWS[mark], 210 + 44 * i, 70, 15, kit.MIST, 5)
     else:
-        layer.canvas.body(driver, 188, 70, MIST, "l", fit_size(driver, BODY, W - 206, "body"))
-    name, size = fit_text(name, TITLE, W - 56, "hero", LABEL)
-    layer.canvas.text(name, size, MIDDLE, NAME_Y, ICE, "hero", "c")
+        layer.canvas.body(driver, 188, 70, kit.MIST, "l", fit_size(driver, kit.BODY, W - 206, "body"))
+    name, size = fit_text(name, kit.TITLE, W - 56, "hero", kit.LABEL)
+    layer.canvas.text(name, size, MIDDLE, NAME_Y, kit.ICE, "hero", "c")
     yield
     return (yield from layer.render_steps())
 
@@ -79,7 +63,7 @@ frame = cached(resumable(frame_steps))
 def note_bar(sentence: str) -> Steps[LitImage]:
     """The bar of an AI: its stars, or its name; or that of a device."""
     layer = Layer(*BAR)
-    layer.canvas.text(sentence, fit_size(sentence, LABEL, W - 72), MIDDLE, BAR_Y, ICE, "head", "c")
+    layer.canvas.text(sentence, fit_size(sentence, kit.LABEL, W - 72), MIDDLE, BAR_Y, kit.ICE, "head", "c")
     yield
     return (yield from layer.render_steps())
 
@@ -107,15 +91,15 @@ def match_line(words: Words, fixture: Fixture, setup: Setup | None) -> str:
 def draw_following(screen: pygame.Surface, words: Words, event: Event) -> None:
     """Draw who plays after the next match, and how far the event is."""
     line = progress_line(words, event)
-    text(line, BODY, MIST, "body", "r").draw(screen, RIGHT, THEN_Y)
+    text(line, kit.BODY, kit.MIST, "body", "r").draw(screen, RIGHT, THEN_Y)
     if then := [versus(other.entrants) for other in event.open[1:4]]:
-        room = RIGHT - LEFT - 48 - text_width(line, BODY, "body")
+        room = RIGHT - LEFT - 48 - kit.text_width(line, kit.BODY, "body")
         sentence = following(lambda names: words("events.then", names=names), then, room)
-        sentence, size = fit_text(sentence, LABEL, room)
-        text(sentence, size, MIST, "head", "l").draw(screen, LEFT, THEN_Y)
+        sentence, size = fit_text(sentence, kit.LABEL, room)
+        text(sentence, size, kit.MIST, "head", "l").draw(screen, LEFT, THEN_Y)
 
 
 def following(sentence: Callable[[str], str], matches: Sequence[str], room: float) -> str:
     """As many of the next matches in one line as fit into `room` px at LABEL size. `sentence`: the text round them."""
     lines = [sentence("   ·   ".join(matches[:count])) for count in range(len(matches), 0, -1)]
-    return next((line for line in lines if text_width(line, LABEL) <= room), lines[-1])
+    return next((line for line in lines if kit.text_width(line, kit.LABEL) <= room), lines[-1])

@@ -13,26 +13,7 @@ from pigaming_app.scenes.howto.keys import draw_keys
 from pigaming_app.scenes.views.game_screens import LESSONS_PER_PAGE
 from pigaming_app.scenes.views.lesson import Lesson
 from pigaming_app.scenes.views.registry import SCREENS, shown_games
-from pigaming_app.ui.draw import (
-    ARROWS,
-    BLACK,
-    BODY,
-    FOCUS,
-    ICE,
-    KEYPAD,
-    LABEL,
-    MIST,
-    STEEL,
-    THIN,
-    TITLE,
-    button,
-    button_width,
-    panel,
-    readable,
-    reads_large,
-    regular_polygon,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
@@ -98,17 +79,17 @@ class HowTo:
         heading(words("title.howto")).draw(screen)
         for game, box in self._names():
             chip(words(f"events.short_{game}"), box.w, "on" if game == self.game else "off").draw(screen, *box.topleft)
-        button_label("<>").draw(screen, self._names()[0][1].left - GAP - button_width("<>"), 112)
+        button_label("<>").draw(screen, self._names()[0][1].left - GAP - kit.button_width("<>"), 112)
         boxes = [pygame.Rect(span(3 * i, 3)[0], TOP, span(3 * i, 3)[1], HIGH) for i in range(4)]
         black_out(screen, *boxes)
         for i, (box, clip) in enumerate(zip(boxes, self.clips, strict=False)):
             clip.draw(screen, pygame.Rect(box.x + 4, TOP + 4, box.w - 8, PICTURE))
             draw_keys(screen, self.context, clip.script, clip.action, (box.centerx, KEYS_Y))
-            pygame.draw.circle(screen, BLACK, (box.centerx, TOP), BADGE)
+            pygame.draw.circle(screen, kit.BLACK, (box.centerx, TOP), BADGE)
             frame(i + 1, box.w).draw(screen, *box.topleft)
             caption(words(f"howto.{clip.name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
         self._foot(screen)
-        keys(self._keys()).draw(screen, 0, LOWER * reads_large())
+        keys(self._keys()).draw(screen, 0, LOWER * kit.reads_large())
 
     def _show(self, game: str, page: int = 0) -> None:
         if (game, page) != (self.game, self.page):
@@ -129,13 +110,13 @@ class HowTo:
             pages(name, self.page, count).draw(screen)
             left += pages_width(name, count) + 40
         limits = limits_line(words, self.game, self.minutes(), self._variant())
-        size, lines = BODY, [limits]
-        if reads_large():
+        size, lines = kit.BODY, [limits]
+        if kit.reads_large():
             size, lines = fit_lines(limits, RIGHT - left, 2, range(LARGE, SMALLEST, -2))
             lines = wrap_balanced(limits, len(lines), size)
         for i, line in enumerate(lines):
             y = LIMITS_Y + PITCH * (i - (len(lines) - 1) / 2)
-            text(line, size, ICE, "body", "l", round(RIGHT - left)).draw(screen, left, y)
+            text(line, size, kit.ICE, "body", "l", round(RIGHT - left)).draw(screen, left, y)
 
     def minutes(self) -> int:
         """The minutes of the last match, or by default those of another rule set that the page is about."""
@@ -157,7 +138,7 @@ class HowTo:
         the shown game among them.
         """
         words, games = self.context.words, taught()
-        room = RIGHT - LEFT - text_width(words("title.howto"), TITLE) - 2 * GAP - button_width("<>")
+        room = RIGHT - LEFT - kit.text_width(words("title.howto"), kit.TITLE) - 2 * GAP - kit.button_width("<>")
         widths = {game: chip_width(words(f"events.short_{game}")) for game in games}
         while sum(widths[game] + 16 for game in games) - 16 > room and len(games) > 1:
             games.pop(0 if games.index(self.game) > len(games) // 2 else -1)
@@ -174,7 +155,7 @@ class HowTo:
         turbo = Button.LEAVE_SEAT if device.kind == "keys" else Button.BACK
         keypad, drive = controls.name(device) == "Keypad", words("howto.hint_drive")
         pairs = [
-            (KEYPAD, f"{drive} ({words('devices.Keypad')})") if keypad else (controls.moves(device) or "<>", drive),
+            (kit.KEYPAD, f"{drive} ({words('devices.Keypad')})") if keypad else (controls.moves(device) or "<>", drive),
             (controls.label(device, turbo), words("howto.hint_turbo")),
             (controls.label(device, Button.BACK), words("howto.hint_back")),
         ]
@@ -195,16 +176,16 @@ def pages(name: str, page: int, count: int) -> LitImage:
     for i in range(count):
         x = LEFT + DOT * (i + 0.5)
         if i == page:
-            layer.glow.disc(x, LIMITS_Y, 10, FOCUS)
+            layer.glow.disc(x, LIMITS_Y, 10, kit.FOCUS)
         else:
-            layer.glow.ring(x, LIMITS_Y, 8, STEEL, THIN)
-    layer.canvas.text(name, BODY, LEFT + DOT * count + 12, LIMITS_Y, FOCUS)
+            layer.glow.ring(x, LIMITS_Y, 8, kit.STEEL, kit.THIN)
+    layer.canvas.text(name, kit.BODY, LEFT + DOT * count + 12, LIMITS_Y, kit.FOCUS)
     return layer.render()
 
 
 def pages_width(name: str, count: int) -> float:
     """Width of that, px."""
-    return DOT * count + 12 + text_width(name, BODY)
+    return DOT * count + 12 + kit.text_width(name, kit.BODY)
 
 
 @cached
@@ -212,9 +193,9 @@ def pages_width(name: str, count: int) -> float:
 def frame(number: int, w: int) -> Steps[LitImage]:
     """An empty panel with its number; upper left corner at (0, 0)."""
     layer = Layer(0, 0, w, HIGH)
-    panel(layer.glow, 0, 0, w, HIGH, STEEL)
-    layer.glow.fill(regular_polygon(40, BADGE - 8, 0, w / 2, 0), ICE)
-    layer.glow.text(str(number), LABEL, w / 2, 0, BLACK, "hero", "c")
+    kit.panel(layer.glow, 0, 0, w, HIGH, kit.STEEL)
+    layer.glow.fill(kit.regular_polygon(40, BADGE - 8, 0, w / 2, 0), kit.ICE)
+    layer.glow.text(str(number), kit.LABEL, w / 2, 0, kit.BLACK, "hero", "c")
     yield
     return (yield from layer.render_steps())
 
@@ -222,14 +203,14 @@ def frame(number: int, w: int) -> Steps[LitImage]:
 @cached
 def caption(sentence: str, room: int) -> LitImage:
     """A caption in lines of similar length, centred on (0, 0)."""
-    count = len(wrap(sentence, BODY, room))
-    sizes = range(readable(BODY), BODY, -2)
-    most = next((size for size in sizes if len(wrap(sentence, size, room)) <= max(2, count)), BODY)
+    count = len(wrap(sentence, kit.BODY, room))
+    sizes = range(kit.readable(kit.BODY), kit.BODY, -2)
+    most = next((size for size in sizes if len(wrap(sentence, size, room)) <= max(2, count)), kit.BODY)
     lines = wrap_balanced(sentence, max(count, len(wrap(sentence, most, room))), most)
     layer = Layer(-room / 2, -70, room, 140)
     for i, line in enumerate(lines):
         size = fit_size(line, most, room, "body")
-        layer.canvas.body(line, 0, 1.35 * most * (i - (len(lines) - 1) / 2), ICE, "c", size)
+        layer.canvas.body(line, 0, 1.35 * most * (i - (len(lines) - 1) / 2), kit.ICE, "c", size)
     return layer.render()
 
 
@@ -239,28 +220,28 @@ def keys(items: Sequence[tuple[str, str]]) -> Steps[LitImage]:
     """The row at the foot: left-aligned, except for the last item at the right end."""
     layer = Layer(LEFT, FOOT_Y - 40, RIGHT - LEFT, 80)
     x: float = LEFT
-    sizes = range(readable(BODY), SMALLEST, -2)
+    sizes = range(kit.readable(kit.BODY), SMALLEST, -2)
     size = next((size for size in sizes if _row_width(items, size) <= RIGHT - LEFT), SMALLEST)
     for i, (label, action) in enumerate(items):
         if i == len(items) - 1:
-            x = RIGHT - _width(label, size) - 10 - text_width(action, size, "body")
+            x = RIGHT - _width(label, size) - 10 - kit.text_width(action, size, "body")
         for part in _parts(label):
-            x += button(layer.canvas, x, FOOT_Y, part, size=size) + 8
-        layer.canvas.body(action, x + 10, FOOT_Y, MIST, size=size)
-        x += 10 + text_width(action, size, "body") + APART
+            x += kit.button(layer.canvas, x, FOOT_Y, part, size=size) + 8
+        layer.canvas.body(action, x + 10, FOOT_Y, kit.MIST, size=size)
+        x += 10 + kit.text_width(action, size, "body") + APART
     yield
     return (yield from layer.render_steps())
 
 
 def _row_width(items: Sequence[tuple[str, str]], size: int) -> float:
-    widths = [_width(label, size) + 10 + text_width(action, size, "body") for label, action in items]
+    widths = [_width(label, size) + 10 + kit.text_width(action, size, "body") for label, action in items]
     return sum(widths) + APART * (len(items) - 1)
 
 
 def _width(label: str, size: int) -> float:
-    return sum(button_width(part, size) + 8 for part in _parts(label))
+    return sum(kit.button_width(part, size) + 8 for part in _parts(label))
 
 
 def _parts(label: str) -> list[str]:
     """The keys of a label: of arrows each, else one."""
-    return label.split() if label[0] in ARROWS else [label]
+    return label.split() if label[0] in kit.ARROWS else [label]

@@ -32,29 +32,7 @@ from pigaming_app.scenes.lab.layout import (
 from pigaming_app.scenes.lab.learning_curve import LearningCurve, Measure
 from pigaming_app.scenes.lab.network.kind_switch import TABLE, kind_rect, kind_switch
 from pigaming_app.scenes.views.sprites.robot import tank
-from pigaming_app.ui.draw import (
-    BLUE,
-    BODY,
-    FOCUS,
-    GREEN,
-    ICE,
-    MIST,
-    STEEL,
-    THIN,
-    TITLE,
-    WALL,
-    WHITE,
-    Color,
-    GlowCanvas,
-    LayeredCanvas,
-    Points,
-    cut_box,
-    dim,
-    icon,
-    mix,
-    panel,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
@@ -140,25 +118,25 @@ class LabPage:
 @resumable
 def ground(language: str) -> Steps[pygame.Surface]:
     """The static background."""
-    words, canvas = Words(language), LayeredCanvas()
+    words, canvas = Words(language), kit.LayeredCanvas()
     out = black_out(backdrop().copy(), MATCH, KNOBS, CURVE, PLAN, kind_rect(words), SPEED, PLAY)
     yield
     title = words("lab.title")
-    canvas.text(title, fit_size(title, TITLE, kind_rect(words).left - LEFT - 20), LEFT, TITLE_Y, ICE)
+    canvas.text(title, fit_size(title, kit.TITLE, kind_rect(words).left - LEFT - 20), LEFT, TITLE_Y, kit.ICE)
     yield
-    canvas.glow.line(outline(MATCH, 20), WALL, THIN, True)
+    canvas.glow.line(outline(MATCH, 20), kit.WALL, kit.THIN, True)
     yield
     for x in range(52, ARENA.w, 52):
         for y in range(52, ARENA.h, 52):
             canvas.crisp.disc(ARENA.x + x, ARENA.y + y, 1.5, (26, 37, 54))
     yield
     for box in (KNOBS, CURVE, PLAN):
-        panel(canvas.glow, *box)
+        kit.panel(canvas.glow, *box)
     yield
     _caption(canvas, words("lab.likes"), KNOBS)
     _caption(canvas, words("lab.wins"), CURVE)
-    canvas.body(words("lab.ties"), CURVE.right - 36, CURVE.top + 40, MIST, "r")
-    canvas.crisp.line([PLOT.topleft, PLOT.bottomleft, PLOT.bottomright], STEEL, THIN)
+    canvas.body(words("lab.ties"), CURVE.right - 36, CURVE.top + 40, kit.MIST, "r")
+    canvas.crisp.line([PLOT.topleft, PLOT.bottomleft, PLOT.bottomright], kit.STEEL, kit.THIN)
     yield
     _legend(canvas, words)
     _bar(canvas, words)
@@ -169,68 +147,68 @@ def ground(language: str) -> Steps[pygame.Surface]:
     return out
 
 
-def _caption(canvas: LayeredCanvas, name: str, box: pygame.Rect) -> None:
-    canvas.body(name, box.left + 32, box.top + 40, ICE, "l", fit_size(name, BODY + 4, box.w - 64, "body"))
+def _caption(canvas: kit.LayeredCanvas, name: str, box: pygame.Rect) -> None:
+    canvas.body(name, box.left + 32, box.top + 40, kit.ICE, "l", fit_size(name, kit.BODY + 4, box.w - 64, "body"))
 
 
-def _legend(canvas: LayeredCanvas, words: Words) -> None:
+def _legend(canvas: kit.LayeredCanvas, words: Words) -> None:
     """Legend of the rose."""
     y, room = PLAN.top, PLAN.right - WORDS_X - 28
     title = words("lab.plan")
-    canvas.text(title, fit_size(title, 60, room), WORDS_X, y + 56, ICE)
+    canvas.text(title, fit_size(title, 60, room), WORDS_X, y + 56, kit.ICE)
     for i, key in enumerate(("lab.enemy", "lab.does")):
         label = words(key)
-        canvas.body(label, WORDS_X, y + 116 + 48 * i, MIST, "l", fit_size(label, BODY, room, "body"))
+        canvas.body(label, WORDS_X, y + 116 + 48 * i, kit.MIST, "l", fit_size(label, kit.BODY, room, "body"))
     for i, (name, key) in enumerate((("shoot", "shoot"), ("ahead", "drive"), ("turn_right", "turn"))):
-        icon(canvas.crisp, name, WORDS_X + 20, y + 226 + 52 * i, 18, ICE, 5 if name == "shoot" else 6)
+        kit.icon(canvas.crisp, name, WORDS_X + 20, y + 226 + 52 * i, 18, kit.ICE, 5 if name == "shoot" else 6)
         canvas.body(words(f"lab.{key}"), WORDS_X + 60, y + 226 + 52 * i)
     x = float(WORDS_X)
     for key, level in (("good", LEVELS), ("bad", -LEVELS)):
-        canvas.crisp.fill(cut_box(x, y + 368, 32, 32, 7), dim(tone(level), 0.5)).line(
-            cut_box(x, y + 368, 32, 32, 7), tone(level), THIN, True
+        canvas.crisp.fill(kit.cut_box(x, y + 368, 32, 32, 7), kit.dim(tone(level), 0.5)).line(
+            kit.cut_box(x, y + 368, 32, 32, 7), tone(level), kit.THIN, True
         )
         canvas.body(words(f"lab.{key}"), x + 48, y + 384)
-        x += 48 + text_width(words(f"lab.{key}"), BODY, "body") + 36
+        x += 48 + kit.text_width(words(f"lab.{key}"), kit.BODY, "body") + 36
 
 
 def bar_ends(words: Words) -> tuple[float, float]:
     """Left and right end of the bar from guessing to knowing, px."""
-    left = PLAN.left + 36 + text_width(words("lab.guessing"), BODY, "body") + 32
-    return left, PLAN.right - 36 - text_width(words("lab.knowing"), BODY, "body") - 32
+    left = PLAN.left + 36 + kit.text_width(words("lab.guessing"), kit.BODY, "body") + 32
+    return left, PLAN.right - 36 - kit.text_width(words("lab.knowing"), kit.BODY, "body") - 32
 
 
-def _bar(canvas: LayeredCanvas, words: Words) -> None:
+def _bar(canvas: kit.LayeredCanvas, words: Words) -> None:
     left, right = bar_ends(words)
-    canvas.body(words("lab.guessing"), PLAN.left + 36, BAR_Y, MIST)
-    canvas.body(words("lab.knowing"), PLAN.right - 36, BAR_Y, ICE, "r")
+    canvas.body(words("lab.guessing"), PLAN.left + 36, BAR_Y, kit.MIST)
+    canvas.body(words("lab.knowing"), PLAN.right - 36, BAR_Y, kit.ICE, "r")
     steps = 60
     for i in range(steps):
-        x, color = left + (right - left) * i / steps, mix((120, 70, 170), GOOD, i / steps)
+        x, color = left + (right - left) * i / steps, kit.mix((120, 70, 170), GOOD, i / steps)
         canvas.crisp.fill([(x, BAR_Y - 7), (x + (right - left) / steps + 1, BAR_Y - 7),
                         (x + (right - left) / steps + 1, BAR_Y + 7), (x, BAR_Y + 7)], color)  # fmt: skip
 
 
-def _play(canvas: LayeredCanvas, label: str) -> None:
+def _play(canvas: kit.LayeredCanvas, label: str) -> None:
     """Button that starts a challenge match."""
-    canvas.glow.line(outline(PLAY), GREEN, THIN, True)
-    icon(canvas.glow, "pad", PLAY.left + 58, PLAY.centery, 34, GREEN, THIN)
-    canvas.body(label, PLAY.left + 112, PLAY.centery, ICE, "l", fit_size(label, BODY + 2, PLAY.w - 136, "body"))
+    canvas.glow.line(outline(PLAY), kit.GREEN, kit.THIN, True)
+    kit.icon(canvas.glow, "pad", PLAY.left + 58, PLAY.centery, 34, kit.GREEN, kit.THIN)
+    canvas.body(label, PLAY.left + 112, PLAY.centery, kit.ICE, "l", fit_size(label, kit.BODY + 2, PLAY.w - 136, "body"))
 
 
 @cached
 def speed(max_label: str, chosen: int) -> LitImage:
     """The three speeds, the selected one lit; top left at (0, 0)."""
     layer = Layer(0, 0, SPEED.w, SPEED.h)
-    layer.glow.line(cut_box(0, 0, SPEED.w, SPEED.h, 16), BLUE, THIN, True)
+    layer.glow.line(kit.cut_box(0, 0, SPEED.w, SPEED.h, 16), kit.BLUE, kit.THIN, True)
     for i, (label, name) in enumerate(zip((*SPEEDS[:-1], max_label), SPEED_SIGNS, strict=True)):
         x, w = speed_part(i)
         on = i == chosen
         if on:
-            layer.canvas.crisp.fill(cut_box(x + 8, 8, w - 16, SPEED.h - 16, 10), dim(BLUE, 0.3))
-        width = text_width(label, BODY)
+            layer.canvas.crisp.fill(kit.cut_box(x + 8, 8, w - 16, SPEED.h - 16, 10), kit.dim(kit.BLUE, 0.3))
+        width = kit.text_width(label, kit.BODY)
         left = x + (w - width - 44) / 2
-        icon(layer.canvas.crisp, name, left + 16, SPEED.h / 2, 17, BLUE if on else STEEL, THIN)
-        layer.canvas.crisp.text(label, BODY, left + 44, SPEED.h / 2, ICE if on else MIST, "head")
+        kit.icon(layer.canvas.crisp, name, left + 16, SPEED.h / 2, 17, kit.BLUE if on else kit.STEEL, kit.THIN)
+        layer.canvas.crisp.text(label, kit.BODY, left + 44, SPEED.h / 2, kit.ICE if on else kit.MIST, "head")
     return layer.render()
 
 
@@ -247,12 +225,12 @@ def speed_at(x: float) -> int:
 @cached
 def knob_name(label: str, focus: bool) -> LitImage:
     """Label of a knob in at most two lines below it, relative to the knob's centre."""
-    color: Color = FOCUS if focus else ICE
+    color: kit.Color = kit.FOCUS if focus else kit.ICE
     lines = wrap_balanced(label, 2)
     layer = Layer(-104, 60, 208, 90)
     for i, line in enumerate(lines):
         y = 84 + 40 * i + (20 if len(lines) == 1 else 0)
-        layer.canvas.body(line, 0, y, color, "c", fit_size(line, BODY, 200, "body"))
+        layer.canvas.body(line, 0, y, color, "c", fit_size(line, kit.BODY, 200, "body"))
     return layer.render()
 
 
@@ -260,30 +238,30 @@ def knob_name(label: str, focus: bool) -> LitImage:
 def warming(label: str) -> LitImage:
     """Notice beside a clock above the centre of the plot, which early curves do not reach."""
     layer = Layer(PLOT.x, PLOT.y - 10, PLOT.w, 92)
-    icon(layer.canvas.crisp, "clock", PLOT.x + 40, PLOT.y + 34, 22, MIST, THIN)
+    kit.icon(layer.canvas.crisp, "clock", PLOT.x + 40, PLOT.y + 34, 22, kit.MIST, kit.THIN)
     for i, line in enumerate(wrap_balanced(label, 2)):
-        size = fit_size(line, BODY, PLOT.w - 92, "body")
-        layer.canvas.body(line, PLOT.x + 80, PLOT.y + 12 + 44 * i, MIST, "l", size)
+        size = fit_size(line, kit.BODY, PLOT.w - 92, "body")
+        layer.canvas.body(line, PLOT.x + 80, PLOT.y + 12 + 44 * i, kit.MIST, "l", size)
     return layer.render()
 
 
 @cached
 def tag(label: str) -> Sprite:
     """Text on a black plate, relative to its top left."""
-    w = round(text_width(label, BODY, "body")) + 40
-    ink = GlowCanvas(w + 48, 102).set_transform(24, 24)
-    ink.solid(cut_box(0, 0, w, 54, 12)).line(cut_box(0, 0, w, 54, 12), STEEL, 3, True)
-    ink.text(label, BODY, w / 2, 27, ICE, "body", "c")
+    w = round(kit.text_width(label, kit.BODY, "body")) + 40
+    ink = kit.GlowCanvas(w + 48, 102).set_transform(24, 24)
+    ink.solid(kit.cut_box(0, 0, w, 54, 12)).line(kit.cut_box(0, 0, w, 54, 12), kit.STEEL, 3, True)
+    ink.text(label, kit.BODY, w / 2, 27, kit.ICE, "body", "c")
     return Sprite(ink.sprite(0.5), -24, -24)
 
 
 @cached
 def bar_knob() -> LitImage:
     """Position marker on the bar, centred on (0, 0)."""
-    ink = GlowCanvas(80, 80).disc(40, 40, 17, WHITE)
+    ink = kit.GlowCanvas(80, 80).disc(40, 40, 17, kit.WHITE)
     return LitImage(ink.lit(0.5), (-40, -40))
 
 
-def outline(box: pygame.Rect, c: float = 16) -> Points:
+def outline(box: pygame.Rect, c: float = 16) -> kit.Points:
     """Box outline with cut corners."""
-    return cut_box(box.x, box.y, box.w, box.h, c)
+    return kit.cut_box(box.x, box.y, box.w, box.h, c)

@@ -7,19 +7,7 @@ import pygame
 from pigaming_app.events.ladder import LEVELS, NEEDED, Climb
 from pigaming_app.scenes.flow.brain_names import LIT
 from pigaming_app.scenes.views.sprites.robot import seat_robot
-from pigaming_app.ui.draw import (
-    BOLD,
-    FOCUS,
-    ICE,
-    LINE,
-    MIST,
-    PLAYERS,
-    STEEL,
-    THIN,
-    badge,
-    dim,
-    icon,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
@@ -67,8 +55,8 @@ def rails() -> Steps[LitImage]:
     left, right = RAILS
     layer = Layer(left - 60, rung_y(LEVELS) - 90, right - left + 120, GROUND - rung_y(LEVELS) + 130)
     for x in RAILS:
-        layer.glow.neon([(x, rung_y(LEVELS) - 72), (x, GROUND)], STEEL, LINE)
-    layer.glow.line([(left - 52, GROUND), (right + 52, GROUND)], MIST, THIN)
+        layer.glow.neon([(x, rung_y(LEVELS) - 72), (x, GROUND)], kit.STEEL, kit.LINE)
+    layer.glow.line([(left - 52, GROUND), (right + 52, GROUND)], kit.MIST, kit.THIN)
     yield
     return (yield from layer.render_steps())
 
@@ -79,11 +67,11 @@ def stars(level: int, state: str) -> Steps[LitImage]:
     """A rung at y = 0 and the stars of its robot beside it; those passed have a tick."""
     left, right = RAILS
     layer = Layer(left - 10, -60, STARS_X + 420 - left, 120)
-    color = {PAST: FOCUS, HERE: ICE, AHEAD: STEEL}[state]
-    layer.glow.neon([(left, 0), (right, 0)], color, BOLD if state == HERE else LINE)
+    color = {PAST: kit.FOCUS, HERE: kit.ICE, AHEAD: kit.STEEL}[state]
+    layer.glow.neon([(left, 0), (right, 0)], color, kit.BOLD if state == HERE else kit.LINE)
     if state == PAST:
-        icon(layer.glow, "check", STARS_X + 4, -STANDS, 20, FOCUS, LINE)
-    layer.canvas.text(LIT * level, STARS, STARS_X + 44, -STANDS, ICE, "head")
+        kit.icon(layer.glow, "check", STARS_X + 4, -STANDS, 20, kit.FOCUS, kit.LINE)
+    layer.canvas.text(LIT * level, STARS, STARS_X + 44, -STANDS, kit.ICE, "head")
     yield
     lit = yield from layer.render_steps()
     return dimmed(lit, 0.5) if state == AHEAD else lit
@@ -94,7 +82,7 @@ def standing(wins: int, losses: int) -> LitImage:
     """Wins of both on this rung, as badges with pips; left end at (0, 0)."""
     layer = Layer(0, -50, 560, 100)
     for seat, won, x in ((0, wins, 40), (1, losses, 330)):
-        badge(layer.glow, seat, x, 0, 34)
-        pips(layer, x + 76, 0, won, NEEDED, PLAYERS[seat], 17)
-    layer.glow.line([(246, 0), (274, 0)], dim(MIST, 0.8), THIN)
+        kit.badge(layer.glow, seat, x, 0, 34)
+        pips(layer, x + 76, 0, won, NEEDED, kit.PLAYERS[seat], 17)
+    layer.glow.line([(246, 0), (274, 0)], kit.dim(kit.MIST, 0.8), kit.THIN)
     return layer.render()

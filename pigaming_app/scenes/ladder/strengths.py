@@ -15,20 +15,7 @@ from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.plugins.parts import data_folders
 from pigaming_app.storage.settings import folders
-from pigaming_app.ui.draw import (
-    BODY,
-    FOCUS,
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    STEEL,
-    THIN,
-    Color,
-    cut_box,
-    dim,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
@@ -71,15 +58,15 @@ class Strengths(Page):
     def paint(self, screen: pygame.Surface) -> None:
         """Draw the name of the game and the bars."""
         words, name = self.context.words, self.context.words(f"games.{self.game}")
-        text(name, LABEL, ICE, "head").draw(screen, 960, GAME_Y)
-        reach = text_width(name, LABEL) / 2 + 60
+        text(name, kit.LABEL, kit.ICE, "head").draw(screen, 960, GAME_Y)
+        reach = kit.text_width(name, kit.LABEL) / 2 + 60
         for side, x in (("left", 960 - reach), ("right", 960 + reach)):
-            sign(side, ARROW, FOCUS, LINE).draw(screen, x, GAME_Y)
+            sign(side, ARROW, kit.FOCUS, kit.LINE).draw(screen, x, GAME_Y)
         if self.ratings:
             self._bars(screen, shown(self.ratings))
-            text(words("strengths.measure"), BODY, MIST).draw(screen, 960, NOTE_Y)
+            text(words("strengths.measure"), kit.BODY, kit.MIST).draw(screen, 960, NOTE_Y)
         else:
-            text(words("strengths.none"), LABEL, MIST, "head").draw(screen, 960, 540)
+            text(words("strengths.none"), kit.LABEL, kit.MIST, "head").draw(screen, 960, 540)
 
     # ---- inside
 
@@ -116,7 +103,7 @@ class Strengths(Page):
                 words, brain = self.context.words, row.brain
                 name = words(f"strengths.{brain}") if brain in NAMED else brain_name(words, self.game, brain)
                 ends = place(row.low), place(row.rating), place(row.high)
-                color = FOCUS if level_of(row.brain) else MIST
+                color = kit.FOCUS if level_of(row.brain) else kit.MIST
                 lit = bar(name, signed(row.rating), ends, pitch, color)
                 lit.draw(screen, 0, TOP + pitch * i + pitch // 2, 1 - (1 - min(1.0, share)) ** 2)
 
@@ -130,21 +117,21 @@ def shown(ratings: Ratings) -> list[Strength]:
 
 @cached
 @resumable
-def bar(name: str, value: str, ends: tuple[int, int, int], pitch: int, color: Color) -> Steps[LitImage]:
+def bar(name: str, value: str, ends: tuple[int, int, int], pitch: int, color: kit.Color) -> Steps[LitImage]:
     """A row with its middle at y = 0. `ends`: x of the lower end of the interval, of the rating, of the upper end."""
     low, at, high = ends
     half = round(0.27 * pitch)
     layer = Layer(NAMES, -pitch / 2, VALUES - NAMES, pitch)
-    box = cut_box(BARS[0], -half, max(24, at - BARS[0]), 2 * half, 8)
-    layer.glow.fill(box, dim(color, 0.22)).line(box, color, THIN, True)
-    size = min(LABEL, round(0.8 * pitch))
-    layer.canvas.text(name, fit_size(name, size, BARS[0] - NAMES - 36), BARS[0] - 36, 0, ICE, "head", "r")
-    layer.canvas.text(value, size, VALUES, 0, ICE, "hero", "r")
+    box = kit.cut_box(BARS[0], -half, max(24, at - BARS[0]), 2 * half, 8)
+    layer.glow.fill(box, kit.dim(color, 0.22)).line(box, color, kit.THIN, True)
+    size = min(kit.LABEL, round(0.8 * pitch))
+    layer.canvas.text(name, fit_size(name, size, BARS[0] - NAMES - 36), BARS[0] - 36, 0, kit.ICE, "head", "r")
+    layer.canvas.text(value, size, VALUES, 0, kit.ICE, "hero", "r")
     yield
     whisker = round(0.7 * half)
     for x in (low, high):
-        layer.canvas.crisp.line([(x, -whisker), (x, whisker)], ICE, THIN)
-    layer.canvas.crisp.line([(low, 0), (high, 0)], ICE, THIN)
-    layer.glow.line([(BARS[0] - 12, -pitch / 2), (BARS[0] - 12, pitch / 2)], STEEL, THIN)
+        layer.canvas.crisp.line([(x, -whisker), (x, whisker)], kit.ICE, kit.THIN)
+    layer.canvas.crisp.line([(low, 0), (high, 0)], kit.ICE, kit.THIN)
+    layer.glow.line([(BARS[0] - 12, -pitch / 2), (BARS[0] - 12, pitch / 2)], kit.STEEL, kit.THIN)
     yield
     return (yield from layer.render_steps())

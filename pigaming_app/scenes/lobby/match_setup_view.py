@@ -6,23 +6,7 @@ from dataclasses import dataclass
 import pygame
 
 from pigaming_app.sim.things.spec import ThingSpec
-from pigaming_app.ui.draw import (
-    BLACK,
-    BODY,
-    FOCUS,
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    STEEL,
-    SUB,
-    THIN,
-    badge,
-    cut_box,
-    dim,
-    icon,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
@@ -52,25 +36,25 @@ class RowSizes:
     lines: int  # of a description, at most
 
 
-WIDE = RowSizes(140, 236, 16, 38, 94, 156, 48, 60, BODY, BODY, 2)
+WIDE = RowSizes(140, 236, 16, 38, 94, 156, 48, 60, kit.BODY, kit.BODY, 2)
 TIGHT = RowSizes(108, 184, 12, 25, 69, 118, 40, 46, 32, 32, 2)
-LARGE_WIDE = RowSizes(124, 264, 12, 32, 84, 134, 48, 52, BODY, 44, 3)
-LARGE_TIGHT = RowSizes(98, 230, 10, 27, 66, 108, 44, 44, 32, BODY, 3)
+LARGE_WIDE = RowSizes(124, 264, 12, 32, 84, 134, 48, 52, kit.BODY, 44, 3)
+LARGE_TIGHT = RowSizes(98, 230, 10, 27, 66, 108, 44, 44, 32, kit.BODY, 3)
 
 
 @cached
 def row(sizes: RowSizes, name: str, value: str, note: str = "", line: str = "") -> LitImage:
     """Row with a name, a note, the value between arrows and a description line; top left at (0, 0)."""
     layer = _layer(sizes, name, sizes.described if line else sizes.choice)
-    layer.canvas.body(note, W - PAD, sizes.name, MIST, "r", sizes.small)
-    size = fit_size(value, LABEL, W - 2 * PAD - 100)
-    layer.canvas.text(value, size, W / 2, sizes.value, ICE, "head", "c")
+    layer.canvas.body(note, W - PAD, sizes.name, kit.MIST, "r", sizes.small)
+    size = fit_size(value, kit.LABEL, W - 2 * PAD - 100)
+    layer.canvas.text(value, size, W / 2, sizes.value, kit.ICE, "head", "c")
     for sign, x in (("left", PAD + 14), ("right", W - PAD - 14)):
-        icon(layer.glow, sign, x, sizes.value, 20, MIST, LINE)
+        kit.icon(layer.glow, sign, x, sizes.value, 20, kit.MIST, kit.LINE)
     room = W - 2 * PAD
     size, parts = fit_lines(line, room, sizes.lines, range(sizes.most, SMALLEST, -2))
     for i, part in enumerate(parts if line else ()):
-        layer.canvas.body(part, PAD, sizes.line + sizes.pitch * i, MIST, "l", size)
+        layer.canvas.body(part, PAD, sizes.line + sizes.pitch * i, kit.MIST, "l", size)
     return layer.render()
 
 
@@ -89,10 +73,10 @@ def chips(sizes: RowSizes, name: str, values: tuple[str, ...], value: str) -> Li
 def short_chips(name: str, labels: tuple[str, ...], selected: int) -> LitImage:
     """A low row: the name, and all values beside it; top left at (0, 0)."""
     layer = Layer(0, 0, W, LOW)
-    layer.glow.line(cut_box(0, 0, W, LOW, 16), STEEL, THIN, True)
+    layer.glow.line(kit.cut_box(0, 0, W, LOW, 16), kit.STEEL, kit.THIN, True)
     boxes = short_boxes(labels)
-    size = fit_size(name, BODY, boxes[0].left - PAD - 16, "body")
-    layer.canvas.body(name, PAD, LOW / 2, MIST, "l", size)
+    size = fit_size(name, kit.BODY, boxes[0].left - PAD - 16, "body")
+    layer.canvas.body(name, PAD, LOW / 2, kit.MIST, "l", size)
     for i, (label, box) in enumerate(zip(labels, boxes, strict=True)):
         _chip(layer, label, box, i == selected)
     return layer.render()
@@ -100,7 +84,7 @@ def short_chips(name: str, labels: tuple[str, ...], selected: int) -> LitImage:
 
 def short_boxes(labels: tuple[str, ...]) -> list[pygame.Rect]:
     """Rectangles of the values of a low row, right-aligned."""
-    widths = [round(text_width(label, BODY)) + 44 for label in labels]
+    widths = [round(kit.text_width(label, kit.BODY)) + 44 for label in labels]
     x, boxes = W - PAD + CLOSE - sum(widths) - CLOSE * len(widths), []
     for width in widths:
         boxes.append(pygame.Rect(x, 12, width, LOW - 24))
@@ -114,8 +98,13 @@ def short_chip_at(labels: tuple[str, ...], x: float) -> int | None:
 
 
 def _chip(layer: Layer, label: str, box: pygame.Rect, on: bool) -> None:
-    layer.glow.line(cut_box(box.x, box.y, box.w, box.h, 12 if box.w >= CHIP else 10), ICE if on else STEEL, THIN, True)
-    layer.canvas.crisp.text(label, BODY, box.centerx, box.centery, ICE if on else MIST, "head", "c")
+    layer.glow.line(
+        kit.cut_box(box.x, box.y, box.w, box.h, 12 if box.w >= CHIP else 10),
+        kit.ICE if on else kit.STEEL,
+        kit.THIN,
+        True,
+    )
+    layer.canvas.crisp.text(label, kit.BODY, box.centerx, box.centery, kit.ICE if on else kit.MIST, "head", "c")
 
 
 def chip_size(count: int) -> tuple[int, int]:
@@ -139,10 +128,10 @@ def records(lines: tuple[tuple[str, str, str], ...]) -> Steps[LitImage]:
     layer = Layer(0, 0, W, records_height(len(lines)))
     for i, (name, value, initials) in enumerate(lines):
         y = 38 + 56 * i
-        icon(layer.glow, "crown", PAD + 18, y - 2, 16, FOCUS, 3)
-        layer.canvas.body(name, PAD + 52, y, MIST, "l", fit_size(name, BODY, W - 2 * PAD - 364, "body"))
-        layer.canvas.text(value, BODY, W - PAD - 110, y, ICE, "head", "r")
-        layer.canvas.text(initials, BODY, W - PAD, y, FOCUS, "head", "r")
+        kit.icon(layer.glow, "crown", PAD + 18, y - 2, 16, kit.FOCUS, 3)
+        layer.canvas.body(name, PAD + 52, y, kit.MIST, "l", fit_size(name, kit.BODY, W - 2 * PAD - 364, "body"))
+        layer.canvas.text(value, kit.BODY, W - PAD - 110, y, kit.ICE, "head", "r")
+        layer.canvas.text(initials, kit.BODY, W - PAD, y, kit.FOCUS, "head", "r")
     return (yield from layer.render_steps())
 
 
@@ -155,11 +144,11 @@ def records_height(lines: int) -> int:
 def start_button(label: str) -> LitImage:
     """The start button; top left at (0, 0)."""
     layer = Layer(0, 0, W, 96)
-    layer.glow.line(cut_box(0, 0, W, 96, 18), dim(FOCUS, 0.55), THIN, True)
-    size = fit_size(label, SUB, W - 200)
-    x = W / 2 - text_width(label, size) / 2
-    icon(layer.glow, "right", x - 30, 48, 24, FOCUS, LINE)
-    layer.canvas.text(label, size, W / 2 + 16, 48, FOCUS, "head", "c")
+    layer.glow.line(kit.cut_box(0, 0, W, 96, 18), kit.dim(kit.FOCUS, 0.55), kit.THIN, True)
+    size = fit_size(label, kit.SUB, W - 200)
+    x = W / 2 - kit.text_width(label, size) / 2
+    kit.icon(layer.glow, "right", x - 30, 48, 24, kit.FOCUS, kit.LINE)
+    layer.canvas.text(label, size, W / 2 + 16, 48, kit.FOCUS, "head", "c")
     return layer.render()
 
 
@@ -170,8 +159,8 @@ def lineup(seats: tuple[tuple[int, str], ...]) -> LitImage:
     layer = Layer(-pitch * len(seats), -40, pitch * len(seats), 80)
     for k, (seat, sign) in enumerate(seats):
         x = -pitch * (len(seats) - k)
-        badge(layer.glow, seat, x + 50, 0, 30)
-        icon(layer.glow, sign, x + 124, 0, 30, MIST, THIN)
+        kit.badge(layer.glow, seat, x + 50, 0, 30)
+        kit.icon(layer.glow, sign, x + 124, 0, 30, kit.MIST, kit.THIN)
     return layer.render()
 
 
@@ -179,7 +168,7 @@ def lineup(seats: tuple[tuple[int, str], ...]) -> LitImage:
 def mark(seat: int) -> LitImage:
     """Start position marker of a seat, centred on (0, 0)."""
     layer = Layer(-24, -24, 48, 48)
-    badge(layer.glow, seat, 0, 0, 17)
+    kit.badge(layer.glow, seat, 0, 0, 17)
     return layer.render()
 
 
@@ -187,14 +176,14 @@ def mark(seat: int) -> LitImage:
 def focus_outline(height: int) -> LitImage:
     """Additional highlight of the focused row, drawn over its outline; top left at (0, 0)."""
     layer = Layer(0, 0, W, height)
-    layer.glow.line(cut_box(0, 0, W, height, 16), dim(FOCUS, 0.55), THIN, True)
+    layer.glow.line(kit.cut_box(0, 0, W, height, 16), kit.dim(kit.FOCUS, 0.55), kit.THIN, True)
     return layer.render()
 
 
 def _layer(sizes: RowSizes, name: str, height: int) -> Layer:
     layer = Layer(0, 0, W, height)
-    layer.glow.line(cut_box(0, 0, W, height, 16), STEEL, THIN, True)
-    layer.canvas.body(name, PAD, sizes.name, MIST, "l", sizes.small)
+    layer.glow.line(kit.cut_box(0, 0, W, height, 16), kit.STEEL, kit.THIN, True)
+    layer.canvas.body(name, PAD, sizes.name, kit.MIST, "l", sizes.small)
     return layer
 
 
@@ -202,5 +191,5 @@ def draw_things(screen: pygame.Surface, things: Sequence[ThingSpec], at: tuple[f
     """Draw the things on the mat over the preview of an arena, whose upper left corner is `at`."""
     for thing in things:
         points = [(at[0] + scale * x, at[1] + scale * y) for x, y in thing.outline]
-        pygame.draw.polygon(screen, BLACK, points)
-        pygame.draw.polygon(screen, FOCUS, points, 3)
+        pygame.draw.polygon(screen, kit.BLACK, points)
+        pygame.draw.polygon(screen, kit.FOCUS, points, 3)

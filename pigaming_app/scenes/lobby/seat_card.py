@@ -9,32 +9,7 @@ from functools import partial
 
 from pigaming_app.scenes.views.sprites.factory import TEAMS, emblem
 from pigaming_app.scenes.views.sprites.robot import seat_robot
-from pigaming_app.ui.draw import (
-    ARROWS,
-    BODY,
-    FOCUS,
-    GREEN,
-    GREY,
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    PLAYERS,
-    STEEL,
-    THIN,
-    Color,
-    GlowCanvas,
-    badge,
-    button,
-    button_width,
-    cut_box,
-    dim,
-    icon,
-    panel,
-    readable,
-    shape_points,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
@@ -60,9 +35,9 @@ UPRIGHT, GLANCE = HEADINGS * 3 // 4, 7  # heading of a waiting robot, and how fa
 def frame(player: int, text: str, bold: bool) -> Steps[LitImage]:
     """Card of an occupied seat."""
     layer = Layer(0, 0, W, H)
-    panel(layer.glow, 0, 0, W, H, PLAYERS[player], LINE if bold else THIN)
-    badge(layer.glow, player, 72, 76, 36)
-    layer.canvas.text(text, fit_size(text, LABEL, W - 160), 136, 76, ICE)
+    kit.panel(layer.glow, 0, 0, W, H, kit.PLAYERS[player], kit.LINE if bold else kit.THIN)
+    kit.badge(layer.glow, player, 72, 76, 36)
+    layer.canvas.text(text, fit_size(text, kit.LABEL, W - 160), 136, 76, kit.ICE)
     yield
     return (yield from layer.render_steps())
 
@@ -71,12 +46,12 @@ def frame(player: int, text: str, bold: bool) -> Steps[LitImage]:
 @resumable
 def empty(player: int, text: str) -> Steps[LitImage]:
     """Card of an empty seat."""
-    layer, color = Layer(0, 0, W, H), PLAYERS[player]
-    layer.glow.dashes(cut_box(0, 0, W, H, 20), dim(color, 0.6), THIN, 22, 16)
-    badge(layer.glow, player, 72, 76, 36, dim(color, 0.75))
-    layer.canvas.text(text, fit_size(text, LABEL, W - 160), 136, 76, MIST)
-    outline = [(MIDDLE + y * OUTLINE, PLUS_Y - x * OUTLINE) for x, y in shape_points(player, 1)]
-    layer.glow.dashes(outline, dim(color, 0.7), LINE, 24, 18)
+    layer, color = Layer(0, 0, W, H), kit.PLAYERS[player]
+    layer.glow.dashes(kit.cut_box(0, 0, W, H, 20), kit.dim(color, 0.6), kit.THIN, 22, 16)
+    kit.badge(layer.glow, player, 72, 76, 36, kit.dim(color, 0.75))
+    layer.canvas.text(text, fit_size(text, kit.LABEL, W - 160), 136, 76, kit.MIST)
+    outline = [(MIDDLE + y * OUTLINE, PLUS_Y - x * OUTLINE) for x, y in kit.shape_points(player, 1)]
+    layer.glow.dashes(outline, kit.dim(color, 0.7), kit.LINE, 24, 18)
     yield
     return (yield from layer.render_steps())
 
@@ -85,12 +60,12 @@ def empty(player: int, text: str) -> Steps[LitImage]:
 @resumable
 def by_phone(player: int, text: str, call: str, others: str) -> Steps[LitImage]:
     """Card of an empty seat with room for a QR code: how to join by phone, and that others may join, too."""
-    layer, color = Layer(0, 0, W, H), PLAYERS[player]
-    layer.glow.dashes(cut_box(0, 0, W, H, 20), dim(color, 0.6), THIN, 22, 16)
-    badge(layer.glow, player, 72, 76, 36, dim(color, 0.75))
-    layer.canvas.text(text, fit_size(text, LABEL, W - 160), 136, 76, MIST)
-    layer.canvas.text(call, fit_size(call, LABEL, W - 60), MIDDLE, ASKS_Y + 132, FOCUS, "head", "c")
-    layer.canvas.body(others, MIDDLE, ASKS_Y + 176, MIST, "c", fit_size(others, 32, W - 60, "body"))
+    layer, color = Layer(0, 0, W, H), kit.PLAYERS[player]
+    layer.glow.dashes(kit.cut_box(0, 0, W, H, 20), kit.dim(color, 0.6), kit.THIN, 22, 16)
+    kit.badge(layer.glow, player, 72, 76, 36, kit.dim(color, 0.75))
+    layer.canvas.text(text, fit_size(text, kit.LABEL, W - 160), 136, 76, kit.MIST)
+    layer.canvas.text(call, fit_size(call, kit.LABEL, W - 60), MIDDLE, ASKS_Y + 132, kit.FOCUS, "head", "c")
+    layer.canvas.body(others, MIDDLE, ASKS_Y + 176, kit.MIST, "c", fit_size(others, 32, W - 60, "body"))
     yield
     return (yield from layer.render_steps())
 
@@ -99,18 +74,18 @@ def by_phone(player: int, text: str, call: str, others: str) -> Steps[LitImage]:
 @resumable
 def plug_in(player: int, text: str, call: str, others: str) -> Steps[LitImage]:
     """Card of an empty seat for which there is no device: a pad, and a phone if there are `others`; how to get them."""
-    layer, color = Layer(0, 0, W, H), PLAYERS[player]
-    layer.glow.dashes(cut_box(0, 0, W, H, 20), dim(color, 0.6), THIN, 22, 16)
-    badge(layer.glow, player, 72, 76, 36, dim(color, 0.75))
-    layer.canvas.text(text, fit_size(text, LABEL, W - 160), 136, 76, MIST)
-    icon(layer.glow, "pad", MIDDLE - 76 if others else MIDDLE, PLUS_Y, 66, MIST, THIN)
+    layer, color = Layer(0, 0, W, H), kit.PLAYERS[player]
+    layer.glow.dashes(kit.cut_box(0, 0, W, H, 20), kit.dim(color, 0.6), kit.THIN, 22, 16)
+    kit.badge(layer.glow, player, 72, 76, 36, kit.dim(color, 0.75))
+    layer.canvas.text(text, fit_size(text, kit.LABEL, W - 160), 136, 76, kit.MIST)
+    kit.icon(layer.glow, "pad", MIDDLE - 76 if others else MIDDLE, PLUS_Y, 66, kit.MIST, kit.THIN)
     if others:
-        icon(layer.glow, "phone", MIDDLE + 92, PLUS_Y, 60, MIST, THIN)
+        kit.icon(layer.glow, "phone", MIDDLE + 92, PLUS_Y, 60, kit.MIST, kit.THIN)
     yield
-    layer.canvas.body(call, MIDDLE, ASKS_Y, ICE, "c", fit_size(call, readable(BODY), W - 48, "body"))
-    size, lines = fit_lines(others, W - 48, 3, (readable(34), 34, 30))
+    layer.canvas.body(call, MIDDLE, ASKS_Y, kit.ICE, "c", fit_size(call, kit.readable(kit.BODY), W - 48, "body"))
+    size, lines = fit_lines(others, W - 48, 3, (kit.readable(34), 34, 30))
     for i, line in enumerate(lines):
-        layer.canvas.body(line, MIDDLE, ASKS_Y + 66 + 1.3 * size * i, MIST, "c", size)
+        layer.canvas.body(line, MIDDLE, ASKS_Y + 66 + 1.3 * size * i, kit.MIST, "c", size)
     yield
     return (yield from layer.render_steps())
 
@@ -121,25 +96,38 @@ def invitation(player: int, text: str, labels: tuple[str, ...], level: int) -> L
     if 0 < level < LEVELS:
         return dimmed(invitation(player, text, labels, LEVELS), level / LEVELS)
     layer = Layer(0, 230, W, 370)
-    icon(layer.glow, "plus", MIDDLE, PLUS_Y, 30, PLAYERS[player] if level else dim(PLAYERS[player], 0.6), LINE)
+    kit.icon(
+        layer.glow,
+        "plus",
+        MIDDLE,
+        PLUS_Y,
+        30,
+        kit.PLAYERS[player] if level else kit.dim(kit.PLAYERS[player], 0.6),
+        kit.LINE,
+    )
     layer.canvas.body(
-        text, MIDDLE, ASKS_Y, ICE if level else STEEL, "c", fit_size(text, readable(BODY), W - 48, "body")
+        text,
+        MIDDLE,
+        ASKS_Y,
+        kit.ICE if level else kit.STEEL,
+        "c",
+        fit_size(text, kit.readable(kit.BODY), W - 48, "body"),
     )
     rows = rows_of(labels)
     for i, row in enumerate(rows):
-        x = MIDDLE - (sum(map(button_width, row)) + GAP * (len(row) - 1)) / 2
+        x = MIDDLE - (sum(map(kit.button_width, row)) + GAP * (len(row) - 1)) / 2
         y = BUTTONS_Y + BUTTON_PITCH * (i - (len(rows) - 1) / 2)
         for label in row:
-            x += button(layer.canvas, x, y, label, FOCUS if level else STEEL) + GAP
+            x += kit.button(layer.canvas, x, y, label, kit.FOCUS if level else kit.STEEL) + GAP
     return layer.render()
 
 
 def rows_of(labels: tuple[str, ...]) -> list[list[str]]:
     """Pack button labels into as few rows as fit on a card (first fit, widest first)."""
     rows: list[list[str]] = []
-    for label in sorted(labels, key=button_width, reverse=True):
-        room = W - 36 - button_width(label) - GAP
-        row = next((row for row in rows if sum(button_width(other) + GAP for other in row) <= room + GAP), None)
+    for label in sorted(labels, key=kit.button_width, reverse=True):
+        room = W - 36 - kit.button_width(label) - GAP
+        row = next((row for row in rows if sum(kit.button_width(other) + GAP for other in row) <= room + GAP), None)
         if row is None:
             rows.append([label])
         else:
@@ -151,55 +139,55 @@ def rows_of(labels: tuple[str, ...]) -> list[list[str]]:
 def driver(sign: str, name: str) -> LitImage:
     """Icon and name of the driver: a pad, the steering keys or an AI."""
     layer = Layer(24, DEVICE_Y - 44, W - 48, 88)
-    icon(layer.glow, sign, 78, DEVICE_Y, 36, MIST, THIN)
+    kit.icon(layer.glow, sign, 78, DEVICE_Y, 36, kit.MIST, kit.THIN)
     marks = name.split()
-    if marks and all(mark in ARROWS for mark in marks):
+    if marks and all(mark in kit.ARROWS for mark in marks):
         for i, mark in enumerate(marks):
-            icon(layer.glow, ARROWS[mark], 154 + 52 * i, DEVICE_Y, 18, ICE, LINE)
+            kit.icon(layer.glow, kit.ARROWS[mark], 154 + 52 * i, DEVICE_Y, 18, kit.ICE, kit.LINE)
     else:
-        layer.canvas.body(name, 136, DEVICE_Y, ICE, "l", fit_size(name, readable(BODY), W - 160, "body"))
+        layer.canvas.body(name, 136, DEVICE_Y, kit.ICE, "l", fit_size(name, kit.readable(kit.BODY), W - 160, "body"))
     return layer.render()
 
 
 @cached
-def strength(text: str, stars: str, color: Color | None) -> LitImage:
+def strength(text: str, stars: str, color: kit.Color | None) -> LitImage:
     """Strength of an AI, between the arrows that change it: the stars of a level, if it is one, above its name.
     `color`: of the player who has selected it, if any.
     """
     layer, room = Layer(*STRENGTH), W - 190
-    layer.glow.line(cut_box(*STRENGTH, 14), color or STEEL, THIN, True)
+    layer.glow.line(kit.cut_box(*STRENGTH, 14), color or kit.STEEL, kit.THIN, True)
     if stars:
-        layer.canvas.text(stars, STAR_SIZE, MIDDLE, STARS_Y, ICE, "head", "c")
-    lines = [text] if stars else wrap(text, BODY, room)
-    size = min(fit_size(line, readable(BODY), room) for line in lines)
+        layer.canvas.text(stars, STAR_SIZE, MIDDLE, STARS_Y, kit.ICE, "head", "c")
+    lines = [text] if stars else wrap(text, kit.BODY, room)
+    size = min(fit_size(line, kit.readable(kit.BODY), room) for line in lines)
     middle = 534 if stars else 498
     for i, line in enumerate(lines):
-        layer.canvas.text(line, size, MIDDLE, middle + 1.2 * size * (i - (len(lines) - 1) / 2), ICE, "head", "c")
-    _arrows(layer, 498, color or MIST, 20)
+        layer.canvas.text(line, size, MIDDLE, middle + 1.2 * size * (i - (len(lines) - 1) / 2), kit.ICE, "head", "c")
+    _arrows(layer, 498, color or kit.MIST, 20)
     return layer.render()
 
 
 @cached
-def driving(text: str, picture: str, color: Color | None) -> LitImage:
+def driving(text: str, picture: str, color: kit.Color | None) -> LitImage:
     """Driving style, its picture and name. `color`: see `strength`, also for the other rows."""
     layer, x, size = _row(text, DRIVE_Y, color, 76)
-    icon(layer.glow, picture, x + 28, DRIVE_Y, 27, ICE, THIN)
-    layer.canvas.crisp.text(text, size, x + 76, DRIVE_Y, ICE, "head")
+    kit.icon(layer.glow, picture, x + 28, DRIVE_Y, 27, kit.ICE, kit.THIN)
+    layer.canvas.crisp.text(text, size, x + 76, DRIVE_Y, kit.ICE, "head")
     return layer.render()
 
 
 @cached
-def team(text: str, number: int, color: Color | None) -> LitImage:
+def team(text: str, number: int, color: kit.Color | None) -> LitImage:
     """Team number and team bars."""
     layer, x, size = _row(text, ROW_Y, color, 44)
     for i in range(number + 1):
-        layer.glow.line([(x + 14 * i, ROW_Y - 17), (x + 14 * i, ROW_Y + 17)], ICE, LINE)
-    layer.canvas.crisp.text(text, size, x + 44, ROW_Y, ICE, "head")
+        layer.glow.line([(x + 14 * i, ROW_Y - 17), (x + 14 * i, ROW_Y + 17)], kit.ICE, kit.LINE)
+    layer.canvas.crisp.text(text, size, x + 44, ROW_Y, kit.ICE, "head")
     return layer.render()
 
 
 @cached
-def side(text: str, number: int, color: Color | None) -> LitImage:
+def side(text: str, number: int, color: kit.Color | None) -> LitImage:
     """Side of the factory with its emblem and colour."""
     layer, x, size = _row(text, ROW_Y, color, 48)
     emblem(layer.glow, number, x + 10, ROW_Y, 24)
@@ -208,33 +196,33 @@ def side(text: str, number: int, color: Color | None) -> LitImage:
 
 
 @cached
-def real(text: str, on: bool, middle: int, color: Color | None) -> LitImage:
+def real(text: str, on: bool, middle: int, color: kit.Color | None) -> LitImage:
     """Real or simulated robot. `middle`: y of its centre, px."""
     layer, x, size = _row(text, middle, color, 54, "body")
-    light = GREEN if on else MIST
-    layer.glow.ring(x + 18, middle, 18, light, THIN)
+    light = kit.GREEN if on else kit.MIST
+    layer.glow.ring(x + 18, middle, 18, light, kit.THIN)
     if on:
-        layer.canvas.crisp.disc(x + 18, middle, 12, GREY)
-    layer.canvas.body(text, x + 54, middle, ICE if on else MIST, "l", size)
+        layer.canvas.crisp.disc(x + 18, middle, 12, kit.GREY)
+    layer.canvas.body(text, x + 54, middle, kit.ICE if on else kit.MIST, "l", size)
     return layer.render()
 
 
-def _row(text: str, middle: int, color: Color | None, sign: int, face: str = "head") -> tuple[Layer, float, int]:
+def _row(text: str, middle: int, color: kit.Color | None, sign: int, face: str = "head") -> tuple[Layer, float, int]:
     """Row with the arrows that change it, outlined in `color` if selected. `sign`: px for the sign before the text.
     Returns the layer, x of the sign (px) and the font size.
     """
     box = (24, middle - ROW_H / 2, W - 48, ROW_H)
     layer = Layer(*box)
     if color:
-        layer.glow.line(cut_box(*box, 12), color, THIN, True)
-    size = fit_size(text, readable(BODY), W - 196 - sign, face)
-    _arrows(layer, middle, color or STEEL, 16)
-    return layer, MIDDLE - (text_width(text, size, face) + sign) / 2, size
+        layer.glow.line(kit.cut_box(*box, 12), color, kit.THIN, True)
+    size = fit_size(text, kit.readable(kit.BODY), W - 196 - sign, face)
+    _arrows(layer, middle, color or kit.STEEL, 16)
+    return layer, MIDDLE - (kit.text_width(text, size, face) + sign) / 2, size
 
 
-def _arrows(layer: Layer, middle: float, color: Color, r: int) -> None:
+def _arrows(layer: Layer, middle: float, color: kit.Color, r: int) -> None:
     for name, x in (("left", 56), ("right", W - 56)):
-        icon(layer.glow, name, x, middle, r, color, LINE)
+        kit.icon(layer.glow, name, x, middle, r, color, kit.LINE)
 
 
 @cached
@@ -242,11 +230,11 @@ def _arrows(layer: Layer, middle: float, color: Color, r: int) -> None:
 def turntable(player: int, turn: int, lit: bool, r: int) -> Steps[LitImage]:
     """Arcs around (0, 0) on a circle of `r` px, rotated by `turn` of TURNS steps towards the next arc."""
     half = r + 30
-    ink = GlowCanvas(2 * half, 2 * half)
-    color: Color = dim(PLAYERS[player], 0.8 if lit else 0.35)
+    ink = kit.GlowCanvas(2 * half, 2 * half)
+    color: kit.Color = kit.dim(kit.PLAYERS[player], 0.8 if lit else 0.35)
     for i in range(SPOKES):
         start = 0.25 + (i + turn / TURNS) * math.tau / SPOKES
-        ink.arc(half, half, r, start, start + 0.7, color, THIN)
+        ink.arc(half, half, r, start, start + 0.7, color, kit.THIN)
     yield
     return LitImage((yield from ink.lit_steps(1.0)), (-half, -half))
 

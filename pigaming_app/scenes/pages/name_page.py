@@ -5,14 +5,7 @@ import pygame
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
-from pigaming_app.ui.draw import (
-    ALARM,
-    BODY,
-    BOLD,
-    ICE,
-    MIST,
-    Color,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.layers import LEFT, RIGHT
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -101,10 +94,10 @@ class NamePage(Page):
         w = self.pitch - GAP
         for x in xs:
             letter_box(w, H).draw(screen, x, MIDDLE)
-        draw_letters(screen, self.picker, xs, MIDDLE, SIZE * w // W, 50, ICE)
-        cursor(w, H, 36, 20, BOLD, (H / 2 + 48, 30, 230)).draw(screen, xs[self.picker.slot], MIDDLE)
+        draw_letters(screen, self.picker, xs, MIDDLE, SIZE * w // W, 50, kit.ICE)
+        cursor(w, H, 36, 20, kit.BOLD, (H / 2 + 48, 30, 230)).draw(screen, xs[self.picker.slot], MIDDLE)
         line, color = self._hint()
-        text(line, BODY, color).draw(screen, 960, MIDDLE + 290)
+        text(line, kit.BODY, color).draw(screen, 960, MIDDLE + 290)
 
     def spell(self, name: str) -> None:
         """Begin with a name."""
@@ -116,13 +109,13 @@ class NamePage(Page):
 
     # ---- inside
 
-    def _hint(self) -> tuple[str, Color]:
+    def _hint(self) -> tuple[str, kit.Color]:
         words = self.context.words
         if self.unusable:
-            return words("lab.unusable"), ALARM
+            return words("lab.unusable"), kit.ALARM
         if self.taken:
-            return words("lab.taken", name=self.name), ALARM
-        return words("lab.name_how"), MIST
+            return words("lab.taken", name=self.name), kit.ALARM
+        return words("lab.name_how"), kit.MIST
 
     def _play(self, sound: str | None) -> None:
         if sound:

@@ -12,25 +12,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.phones.host import phone_host
-from pigaming_app.ui.draw import (
-    ALARM,
-    BLACK,
-    BODY,
-    FOCUS,
-    HAIR,
-    ICE,
-    LABEL,
-    MIST,
-    PLAYERS,
-    STEEL,
-    SUB,
-    THIN,
-    GlowCanvas,
-    badge,
-    cut_box,
-    dim,
-    icon,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
@@ -110,9 +92,9 @@ class JoinByPhone(Page):
             if host.server and not host.server.visited and self.age > PATIENCE:
                 hint(words("phones.firewall", port=host.server.port)).draw(screen)
         else:
-            sign("phone", 150, STEEL, THIN).draw(screen, *CODE.center)
+            sign("phone", 150, kit.STEEL, kit.THIN).draw(screen, *CODE.center)
             text = trouble(words, host)
-            for i, lit in enumerate(paragraph(text, ROOM, 4, ALARM)):
+            for i, lit in enumerate(paragraph(text, ROOM, 4, kit.ALARM)):
                 lit.draw(screen, TEXT_X, CODE.centery - 60 + 58 * i)
 
     def _seats(self, screen: pygame.Surface) -> None:
@@ -126,13 +108,13 @@ class JoinByPhone(Page):
         waiting = [device for device in self.context.controls.handhelds() if device not in devices]
         count = sum(device.kind == "phone" for device in waiting)
         if count:
-            sign("phone", 40, FOCUS, THIN, pulse(self.age)).draw(screen, TEXT_X + SEAT_W * 4 + 76, SEATS_Y + 40)
+            sign("phone", 40, kit.FOCUS, kit.THIN, pulse(self.age)).draw(screen, TEXT_X + SEAT_W * 4 + 76, SEATS_Y + 40)
             number(f"× {count}").draw(screen, TEXT_X + SEAT_W * 4 + 126, SEATS_Y + 40)
 
 
 def draw_code(screen: pygame.Surface, url: str, box: pygame.Rect) -> None:
     """Draw the QR code in the middle of a box; capitals alone make its modules larger."""
-    code = qr_code(url.upper(), box.w, BLACK, ICE)
+    code = qr_code(url.upper(), box.w, kit.BLACK, kit.ICE)
     screen.blit(code, code.get_rect(center=box.center))
 
 
@@ -146,19 +128,19 @@ def trouble(words: Words, host: PhoneHost) -> str:
     return words(f"phones.{host.trouble.key}", **host.trouble.values) if host.trouble else ""
 
 
-def _radio(ink: GlowCanvas, x: float, y: float) -> None:
-    ink.disc(x, y + 24, 6, ICE)
+def _radio(ink: kit.GlowCanvas, x: float, y: float) -> None:
+    ink.disc(x, y + 24, 6, kit.ICE)
     for r in (22, 42):
-        ink.arc(x, y + 24, r, -math.pi / 2 - 0.8, -math.pi / 2 + 0.8, ICE, THIN)
+        ink.arc(x, y + 24, r, -math.pi / 2 - 0.8, -math.pi / 2 + 0.8, kit.ICE, kit.THIN)
 
 
-def _scan(ink: GlowCanvas, x: float, y: float) -> None:
-    icon(ink, "phone", x, y, 34, ICE, THIN)
-    ink.line(cut_box(x - 9, y - 12, 18, 18, 3), FOCUS, THIN, True)
+def _scan(ink: kit.GlowCanvas, x: float, y: float) -> None:
+    kit.icon(ink, "phone", x, y, 34, kit.ICE, kit.THIN)
+    ink.line(kit.cut_box(x - 9, y - 12, 18, 18, 3), kit.FOCUS, kit.THIN, True)
 
 
-def _press(ink: GlowCanvas, x: float, y: float) -> None:
-    ink.ring(x, y, 28, ICE, THIN).text("A", BODY, x, y, ICE, "head", "c")
+def _press(ink: kit.GlowCanvas, x: float, y: float) -> None:
+    ink.ring(x, y, 28, kit.ICE, kit.THIN).text("A", kit.BODY, x, y, kit.ICE, "head", "c")
 
 
 SKETCHES = (_radio, _scan, _press)  # of the steps: the network, the code, the button
@@ -171,10 +153,10 @@ def steps(lines: tuple[str, ...]) -> Steps[LitImage]:
     layer = Layer(TEXT_X, STEPS_Y - 50, ROOM, STEP * len(lines))
     for i, line in enumerate(lines):
         y = STEPS_Y + STEP * i
-        layer.glow.ring(TEXT_X + 34, y, 34, FOCUS, THIN)
-        layer.canvas.crisp.text(str(i + 1), LABEL, TEXT_X + 34, y, FOCUS, "head", "c")
+        layer.glow.ring(TEXT_X + 34, y, 34, kit.FOCUS, kit.THIN)
+        layer.canvas.crisp.text(str(i + 1), kit.LABEL, TEXT_X + 34, y, kit.FOCUS, "head", "c")
         SKETCHES[i](layer.glow, TEXT_X + 124, y)
-        layer.canvas.body(line, TEXT_X + 188, y, ICE, "l", fit_size(line, BODY, ROOM - 188, "body"))
+        layer.canvas.body(line, TEXT_X + 188, y, kit.ICE, "l", fit_size(line, kit.BODY, ROOM - 188, "body"))
         yield
     return (yield from layer.render_steps())
 
@@ -184,9 +166,9 @@ def steps(lines: tuple[str, ...]) -> Steps[LitImage]:
 def address(label: str, text: str) -> Steps[LitImage]:
     """The address in plain text, below a label."""
     layer = Layer(TEXT_X, ADDRESS_Y - 90, ROOM, 150)
-    layer.canvas.body(label, TEXT_X, ADDRESS_Y - 62, MIST, "l", 34)
-    layer.canvas.text(text, fit_size(text, SUB, ROOM), TEXT_X, ADDRESS_Y + 6, FOCUS)
-    layer.glow.line([(TEXT_X, ADDRESS_Y + 66), (RIGHT, ADDRESS_Y + 66)], dim(STEEL, 0.6), HAIR)
+    layer.canvas.body(label, TEXT_X, ADDRESS_Y - 62, kit.MIST, "l", 34)
+    layer.canvas.text(text, fit_size(text, kit.SUB, ROOM), TEXT_X, ADDRESS_Y + 6, kit.FOCUS)
+    layer.glow.line([(TEXT_X, ADDRESS_Y + 66), (RIGHT, ADDRESS_Y + 66)], kit.dim(kit.STEEL, 0.6), kit.HAIR)
     yield
     return (yield from layer.render_steps())
 
@@ -195,10 +177,10 @@ def address(label: str, text: str) -> Steps[LitImage]:
 def seat_sign(seat: int, kind: str) -> LitImage:
     """The badge of a seat, and its device, if any; upper left corner at (0, 0)."""
     layer = Layer(0, 0, SEAT_W - 12, 80)
-    color = PLAYERS[seat] if kind else dim(PLAYERS[seat], 0.45)
-    badge(layer.glow, seat, 36, 40, 32, color)
+    color = kit.PLAYERS[seat] if kind else kit.dim(kit.PLAYERS[seat], 0.45)
+    kit.badge(layer.glow, seat, 36, 40, 32, color)
     if kind:
-        icon(layer.glow, kind, 100, 40, 26, ICE, THIN)
+        kit.icon(layer.glow, kind, 100, 40, 26, kit.ICE, kit.THIN)
     return layer.render()
 
 
@@ -206,7 +188,7 @@ def seat_sign(seat: int, kind: str) -> LitImage:
 def number(text: str) -> LitImage:
     """A number, its left end at (0, 0)."""
     layer = Layer(0, -30, 110, 60)
-    layer.canvas.text(text, LABEL, 0, 0, FOCUS)
+    layer.canvas.text(text, kit.LABEL, 0, 0, kit.FOCUS)
     return layer.render()
 
 
@@ -215,5 +197,5 @@ def hint(text: str) -> LitImage:
     """Advice in up to two lines at the foot of the text's column."""
     layer = Layer(TEXT_X, HELP_Y - 30, ROOM, 100)
     for i, line in enumerate(wrap(text, 32, ROOM)[:2]):
-        layer.canvas.body(line, TEXT_X, HELP_Y + 44 * i, MIST, "l", 32)
+        layer.canvas.body(line, TEXT_X, HELP_Y + 44 * i, kit.MIST, "l", 32)
     return layer.render()

@@ -9,22 +9,7 @@ from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
-from pigaming_app.ui.draw import (
-    BODY,
-    ICE,
-    KEYPAD,
-    LINE,
-    MIST,
-    PLAYERS,
-    STEEL,
-    THIN,
-    TITLE,
-    badge,
-    button,
-    icon,
-    panel,
-    prompt_size,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, budget
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.text import fit_size
@@ -86,38 +71,40 @@ class DeviceTable:
     def _heading(self) -> Layer:
         layer = Layer(LEFT, 54, RIGHT - LEFT, 130)
         text = self.context.words("pause.drives")
-        layer.canvas.text(text, fit_size(text, TITLE, RIGHT - LEFT), LEFT, 112)
-        layer.glow.line([(LEFT, 176), (RIGHT, 176)], STEEL, THIN).line([(LEFT, 176), (LEFT + 218, 176)], ICE, LINE)
+        layer.canvas.text(text, fit_size(text, kit.TITLE, RIGHT - LEFT), LEFT, 112)
+        layer.glow.line([(LEFT, 176), (RIGHT, 176)], kit.STEEL, kit.THIN).line(
+            [(LEFT, 176), (LEFT + 218, 176)], kit.ICE, kit.LINE
+        )
         return layer
 
     def _row(self, i: int, seat: int, device: Device) -> Layer:
         words, controls = self.context.words, self.context.controls
         y = TOP + PITCH * i + HIGH // 2
         layer = Layer(LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH)
-        panel(layer.glow, LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH, PLAYERS[seat], THIN)
-        badge(layer.glow, seat, LEFT + 84, y, 40)
-        icon(layer.glow, controls.sign(device), NAMES + 40, y, 34, MIST, THIN)
+        kit.panel(layer.glow, LEFT, y - HIGH // 2, RIGHT - LEFT, HIGH, kit.PLAYERS[seat], kit.THIN)
+        kit.badge(layer.glow, seat, LEFT + 84, y, 40)
+        kit.icon(layer.glow, controls.sign(device), NAMES + 40, y, 34, kit.MIST, kit.THIN)
         name = words(f"devices.{controls.name(device)}")
-        layer.canvas.body(name, NAMES + 96, y, ICE, "l", fit_size(name, BODY, MOVES - NAMES - 112, "body"))
+        layer.canvas.body(name, NAMES + 96, y, kit.ICE, "l", fit_size(name, kit.BODY, MOVES - NAMES - 112, "body"))
         self._moves(layer, device, y)
         for x, function, name in ((FIRES, Button.FIRE, "pause.fires"), (TURBO, Button.LEAVE_SEAT, "pause.turbo")):
             label, what = words.key_name(controls.label(device, function)), words(name)
-            size = prompt_size([(label, what)], TURBO - FIRES - 24)
-            wide = button(layer.canvas, x, y, label, size=size)
-            layer.canvas.body(what, x + wide + 18, y, MIST, size=size)
+            size = kit.prompt_size([(label, what)], TURBO - FIRES - 24)
+            wide = kit.button(layer.canvas, x, y, label, size=size)
+            layer.canvas.body(what, x + wide + 18, y, kit.MIST, size=size)
         return layer
 
     def _moves(self, layer: Layer, device: Device, y: float) -> None:
         x = MOVES
         if device.has_stick:
-            layer.glow.ring(x + 30, y, 30, ICE, THIN).ring(x + 30, y, 13, ICE, THIN)
+            layer.glow.ring(x + 30, y, 30, kit.ICE, kit.THIN).ring(x + 30, y, 13, kit.ICE, kit.THIN)
             x += 78
         controls = self.context.controls
         keypad = controls.name(device) == "Keypad"
-        for mark in [KEYPAD] if keypad else controls.moves(device).replace(" ", ""):
-            button(layer.canvas, x, y, mark)
+        for mark in [kit.KEYPAD] if keypad else controls.moves(device).replace(" ", ""):
+            kit.button(layer.canvas, x, y, mark)
             x += 66
         style = self.style_of(device)
-        icon(layer.glow, PICTURES[style], x + 36, y, 24, ICE, THIN)
+        kit.icon(layer.glow, PICTURES[style], x + 36, y, 24, kit.ICE, kit.THIN)
         name = self.context.words(f"lobby.drive_{style}")
-        layer.canvas.body(name, x + 72, y, MIST, "l", fit_size(name, BODY, FIRES - x - 84, "body"))
+        layer.canvas.body(name, x + 72, y, kit.MIST, "l", fit_size(name, kit.BODY, FIRES - x - 84, "body"))

@@ -21,21 +21,7 @@ from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.views.hud.ai_sign import name_of
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.sim.things.spec import ThingSpec
-from pigaming_app.ui.draw import (
-    ALARM,
-    FOCUS,
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    PLAYERS,
-    TITLE,
-    Color,
-    badge,
-    button,
-    button_width,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, fit_text, word
@@ -182,10 +168,10 @@ class Pause:
 
     def draw(self, screen: pygame.Surface) -> None:
         if self.picture is None:
-            color = ICE if self.player is None else PLAYERS[self.player]
+            color = kit.ICE if self.player is None else kit.PLAYERS[self.player]
             self.picture = overlay(self.match.runner.picture(), color, self._paint)
         screen.blit(self.picture, (0, 0))
-        color, box = (ALARM if self.confirm_left > 0.0 else FOCUS), self.focus.spot.rect
+        color, box = (kit.ALARM if self.confirm_left > 0.0 else kit.FOCUS), self.focus.spot.rect
         self.focus.draw(screen, color)
         if self.confirm_left > 0.0:
             pygame.draw.rect(screen, (0, 0, 0), box)
@@ -193,10 +179,12 @@ class Pause:
                 screen, *box.center
             )
         else:
-            word(self.context.words(f"pause.{self.focus.name}"), LABEL, color, "head", 0.45).draw(screen, *box.center)
+            word(self.context.words(f"pause.{self.focus.name}"), kit.LABEL, color, "head", 0.45).draw(
+                screen, *box.center
+            )
         self._draw_owned(screen)
         if self.explain_left > 0.0:
-            caption(self._rejection(), FOCUS).draw(screen, 960, PROMPTS)
+            caption(self._rejection(), kit.FOCUS).draw(screen, 960, PROMPTS)
         else:
             self.prompts.draw(screen)
         self.match.robots.draw_overlay(screen)
@@ -209,9 +197,11 @@ class Pause:
         """The ring with the remaining seconds of ownership."""
         if not self.access.owned or len(self.access.seated) < 2:
             return
-        image, dx, dy = timer_ring(FOCUS, math.ceil(12 * self.access.seconds_left / OWNER_SECONDS) * 4, 46, LINE)
+        image, dx, dy = timer_ring(
+            kit.FOCUS, math.ceil(12 * self.access.seconds_left / OWNER_SECONDS) * 4, 46, kit.LINE
+        )
         screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=pygame.BLEND_RGB_ADD)
-        word(str(math.ceil(self.access.seconds_left)), LABEL, FOCUS, "head").draw(screen, *RING)
+        word(str(math.ceil(self.access.seconds_left)), kit.LABEL, kit.FOCUS, "head").draw(screen, *RING)
 
     def _rejection(self) -> str:
         """The reason for which a press was rejected."""
@@ -238,18 +228,18 @@ class Pause:
     def _paint(self, layer: Layer) -> None:
         words = self.context.words
         text = words("pause.paused") if self.player is None else player_line(self.match, "pause.by", self.player)
-        sheet_title(layer, self.player, text, ICE, RING[0] - 80)
+        sheet_title(layer, self.player, text, kit.ICE, RING[0] - 80)
         if self.match.robots.things:
-            layer.canvas.body(things_line(words, len(self.match.robots.things)), X + 72, HEAD - 24, MIST, "l", 34)
+            layer.canvas.body(things_line(words, len(self.match.robots.things)), X + 72, HEAD - 24, kit.MIST, "l", 34)
         for spot in self.focus.spots:
-            layer.canvas.text(words(f"pause.{spot.name}"), LABEL, *spot.rect.center, MIST, "head", "c")
+            layer.canvas.text(words(f"pause.{spot.name}"), kit.LABEL, *spot.rect.center, kit.MIST, "head", "c")
 
 
 def player_line(match: PausedMatch, key: str, seat: int) -> str:
     """The text of `key` about who plays on a seat: an entrant by name, anybody else by number."""
     words = match.context.words
     if name := name_of(match.names, seat):
-        return words(f"{key}_name", name=fit_text(name, LABEL, NAME_ROOM, "head", LABEL)[0])
+        return words(f"{key}_name", name=fit_text(name, kit.LABEL, NAME_ROOM, "head", kit.LABEL)[0])
     return words(key, player=seat + 1)
 
 
@@ -272,21 +262,21 @@ def menu_spots(names: Sequence[str] = ITEMS) -> list[FocusSpot]:
 def sure(sentence: str, label: str) -> LitImage:
     """A confirmation prompt centred on (0, 0); "{button}" in the text is replaced by the drawn button."""
     before, _, after = sentence.partition("{button}")
-    wide = button_width(label) + 36
-    size = fit_size(before.strip() + after.strip(), LABEL, ITEM_W - 24 - wide)
-    ends = [text_width(part.strip(), size) for part in (before, after)]
+    wide = kit.button_width(label) + 36
+    size = fit_size(before.strip() + after.strip(), kit.LABEL, ITEM_W - 24 - wide)
+    ends = [kit.text_width(part.strip(), size) for part in (before, after)]
     x = -(sum(ends) + wide) / 2
     layer = Layer(x, -40, -2 * x, 80)
-    layer.canvas.text(before.strip(), size, x, 0, ALARM)
-    button(layer.canvas, x + ends[0] + 18, 0, label, ALARM)
-    layer.canvas.text(after.strip(), size, x + ends[0] + wide, 0, ALARM)
+    layer.canvas.text(before.strip(), size, x, 0, kit.ALARM)
+    kit.button(layer.canvas, x + ends[0] + 18, 0, label, kit.ALARM)
+    layer.canvas.text(after.strip(), size, x + ends[0] + wide, 0, kit.ALARM)
     return layer.render()
 
 
-def sheet_title(layer: Layer, player: int | None, text: str, color: Color, right: float = X + W - 60) -> None:
+def sheet_title(layer: Layer, player: int | None, text: str, color: kit.Color, right: float = X + W - 60) -> None:
     """The head of a dialog: an optional badge and one line that ends before x = `right`."""
     x = X + 72
     if player is not None:
-        badge(layer.glow, player, X + 122, Y + 124 - (8 if player == 1 else 0), 60)
+        kit.badge(layer.glow, player, X + 122, Y + 124 - (8 if player == 1 else 0), 60)
         x = X + 232
-    layer.canvas.text(text, fit_size(text, TITLE, right - x), x, Y + 116, color)
+    layer.canvas.text(text, fit_size(text, kit.TITLE, right - x), x, Y + 116, color)

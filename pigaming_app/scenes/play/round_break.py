@@ -8,20 +8,7 @@ import pygame
 from pigaming_app.games.game import Outcome
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.play.side_hints import X
-from pigaming_app.ui.draw import (
-    BODY,
-    FOCUS,
-    ICE,
-    LABEL,
-    MIST,
-    PLAYERS,
-    STEEL,
-    SUB,
-    WHITE,
-    badge,
-    mix,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, text
@@ -58,33 +45,39 @@ class RoundBreak:
         """Draw the page; `behind` returns the darkened match."""
         last = self.rounds.outcomes[-1]
         if self.picture is None:
-            color = PLAYERS[last.winners[0]] if last.winners else STEEL
+            color = kit.PLAYERS[last.winners[0]] if last.winners else kit.STEEL
             self.picture = overlay(behind(), color, self._paint, (self.words.language, id(self)))
         screen.blit(self.picture, (0, 0))
         left = max(1, math.ceil(SECONDS - self.age))
         line = self.words("rounds.next", round=self.rounds.number, seconds=left)
-        text(line, LABEL, FOCUS, "head", "c", W - 80).draw(screen, 960, FOOT + 60)
+        text(line, kit.LABEL, kit.FOCUS, "head", "c", W - 80).draw(screen, 960, FOOT + 60)
 
     def _paint(self, layer: Layer) -> None:
         last, wins = self.rounds.outcomes[-1], self.rounds.wins()
         x = SHEET_X + 72.0
         for seat in last.winners:
-            badge(layer.glow, seat, x + 46, Y + 116, 46)
+            kit.badge(layer.glow, seat, x + 46, Y + 116, 46)
             x += 116
         title = round_title(self.words, last, self.rounds.number - 1, self.drivers)
-        layer.canvas.text(title, fit_size(title, SUB, SHEET_X + W - 60 - x), x, Y + 116, ICE)
+        layer.canvas.text(title, fit_size(title, kit.SUB, SHEET_X + W - 60 - x), x, Y + 116, kit.ICE)
         rows = self.rounds.outcome().rows
         pitch = (FOOT - HEAD) / len(rows)
         points = {row.seat: row.score for row in last.rows}
         for i, row in enumerate(rows):
             y = HEAD + pitch * (i + 0.5)
-            badge(layer.glow, row.seat, SHEET_X + 118, y, 30)
-            pips(layer, SHEET_X + 220, y, wins[row.seat], self.rounds.needed, PLAYERS[row.seat], 16)
+            kit.badge(layer.glow, row.seat, SHEET_X + 118, y, 30)
+            pips(layer, SHEET_X + 220, y, wins[row.seat], self.rounds.needed, kit.PLAYERS[row.seat], 16)
             layer.canvas.text(
-                signed(points[row.seat]), LABEL, SCORES, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r"
+                signed(points[row.seat]),
+                kit.LABEL,
+                SCORES,
+                y,
+                kit.mix(kit.PLAYERS[row.seat], kit.WHITE, 0.3),
+                "hero",
+                "r",
             )
             total = self.words("rounds.total", points=numeral(row.score))
-            layer.canvas.body(total, SHEET_X + W - 72, y, MIST, "r", fit_size(total, BODY, 440, "body"))
+            layer.canvas.body(total, SHEET_X + W - 72, y, kit.MIST, "r", fit_size(total, kit.BODY, 440, "body"))
 
 
 def round_title(words: Words, last: Outcome, number: int, drivers: Sequence[str]) -> str:
@@ -110,11 +103,11 @@ def draw_margin(screen: pygame.Surface, words: Words, rounds: Rounds, seats: Seq
 def margin(label: str, figure: str, standings: tuple[tuple[int, int], ...], needed: int) -> LitImage:
     """A word above a number, and a badge with pips for each robot."""
     layer = Layer(MARGIN_X - MARGIN_W / 2, MARGIN_Y - 24, MARGIN_W, 160 + MARGIN_PITCH * len(standings))
-    size = min(BODY, round(BODY * MARGIN_W / text_width(label, BODY)))
-    layer.canvas.text(label, size, MARGIN_X, MARGIN_Y, ICE, "head", "c")
-    layer.canvas.text(figure, LABEL, MARGIN_X, MARGIN_Y + 58, FOCUS, "head", "c")
+    size = min(kit.BODY, round(kit.BODY * MARGIN_W / kit.text_width(label, kit.BODY)))
+    layer.canvas.text(label, size, MARGIN_X, MARGIN_Y, kit.ICE, "head", "c")
+    layer.canvas.text(figure, kit.LABEL, MARGIN_X, MARGIN_Y + 58, kit.FOCUS, "head", "c")
     for i, (seat, won) in enumerate(standings):
         y = MARGIN_Y + 140 + MARGIN_PITCH * i
-        badge(layer.glow, seat, MARGIN_X - 38, y, 22)
-        pips(layer, MARGIN_X + 12, y, won, needed, PLAYERS[seat], PIP)
+        kit.badge(layer.glow, seat, MARGIN_X - 38, y, 22)
+        pips(layer, MARGIN_X + 12, y, won, needed, kit.PLAYERS[seat], PIP)
     return layer.render()

@@ -9,25 +9,7 @@ from pigaming_app.games.arenas import parse
 from pigaming_app.games.replay import Replay
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.views.hud.ai_sign import level_mark
-from pigaming_app.ui.draw import (
-    ALARM,
-    BODY,
-    FOCUS,
-    ICE,
-    LABEL,
-    MIST,
-    PLAYERS,
-    STEEL,
-    THIN,
-    WHITE,
-    badge,
-    button,
-    button_width,
-    cut_box,
-    icon,
-    mix,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
@@ -89,7 +71,7 @@ def row(words: Words, entry: ReplayEntry, hot: bool) -> list[LitImage]:
 def game_name(game: str, hot: bool) -> LitImage:
     """Name of the game in a row; `hot`: the row is focused."""
     layer = Layer(GAME, 0, ROOM, HIGH)
-    layer.canvas.text(game, fit_size(game, LABEL, ROOM), GAME, HIGH / 2, FOCUS if hot else ICE, "head")
+    layer.canvas.text(game, fit_size(game, kit.LABEL, ROOM), GAME, HIGH / 2, kit.FOCUS if hot else kit.ICE, "head")
     return layer.render()
 
 
@@ -98,21 +80,21 @@ def game_name(game: str, hot: bool) -> LitImage:
 def whole(arena: str, when: str, seats: tuple[tuple[int, str, int | None, bool], ...]) -> Steps[LitImage]:
     """A valid replay without its game; `seats`: seat, driver, points if known, whether it won."""
     layer, y = _frame(), HIGH / 2
-    layer.canvas.body(arena, ARENA, y, MIST, "l", fit_size(arena, BODY, ROOM, "body"))
-    layer.canvas.body(when, TIME, y, MIST, "l", fit_size(when, BODY, PLAYERS_X - TIME - 24, "body"))
+    layer.canvas.body(arena, ARENA, y, kit.MIST, "l", fit_size(arena, kit.BODY, ROOM, "body"))
+    layer.canvas.body(when, TIME, y, kit.MIST, "l", fit_size(when, kit.BODY, PLAYERS_X - TIME - 24, "body"))
     for i, (seat, brain, score, won) in enumerate(seats):
         x = PLAYERS_X + SLOT * i
-        badge(layer.glow, seat, x + 28, y + 4, 24)
+        kit.badge(layer.glow, seat, x + 28, y + 4, 24)
         if text := level_mark(brain):
-            layer.canvas.crisp.text(text, 28, x + 75, y + 22, MIST, "head", "c")
+            layer.canvas.crisp.text(text, 28, x + 75, y + 22, kit.MIST, "head", "c")
         else:
-            icon(layer.glow, "pad" if brain == "human" else "ai", x + 76, y + 20, 13, MIST, 3)
+            kit.icon(layer.glow, "pad" if brain == "human" else "ai", x + 76, y + 20, 13, kit.MIST, 3)
         if won:
-            icon(layer.glow, "crown", x + 76, y - 18, 15, FOCUS, 3)
+            kit.icon(layer.glow, "crown", x + 76, y - 18, 15, kit.FOCUS, 3)
         if score is not None:
             said = numeral(score)
-            size = fit_size(said, LABEL, SLOT - 104, "hero")
-            layer.canvas.text(said, size, x + 100, y + 4, mix(PLAYERS[seat], WHITE, 0.3), "hero")
+            size = fit_size(said, kit.LABEL, SLOT - 104, "hero")
+            layer.canvas.text(said, size, x + 100, y + 4, kit.mix(kit.PLAYERS[seat], kit.WHITE, 0.3), "hero")
         yield
     return (yield from layer.render_steps())
 
@@ -122,10 +104,10 @@ def whole(arena: str, when: str, seats: tuple[tuple[int, str, int | None, bool],
 def damaged(line: str) -> Steps[LitImage]:
     """Row of a file that cannot be played."""
     layer = _frame()
-    icon(layer.glow, "cross", GAME + 20, HIGH / 2, 18, ALARM, THIN)
+    kit.icon(layer.glow, "cross", GAME + 20, HIGH / 2, 18, kit.ALARM, kit.THIN)
     room = W - GAME - 64 - CROSS - 40
-    line, size = fit_text(line, BODY, room, "body")
-    layer.canvas.body(line, GAME + 64, HIGH / 2, MIST, "l", size)
+    line, size = fit_text(line, kit.BODY, room, "body")
+    layer.canvas.body(line, GAME + 64, HIGH / 2, kit.MIST, "l", size)
     yield
     return (yield from layer.render_steps())
 
@@ -137,10 +119,10 @@ def question(sentence: str, label: str) -> Steps[LitImage]:
     layer, y = _frame(), HIGH / 2
     before, _, after = sentence.partition("{button}")
     x = float(GAME)
-    layer.canvas.text(before.strip(), LABEL, x, y, FOCUS, "head")
-    x += text_width(before.strip(), LABEL) + 20
-    button(layer.canvas, x, y, label, FOCUS)
-    layer.canvas.text(after.strip(), LABEL, x + button_width(label) + 20, y, FOCUS, "head")
+    layer.canvas.text(before.strip(), kit.LABEL, x, y, kit.FOCUS, "head")
+    x += kit.text_width(before.strip(), kit.LABEL) + 20
+    kit.button(layer.canvas, x, y, label, kit.FOCUS)
+    layer.canvas.text(after.strip(), kit.LABEL, x + kit.button_width(label) + 20, y, kit.FOCUS, "head")
     yield
     return (yield from layer.render_steps())
 
@@ -149,11 +131,11 @@ def question(sentence: str, label: str) -> Steps[LitImage]:
 def cross(lit: bool) -> LitImage:
     """The cross that deletes; top left at (0, 0)."""
     layer = Layer(0, 0, CROSS, CROSS)
-    icon(layer.glow, "cross", CROSS / 2, CROSS / 2, 16, FOCUS if lit else STEEL, THIN)
+    kit.icon(layer.glow, "cross", CROSS / 2, CROSS / 2, 16, kit.FOCUS if lit else kit.STEEL, kit.THIN)
     return layer.render()
 
 
 def _frame() -> Layer:
     layer = Layer(0, 0, W, HIGH)
-    layer.glow.line(cut_box(0, 0, W, HIGH, 16), STEEL, THIN, True)
+    layer.glow.line(kit.cut_box(0, 0, W, HIGH, 16), kit.STEEL, kit.THIN, True)
     return layer

@@ -6,24 +6,7 @@ import pygame
 
 from pigaming_app.scenes.results.spelling import Spelling
 from pigaming_app.scenes.views.sprites.effects import timer_ring
-from pigaming_app.ui.draw import (
-    ADD,
-    ALARM,
-    BODY,
-    FOCUS,
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    PLAYERS,
-    STEEL,
-    THIN,
-    TITLE,
-    badge,
-    cut_box,
-    panel,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
@@ -56,19 +39,19 @@ def panel_at(x: int) -> pygame.Rect:
 def frame(seat: int, label: str, lines: tuple[tuple[str, str], ...], done: bool) -> Steps[LitImage]:
     """Panel without its letters: player, qualifying results and the letter boxes."""
     layer = Layer(0, 0, W, H)
-    panel(layer.glow, 0, 0, W, H, PLAYERS[seat], LINE if done else THIN)
-    badge(layer.glow, seat, 72, 76, 36)
-    layer.canvas.text(label, fit_size(label, LABEL, W - 160), 136, 76, ICE)
+    kit.panel(layer.glow, 0, 0, W, H, kit.PLAYERS[seat], kit.LINE if done else kit.THIN)
+    kit.badge(layer.glow, seat, 72, 76, 36)
+    layer.canvas.text(label, fit_size(label, kit.LABEL, W - 160), 136, 76, kit.ICE)
     for i, (name, value) in enumerate(lines):
         y = LINES_Y + LINE_PITCH * i
         room = W - 48
         if value:
-            layer.canvas.text(value, LABEL, W - 24, y, FOCUS, "hero", "r")
-            room -= round(text_width(value, LABEL, "hero")) + 20
-        layer.canvas.body(name, 24, y, ICE if value else MIST, "l", fit_size(name, BODY, room, "body"))
+            layer.canvas.text(value, kit.LABEL, W - 24, y, kit.FOCUS, "hero", "r")
+            room -= round(kit.text_width(value, kit.LABEL, "hero")) + 20
+        layer.canvas.body(name, 24, y, kit.ICE if value else kit.MIST, "l", fit_size(name, kit.BODY, room, "body"))
     for i in range(3):
-        box = cut_box(slot_x(i) - SLOT_W / 2, LETTERS_Y - SLOT_H / 2, SLOT_W, SLOT_H, 14)
-        layer.glow.line(box, STEEL, THIN, True)
+        box = kit.cut_box(slot_x(i) - SLOT_W / 2, LETTERS_Y - SLOT_H / 2, SLOT_W, SLOT_H, 14)
+        layer.glow.line(box, kit.STEEL, kit.THIN, True)
     yield
     return (yield from layer.render_steps())
 
@@ -77,10 +60,10 @@ def letters(screen: pygame.Surface, x: int, seat: int, spelling: Spelling) -> No
     """Draw a player's three letters in the panel at `x`, with corners around the selected one."""
     shake = 10 * math.sin(spelling.shaking * 50) if spelling.refused else 0.0
     xs = [x + slot_x(i) + shake for i in range(3)]
-    draw_letters(screen, spelling.picker, xs, TOP_Y + LETTERS_Y, TITLE, 40, PLAYERS[seat], not spelling.done)
+    draw_letters(screen, spelling.picker, xs, TOP_Y + LETTERS_Y, kit.TITLE, 40, kit.PLAYERS[seat], not spelling.done)
     if not spelling.done:
         arrows = (ARROW_Y, 18, ARROW_Y + 30)
-        lit = cursor(SLOT_W, SLOT_H, 20, 14, LINE, arrows)
+        lit = cursor(SLOT_W, SLOT_H, 20, 14, kit.LINE, arrows)
         lit.draw(screen, x + slot_x(spelling.picker.slot), TOP_Y + LETTERS_Y)
 
 
@@ -88,7 +71,7 @@ def letters(screen: pygame.Surface, x: int, seat: int, spelling: Spelling) -> No
 def refused(label: str) -> LitImage:
     """Text that replaces the button while rejected letters shake."""
     layer = Layer(*BAR)
-    layer.canvas.body(label, MIDDLE, BAR_Y, ALARM, "c", fit_size(label, BODY, W - 48, "body"))
+    layer.canvas.body(label, MIDDLE, BAR_Y, kit.ALARM, "c", fit_size(label, kit.BODY, W - 48, "body"))
     return layer.render()
 
 
@@ -99,6 +82,6 @@ def slot_x(slot: int) -> float:
 
 def clock(screen: pygame.Surface, left: float, whole: float) -> None:
     """Draw the remaining seconds in a ring."""
-    image, dx, dy = timer_ring(FOCUS, 4 * math.ceil(12 * left / whole), 46, LINE)
-    screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=ADD)
-    word(str(math.ceil(left)), LABEL, FOCUS, "head").draw(screen, *RING)
+    image, dx, dy = timer_ring(kit.FOCUS, 4 * math.ceil(12 * left / whole), 46, kit.LINE)
+    screen.blit(image, (RING[0] + dx, RING[1] + dy), special_flags=kit.ADD)
+    word(str(math.ceil(left)), kit.LABEL, kit.FOCUS, "head").draw(screen, *RING)

@@ -11,24 +11,7 @@ from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_c
 from pigaming_app.scenes.results.podium import FIRST, Podium, stands
 from pigaming_app.scenes.results.view import line
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
-from pigaming_app.ui.draw import (
-    BODY,
-    FOCUS,
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    PLAYERS,
-    STEEL,
-    SUB,
-    THIN,
-    TITLE,
-    WHITE,
-    badge,
-    mix,
-    panel,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import budget, finished_within
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.text import fit_size
@@ -89,8 +72,8 @@ class PodiumPage:
 
     def _render_parts(self) -> Iterator[None]:
         """Render one widget per step."""
-        color = winning_color(self.outcome, self.ended.setup) if self.winners else ICE
-        self.colored, self.steel = line(color, RIGHT - LEFT), line(STEEL, RIGHT - LEFT, THIN)
+        color = winning_color(self.outcome, self.ended.setup) if self.winners else kit.ICE
+        self.colored, self.steel = line(color, RIGHT - LEFT), line(kit.STEEL, RIGHT - LEFT, kit.THIN)
         yield
         self.title = self._title()
         yield
@@ -107,13 +90,13 @@ class PodiumPage:
         layer = Layer(LEFT, 54, RIGHT - LEFT, 116)
         x = LEFT
         for seat in self.winners:
-            badge(layer.glow, seat, x + 52, 110, 50)
+            kit.badge(layer.glow, seat, x + 52, 110, 50)
             x += 128
         x += 14 if self.winners else 0
         ended = headline(words, self.ended)
         said = ended if self.finished else words("results.ended")
-        color = winning_color(self.outcome, self.ended.setup) if self.winners else ICE
-        layer.canvas.text(said, fit_size(said, TITLE, RIGHT - x), x, 112, color)
+        color = winning_color(self.outcome, self.ended.setup) if self.winners else kit.ICE
+        layer.canvas.text(said, fit_size(said, kit.TITLE, RIGHT - x), x, 112, color)
         return layer.render()
 
     def _heads(self) -> LitImage:
@@ -122,11 +105,11 @@ class PodiumPage:
         x, w = span(6, 6)
         layer = Layer(x, 206, w, 60)
         said = words("rounds.wins")
-        layer.canvas.body(said, x + PIPS_X - PIP, 236, MIST, "l", fit_size(said, BODY, 150, "body"))
+        layer.canvas.body(said, x + PIPS_X - PIP, 236, kit.MIST, "l", fit_size(said, kit.BODY, 150, "body"))
         for k in range(len(self.rounds.outcomes)):
-            layer.canvas.body(str(k + 1), x + ROUNDS_X + ROUND_PITCH * k, 236, MIST, "r")
+            layer.canvas.body(str(k + 1), x + ROUNDS_X + ROUND_PITCH * k, 236, kit.MIST, "r")
         said = words("results.score")
-        layer.canvas.body(said, x + w - 32, 236, MIST, "r", fit_size(said, BODY, 180, "body"))
+        layer.canvas.body(said, x + w - 32, 236, kit.MIST, "r", fit_size(said, kit.BODY, 180, "body"))
         return layer.render()
 
     def _row(self, row: Row, y: int) -> LitImage:
@@ -134,21 +117,25 @@ class PodiumPage:
         x, w = span(6, 6)
         wins = row.seat in self.winners
         layer = Layer(x, y, w, ROW)
-        panel(layer.glow, x, y, w, ROW, PLAYERS[row.seat] if wins else STEEL, LINE if wins else THIN)
+        kit.panel(
+            layer.glow, x, y, w, ROW, kit.PLAYERS[row.seat] if wins else kit.STEEL, kit.LINE if wins else kit.THIN
+        )
         middle = y + ROW / 2
-        badge(layer.glow, row.seat, x + 76, middle, 38)
+        kit.badge(layer.glow, row.seat, x + 76, middle, 38)
         if brain := self.ended.brain(row.seat):
-            ai_mark(layer.glow, brain, x + 146, middle, MIST)
-        pips(layer, x + PIPS_X, middle, int(row.stats["wins"]), self.rounds.needed, PLAYERS[row.seat], PIP)
+            ai_mark(layer.glow, brain, x + 146, middle, kit.MIST)
+        pips(layer, x + PIPS_X, middle, int(row.stats["wins"]), self.rounds.needed, kit.PLAYERS[row.seat], PIP)
         for k, (points, ended) in enumerate(zip(self.rounds.points(row.seat), self.rounds.outcomes, strict=True)):
-            color = FOCUS if row.seat in ended.winners else MIST
+            color = kit.FOCUS if row.seat in ended.winners else kit.MIST
             said = numeral(points)
-            size = fit_size(said, LABEL, ROUND_PITCH - 16)
+            size = fit_size(said, kit.LABEL, ROUND_PITCH - 16)
             right = x + ROUNDS_X + ROUND_PITCH * k
             layer.canvas.crisp.text(said, size, right, middle, color, "head", "r")
             if row.seat in ended.winners:
-                layer.canvas.crisp.line([(right - text_width(said, size), middle + 32), (right, middle + 32)], color, 4)
+                layer.canvas.crisp.line(
+                    [(right - kit.text_width(said, size), middle + 32), (right, middle + 32)], color, 4
+                )
         said = numeral(row.score)
-        size = fit_size(said, SUB, 150, "hero")
-        layer.canvas.text(said, size, x + w - 32, middle, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
+        size = fit_size(said, kit.SUB, 150, "hero")
+        layer.canvas.text(said, size, x + w - 32, middle, kit.mix(kit.PLAYERS[row.seat], kit.WHITE, 0.3), "hero", "r")
         return layer.render()

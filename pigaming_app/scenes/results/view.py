@@ -16,26 +16,7 @@ from pigaming_app.scenes.results.high_score_tables import clock, contest, format
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.scenes.views.sprites.stars import HIGH, star_row
-from pigaming_app.ui.draw import (
-    BODY,
-    FOCUS,
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    PLAYERS,
-    STEEL,
-    SUB,
-    THIN,
-    TITLE,
-    WHITE,
-    Color,
-    badge,
-    icon,
-    mix,
-    panel,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import budget, finished_within
 from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.text import fit_size
@@ -120,7 +101,7 @@ class ResultsPage:
     def _render_parts(self) -> Iterator[bool]:
         """Render one widget per step."""
         self.colored = line(self._color(), RIGHT - LEFT if self.winners else SHORT)
-        self.steel = line(STEEL, RIGHT - LEFT, THIN)
+        self.steel = line(kit.STEEL, RIGHT - LEFT, kit.THIN)
         yield True
         self.parts.append(RevealedPart(self._where(), 0.1))
         yield True
@@ -149,8 +130,8 @@ class ResultsPage:
         self.ends = self.plot.ends()
         yield True
 
-    def _color(self) -> Color:
-        return winning_color(self.outcome, self.setup) if self.winners else ICE
+    def _color(self) -> kit.Color:
+        return winning_color(self.outcome, self.setup) if self.winners else kit.ICE
 
     def _title(self) -> LitImage:
         """Headline in the winner's colour, with a crown."""
@@ -158,16 +139,16 @@ class ResultsPage:
         layer = Layer(LEFT, 54, RIGHT - LEFT, 116)
         x = LEFT
         for seat in () if self.stars else self.winners:
-            badge(layer.glow, seat, x + 52, 110, 50)
+            kit.badge(layer.glow, seat, x + 52, 110, 50)
             x += 128
         x += 14 if self.winners and not self.stars else 0
         ended = headline(words, self.ended)
         text = ended if self.finished else words("results.ended")
-        size = fit_size(text, TITLE, self.room - x - (130 if self.winners else 0))
+        size = fit_size(text, kit.TITLE, self.room - x - (130 if self.winners else 0))
         layer.canvas.text(text, size, x, 112, self._color())
         if self.winners and not self.stars:
-            at = x + text_width(text, size) + 70
-            icon(layer.glow, "crown", at, 108, 40, FOCUS, LINE)
+            at = x + kit.text_width(text, size) + 70
+            kit.icon(layer.glow, "crown", at, 108, 40, kit.FOCUS, kit.LINE)
         return layer.render()
 
     def _where(self) -> LitImage:
@@ -176,10 +157,10 @@ class ResultsPage:
         minutes = match_length(words, games()[setup.game], setup.minutes, setup.goal)
         arena = load(setup.game, setup.arena).title.get(words.language, setup.arena)
         line = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
-        size = fit_size(line, BODY, 720, "body")
-        self.room = RIGHT - text_width(line, size, "body") - 40  # px, right limit of the title
+        size = fit_size(line, kit.BODY, 720, "body")
+        self.room = RIGHT - kit.text_width(line, size, "body") - 40  # px, right limit of the title
         layer = Layer(self.room, 60, RIGHT - self.room, 100)
-        layer.canvas.body(line, RIGHT, 112, MIST, "r", size)
+        layer.canvas.body(line, RIGHT, 112, kit.MIST, "r", size)
         return layer.render()
 
     def _columns(self) -> LitImage:
@@ -192,13 +173,13 @@ class ResultsPage:
         ends = self._ends()
         team = words("results.together" if is_allied(self.setup) else "results.team")
         if self.by_team:
-            layer.canvas.body(team, x + 24, 236, MIST)
-        begins = [24 + text_width(team, BODY, "body") if self.by_team else 0, *ends]
+            layer.canvas.body(team, x + 24, 236, kit.MIST)
+        begins = [24 + kit.text_width(team, kit.BODY, "body") if self.by_team else 0, *ends]
         rooms = [end - begin - APART_X for begin, end in zip(begins, ends, strict=False)]
-        size = min(fit_size(head, BODY, room, "body") for head, room in zip(heads, rooms, strict=True))
+        size = min(fit_size(head, kit.BODY, room, "body") for head, room in zip(heads, rooms, strict=True))
         for head, end in zip(heads, ends, strict=True):
-            layer.canvas.body(head, x + end, 236, MIST, "r", size)
-        layer.canvas.body(self._plot_heading(), plot_x, 236, MIST)
+            layer.canvas.body(head, x + end, 236, kit.MIST, "r", size)
+        layer.canvas.body(self._plot_heading(), plot_x, 236, kit.MIST)
         return layer.render()
 
     def _plot_heading(self) -> str:
@@ -214,39 +195,39 @@ class ResultsPage:
         h = PITCH * len(rows) - (PITCH - ROW)
         wins = rows[0].seat in self.winners
         layer = Layer(x, y, w, h)
-        panel(layer.glow, x, y, w, h, self._team_color(rows) if wins else STEEL, LINE if wins else THIN)
+        kit.panel(layer.glow, x, y, w, h, self._team_color(rows) if wins else kit.STEEL, kit.LINE if wins else kit.THIN)
         number = str(rows[0].place) if not self.by_team else numeral(sum(row.score for row in rows))
-        color = ICE if wins else MIST
-        layer.canvas.text(number, fit_size(number, SUB, 104), x + PLACE_X, y + h / 2, color, "head", "c")
+        color = kit.ICE if wins else kit.MIST
+        layer.canvas.text(number, fit_size(number, kit.SUB, 104), x + PLACE_X, y + h / 2, color, "head", "c")
         for i, row in enumerate(rows):
             self._row(layer, row, x, y + ROW / 2 + PITCH * i, color)
         return layer.render()
 
-    def _team_color(self, rows: Sequence[Row]) -> Color:
-        return FOCUS if self.stars else PLAYERS[min(row.seat for row in rows)]
+    def _team_color(self, rows: Sequence[Row]) -> kit.Color:
+        return kit.FOCUS if self.stars else kit.PLAYERS[min(row.seat for row in rows)]
 
-    def _row(self, layer: Layer, row: Row, x: int, y: float, color: Color) -> None:
+    def _row(self, layer: Layer, row: Row, x: int, y: float, color: kit.Color) -> None:
         """One robot: badge, score and the statistics of the game."""
-        badge(layer.glow, row.seat, x + BADGE_X, y, 38)
+        kit.badge(layer.glow, row.seat, x + BADGE_X, y, 38)
         brain = self.ended.brain(row.seat)
         if brain:
-            ai_mark(layer.glow, brain, x + AI_X, y, MIST)
+            ai_mark(layer.glow, brain, x + AI_X, y, kit.MIST)
         ends = self._ends()
         for name, before, right in zip(self.columns, (FIGURES[0] - APART_X, *ends), ends, strict=False):
             text, room = self.context.words.decimal(cell(name, row)), right - before - APART_X
             if name == self.columns[0]:
-                size = fit_size(text, SUB, room - (50 if brain else 0), "hero")
-                layer.canvas.text(text, size, x + right, y, mix(PLAYERS[row.seat], WHITE, 0.3), "hero", "r")
+                size = fit_size(text, kit.SUB, room - (50 if brain else 0), "hero")
+                layer.canvas.text(text, size, x + right, y, kit.mix(kit.PLAYERS[row.seat], kit.WHITE, 0.3), "hero", "r")
             else:
-                layer.canvas.crisp.text(text, fit_size(text, LABEL, room), x + right, y, color, "head", "r")
+                layer.canvas.crisp.text(text, fit_size(text, kit.LABEL, room), x + right, y, color, "head", "r")
 
     def _ends(self) -> list[float]:
         """Right edge of each column, px from a row's left edge, according to its content."""
         words, wanted = self.context.words, []
         for name in self.columns:
-            size, face = (SUB, "hero") if name == self.columns[0] else (LABEL, "head")
-            cells = [text_width(cell(name, row), size, face) for row in self.outcome.rows]
-            wanted.append(max(*cells, text_width(words(f"results.{name}"), BODY, "body")))
+            size, face = (kit.SUB, "hero") if name == self.columns[0] else (kit.LABEL, "head")
+            cells = [kit.text_width(cell(name, row), size, face) for row in self.outcome.rows]
+            wanted.append(max(*cells, kit.text_width(words(f"results.{name}"), kit.BODY, "body")))
         return ends(wanted, *FIGURES, APART_X)
 
     def _records(self) -> LitImage | None:
@@ -259,13 +240,13 @@ class ResultsPage:
         y = TOP + 3 * PITCH + ROW // 2
         layer = Layer(x, y - ROW // 2, w, ROW)
         for left, (board, rows) in zip((x + 24, x + w // 2 + 24), tables, strict=True):
-            icon(layer.glow, "crown", left + 24, y - 34, 20, FOCUS, 3)
+            kit.icon(layer.glow, "crown", left + 24, y - 34, 20, kit.FOCUS, 3)
             heading = words(board.heading, goal=setup.goal)
-            layer.canvas.body(heading, left + 64, y - 32, MIST, "l", fit_size(heading, BODY, 330, "body"))
+            layer.canvas.body(heading, left + 64, y - 32, kit.MIST, "l", fit_size(heading, kit.BODY, 330, "body"))
             if rows:
-                layer.canvas.text(rows[0].initials, LABEL, left, y + 32, ICE, "hero")
+                layer.canvas.text(rows[0].initials, kit.LABEL, left, y + 32, kit.ICE, "hero")
                 best = words.decimal(format_score(rows[0].score, board.table))
-                layer.canvas.text(best, LABEL, left + 370, y + 32, ICE, "hero", "r")
+                layer.canvas.text(best, kit.LABEL, left + 370, y + 32, kit.ICE, "hero", "r")
         return layer.render()
 
     def _plot(self, x: int, w: int) -> Plot:
@@ -305,7 +286,7 @@ def share_of(lit: LitImage, x: float) -> float:
     return (x - lit.at[0]) / lit.image.get_width()
 
 
-def line(color: Color, length: float, width: int = LINE) -> LitImage:
+def line(color: kit.Color, length: float, width: int = kit.LINE) -> LitImage:
     """The line below a title."""
     layer = Layer(LEFT, 170, length, 12)
     layer.glow.line([(LEFT, 176), (LEFT + length, 176)], color, width)

@@ -23,20 +23,7 @@ from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.scenes.views.sprites.robot import robot
 from pigaming_app.scenes.views.sprites.stars import STARS, star
 from pigaming_app.scenes.views.view import ShownEffects
-from pigaming_app.ui.draw import (
-    ADD,
-    BLACK,
-    FOCUS,
-    HERO,
-    LINE,
-    PLAYERS,
-    THIN,
-    Color,
-    GlowCanvas,
-    dim,
-    font,
-    icon,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
 from pigaming_app.ui.draw.sprites import Sprite, trim
@@ -87,7 +74,7 @@ class WinnersMoment:
         self.places = [(MIDDLE[0] + pitch * (i - half), MIDDLE[1]) for i in range(len(self.seats))]
         self.color = winning_color(self.outcome, self.setup)
         self.name = headline(context.words, ended)
-        self.size = fit_size(self.name, HERO * 3 // 4, NAME_W, "hero")
+        self.size = fit_size(self.name, kit.HERO * 3 // 4, NAME_W, "hero")
         self.celebration = Celebration(self.setup.game, self.seats, self._colors())
         cheerful = self.stars != 0
         self.volleys = [*VOLLEYS] if cheerful else []
@@ -118,7 +105,7 @@ class WinnersMoment:
         while self.bursts and self.bursts[0] <= self.age:
             self.bursts.pop(0)
             for seat, (x, y) in zip(self.seats, self.places, strict=True):
-                self.celebration.burst(x, y - (BARREL + 10) * self.scale, PLAYERS[seat])
+                self.celebration.burst(x, y - (BARREL + 10) * self.scale, kit.PLAYERS[seat])
         while self.volleys and self.volleys[0] <= self.age:
             self.volleys.pop(0)
             self.celebration.volley()
@@ -162,11 +149,11 @@ class WinnersMoment:
     def _rings(self) -> Rings:
         return tuple((seat, x, y, RING * self.scale) for seat, (x, y) in zip(self.seats, self.places, strict=True))
 
-    def _colors(self) -> list[Color]:
+    def _colors(self) -> list[kit.Color]:
         """Colours of the confetti."""
         if SCREENS[self.setup.game].team_colors:
             return [TEAMS[self.setup.seats[seat].team % len(TEAMS)] for seat in self.seats]
-        return [PLAYERS[seat] for seat in self.seats]
+        return [kit.PLAYERS[seat] for seat in self.seats]
 
     def _sound(self) -> str:
         """The sound of a victory, of a tie, or of people who have lost to AIs or to the clock."""
@@ -190,7 +177,7 @@ class WinnersMoment:
         for seat in self.seats if self.bursts else ():
             for size in SPARK_SIZES:
                 for turn in range(SPARK_TURNS):
-                    yield partial(sparks, PLAYERS[seat], size, turn)
+                    yield partial(sparks, kit.PLAYERS[seat], size, turn)
         for shape in self.seats:
             for color in dict.fromkeys(self.celebration.colors):
                 for size in SIZES:
@@ -211,7 +198,7 @@ def eased(share: float) -> float:
 
 @cached
 @resumable
-def rays(color: Color, rings: Rings) -> Steps[LitImage]:
+def rays(color: kit.Color, rings: Rings) -> Steps[LitImage]:
     """Rays of light in `color`, and a ring round each robot."""
     layer = Layer(60, 60, 1800, 960)
     x, y = MIDDLE
@@ -221,11 +208,13 @@ def rays(color: Color, rings: Rings) -> Steps[LitImage]:
         for k in range(RAY_PARTS):
             reach = [near + (far - near) * share / RAY_PARTS for share in (k, k + 0.7)]
             ends = [(x + r * math.cos(a), y + RAY_FLAT * r * math.sin(a)) for r in reach]
-            layer.glow.line(ends, dim(color, 0.42 * (1 - k / RAY_PARTS)), THIN)
+            layer.glow.line(ends, kit.dim(color, 0.42 * (1 - k / RAY_PARTS)), kit.THIN)
     for player, ring_x, ring_y, r in rings:
         for i in range(3):
             start = UP + 0.3 + i * math.tau / 3
-            layer.glow.arc(ring_x, ring_y, r, start, start + math.tau / 3 - 0.6, dim(PLAYERS[player], 0.75), LINE)
+            layer.glow.arc(
+                ring_x, ring_y, r, start, start + math.tau / 3 - 0.6, kit.dim(kit.PLAYERS[player], 0.75), kit.LINE
+            )
     yield
     return (yield from layer.render_steps())
 
@@ -235,7 +224,7 @@ def rays(color: Color, rings: Rings) -> Steps[LitImage]:
 def big_robot(player: int, scale: float) -> Steps[Sprite]:
     """A robot that heads up the screen."""
     half = round(84 * scale)
-    ink = robot(GlowCanvas(2 * half, 2 * half), player, half, half, UP, scale)
+    ink = robot(kit.GlowCanvas(2 * half, 2 * half), player, half, half, UP, scale)
     yield
     image = yield from ink.sprite_steps(0.9)
     yield
@@ -244,24 +233,24 @@ def big_robot(player: int, scale: float) -> Steps[Sprite]:
 
 @cached
 @resumable
-def title(text: str, size: int, color: Color) -> Steps[Sprite]:
+def title(text: str, size: int, color: kit.Color) -> Steps[Sprite]:
     """The headline centred on (0, 0), with a black outline against the confetti behind it."""
-    edge = line_image(text, "hero", size, BLACK)
+    edge = line_image(text, "hero", size, kit.BLACK)
     w, h = edge.get_width() + 96, round(1.5 * size) + 64
     out = pygame.Surface((w, h), pygame.SRCALPHA)
-    top = h / 2 - font("hero", size).get_ascent() + CAPITALS * size / 2
+    top = h / 2 - kit.font("hero", size).get_ascent() + CAPITALS * size / 2
     for i in range(16):
         angle = i * math.tau / 16
         out.blit(edge, (48 + OUTLINE * math.cos(angle), top + OUTLINE * math.sin(angle)))
     yield
-    light = yield from GlowCanvas(w, h).text(text, size, w / 2, h / 2, color, "hero", "c").lit_steps(0.5)
-    out.blit(light, (0, 0), special_flags=ADD)
+    light = yield from kit.GlowCanvas(w, h).text(text, size, w / 2, h / 2, color, "hero", "c").lit_steps(0.5)
+    out.blit(light, (0, 0), special_flags=kit.ADD)
     yield
     return trim(out, w / 2, h / 2)
 
 
 @cached
-def popped(text: str, size: int, color: Color, pop: int) -> Sprite:
+def popped(text: str, size: int, color: kit.Color, pop: int) -> Sprite:
     """The headline, larger for a smaller `pop`, 0..POPS - 1."""
     whole = title(text, size, color)
     if pop == POPS - 1:
@@ -275,5 +264,5 @@ def popped(text: str, size: int, color: Color, pop: int) -> Sprite:
 @cached
 def crown() -> LitImage:
     """The crown centred on (0, 0)."""
-    ink = GlowCanvas(200, 160).set_transform(100, 80)
-    return LitImage(icon(ink, "crown", 0, 0, 52, FOCUS, LINE).lit(), (-100, -80))
+    ink = kit.GlowCanvas(200, 160).set_transform(100, 80)
+    return LitImage(kit.icon(ink, "crown", 0, 0, 52, kit.FOCUS, kit.LINE).lit(), (-100, -80))

@@ -1,14 +1,8 @@
 """Drawing of the title: the name in neon tubes, and the paths of the four robots that underline it."""
 
-from pigaming_app.ui.draw import (
-    FOCUS,
-    ICE,
-    Color,
-    GlowCanvas,
-    Point,
-)
+from pigaming_app.ui import draw as kit
 
-LETTERS: dict[str, tuple[float, list[list[Point]]]] = {  # width, strokes on a grid of 4 x 6
+LETTERS: dict[str, tuple[float, list[list[kit.Point]]]] = {  # width, strokes on a grid of 4 x 6
     "P": (4, [[(0, 6), (0, 0), (3, 0), (4, 1), (4, 2.6), (3, 3.6), (0, 3.6)]]),
     "i": (0, [[(0, 2.1), (0, 6)]]),
     "G": (4, [[(4, 1), (3, 0), (1, 0), (0, 1), (0, 5), (1, 6), (3, 6), (4, 5), (4, 3.2), (2.2, 3.2)]]),
@@ -20,29 +14,29 @@ LETTERS: dict[str, tuple[float, list[list[Point]]]] = {  # width, strokes on a g
 ENDS = ((1716, 100), (1640, 172), (1764, 244), (1590, 316))  # of the four trails, px
 
 
-def logo(ink: GlowCanvas, x: float, y: float, u: float) -> GlowCanvas:
+def logo(ink: kit.GlowCanvas, x: float, y: float, u: float) -> kit.GlowCanvas:
     """PiGAMING in neon tubes, its i without a dot. (x, y): upper left of the P; u: a sixth of the height, px."""
-    strokes: list[tuple[list[Point], Color]] = []
+    strokes: list[tuple[list[kit.Point], kit.Color]] = []
     at = x
     for i, letter in enumerate("PiGAMING"):
         w, lines = LETTERS[letter]
-        strokes += [([(at + a * u, y + b * u) for a, b in line], FOCUS if i < 2 else ICE) for line in lines]
+        strokes += [([(at + a * u, y + b * u) for a, b in line], kit.FOCUS if i < 2 else kit.ICE) for line in lines]
         at += (w + 1.9) * u
     for line, color in strokes:
         ink.line(line, color, u)
     for line, _ in strokes:
         ink.void(line, u * 0.56, 0.4)
     for line, color in strokes:
-        ink.line(line, color, u * (0.22 if color == FOCUS else 0.1))
+        ink.line(line, color, u * (0.22 if color == kit.FOCUS else 0.1))
     return ink
 
 
-def trail_path(player: int, y: float = 312) -> list[Point]:
+def trail_path(player: int, y: float = 312) -> list[kit.Point]:
     """The path of a robot that draws its part of the underline: in from the left, up, off to the right; px."""
     (x1, y1), y0, x0 = ENDS[player], y + 16 * player, 1388 + 7 * player
     return [(-80, y0), (x0, y0), (x0 + y0 - y1, y1), (x1, y1), (2000, y1)]
 
 
-def dot_of(x: float, y: float, u: float) -> Point:
+def dot_of(x: float, y: float, u: float) -> kit.Point:
     """Position of the robot that dots the i."""
     return x + (LETTERS["P"][0] + 1.9) * u, y + 0.3 * u

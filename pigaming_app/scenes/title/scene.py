@@ -19,12 +19,7 @@ from pigaming_app.scenes.views.game_tile import TileStrip, tile
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.plugins.found import Plugin
 from pigaming_app.storage.plugins.parts import undecided
-from pigaming_app.ui.draw import (
-    FOCUS,
-    LINE,
-    SUB,
-    button_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, drop_paused, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
@@ -194,7 +189,7 @@ class Title:
             x += w + MENU_GAP
         words, button = self.context.words, self.context.controls.label(None, Button.Y)
         self.spoken = words.language
-        beside = button_width(button) + 28 if button else 0
+        beside = kit.button_width(button) + 28 if button else 0
         self.language_word = NAMES[words.language]
         if RIGHT - chip_width(self.language_word) - beside < x:  # no room: its code
             self.language_word = words.language.upper()
@@ -207,12 +202,12 @@ class Title:
     def _prompt(self, screen: pygame.Surface) -> None:
         """The call to action, between arrows that run towards it."""
         sentence, label = self.call_text
-        call_to_action(sentence, label, SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
-        reach = call_to_action_width(sentence, label, SUB) / 2 + 44
+        call_to_action(sentence, label, kit.SUB, pulse(self.clock, 5)).draw(screen, 960, PROMPT_Y)
+        reach = call_to_action_width(sentence, label, kit.SUB) / 2 + 44
         for k in range(3):
             level = (3, 5, 8)[(k + int(self.clock * 4)) % 3]
-            sign("right", 24, FOCUS, LINE, level).draw(screen, round(960 - reach - 34 * (2 - k)), PROMPT_Y)
-            sign("left", 24, FOCUS, LINE, level).draw(screen, round(960 + reach + 34 * (2 - k)), PROMPT_Y)
+            sign("right", 24, kit.FOCUS, kit.LINE, level).draw(screen, round(960 - reach - 34 * (2 - k)), PROMPT_Y)
+            sign("left", 24, kit.FOCUS, kit.LINE, level).draw(screen, round(960 + reach + 34 * (2 - k)), PROMPT_Y)
 
     @property
     def call_text(self) -> tuple[str, str]:
@@ -234,7 +229,7 @@ class Title:
             chip(self._item_name(name), box.w, "on" if name == self.focus.name else "off").draw(screen, *box.topleft)
         label = self.context.controls.label(None, Button.Y)
         if label:
-            button_label(label).draw(screen, self.focus.rect("language").left - 28 - button_width(label), FOOT_Y)
+            button_label(label).draw(screen, self.focus.rect("language").left - 28 - kit.button_width(label), FOOT_Y)
 
 
 @cached

@@ -5,18 +5,7 @@ from collections.abc import Callable, Sequence
 import pygame
 
 from pigaming_app.scenes.views.registry import SCREENS
-from pigaming_app.ui.draw import (
-    FOCUS,
-    HAIR,
-    ICE,
-    LABEL,
-    MIST,
-    STEEL,
-    Color,
-    GlowCanvas,
-    dim,
-    panel,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, MARGIN, Layer, LitImage, span
 from pigaming_app.ui.draw.surface_cache import cached
@@ -79,7 +68,7 @@ class TileStrip:
 def empty_tile() -> LitImage:
     """The frame of a tile that peeks in; top left at (0, 0)."""
     layer = Layer(0, 0, W, TILE_H)
-    draw_frame(layer.glow, STEEL)
+    draw_frame(layer.glow, kit.STEEL)
     return layer.render()
 
 
@@ -88,11 +77,11 @@ def empty_tile() -> LitImage:
 def tile(game: str, name: str, line: str, hot: bool) -> Steps[LitImage]:
     """Picture and name of a game; top left at (0, 0)."""
     layer, room = Layer(0, 0, W, TILE_H), W - 2 * TEXT_X
-    draw_frame(layer.glow, dim(FOCUS, 0.55) if hot else STEEL)
-    layer.canvas.text(name, fit_size(name, LABEL, room), TEXT_X, NAME_Y, FOCUS if hot else ICE)
+    draw_frame(layer.glow, kit.dim(kit.FOCUS, 0.55) if hot else kit.STEEL)
+    layer.canvas.text(name, fit_size(name, kit.LABEL, room), TEXT_X, NAME_Y, kit.FOCUS if hot else kit.ICE)
     size, lines = fit_lines(line, room, 2)
     for i, part in enumerate(wrap_balanced(line, len(lines), size)):
-        layer.canvas.body(part, TEXT_X, LINE_Y + LINE_PITCH * i, ICE if hot else MIST, "l", size)
+        layer.canvas.body(part, TEXT_X, LINE_Y + LINE_PITCH * i, kit.ICE if hot else kit.MIST, "l", size)
     drawn = picture(game)
     lit = yield from layer.render_steps()
     yield
@@ -101,10 +90,10 @@ def tile(game: str, name: str, line: str, hot: bool) -> Steps[LitImage]:
     return lit
 
 
-def draw_frame(ink: GlowCanvas, color: Color) -> None:
+def draw_frame(ink: kit.GlowCanvas, color: kit.Color) -> None:
     """The frame of a tile, and the rule below its picture."""
-    panel(ink, 0, 0, W, TILE_H, color)
-    ink.line([(TEXT_X, RULE_Y), (W - TEXT_X, RULE_Y)], STEEL, HAIR)
+    kit.panel(ink, 0, 0, W, TILE_H, color)
+    ink.line([(TEXT_X, RULE_Y), (W - TEXT_X, RULE_Y)], kit.STEEL, kit.HAIR)
 
 
 @cached

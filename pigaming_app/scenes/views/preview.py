@@ -8,18 +8,7 @@ from pigaming_app.scenes.views.things.on_mat import draw_all
 from pigaming_app.scenes.views.things.styles import NEON
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
-from pigaming_app.ui.draw import (
-    HAIR,
-    MIST,
-    PLAYERS,
-    STEEL,
-    THIN,
-    WALL,
-    GlowCanvas,
-    cut_box,
-    dim,
-    shape_points,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps
 
 MARGIN = 8  # px around the frame for its glow
@@ -28,23 +17,25 @@ MARGIN = 8  # px around the frame for its glow
 def walls(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:
     """Preview of an arena with walls and start positions."""
     left, top, k = fitted(w, h)
-    ink = GlowCanvas(w, h, 3)
+    ink = kit.GlowCanvas(w, h, 3)
     for column in range(200, int(WIDTH), 200):
         for row in range(150, int(HEIGHT), 200):
-            ink.disc(left + k * column, top + k * row, 1.5, dim(STEEL, 0.6))
+            ink.disc(left + k * column, top + k * row, 1.5, kit.dim(kit.STEEL, 0.6))
     yield
-    ink.line(cut_box(left, top, k * WIDTH, k * HEIGHT, 28 * k + 4), MIST, THIN, True)
+    ink.line(kit.cut_box(left, top, k * WIDTH, k * HEIGHT, 28 * k + 4), kit.MIST, kit.THIN, True)
     for wall in arena.walls:
         ends = [(left + k * wall.ax, top + k * wall.ay), (left + k * wall.bx, top + k * wall.by)]
         thick = max(7.0, 2 * wall.half * k)
-        ink.line(ends, WALL, thick).line(ends, dim(WALL, 0.25 if wall.health != SOLID else 0.8), thick - 4)
+        ink.line(ends, kit.WALL, thick).line(ends, kit.dim(kit.WALL, 0.25 if wall.health != SOLID else 0.8), thick - 4)
     draw_all(ink.set_transform(left, top, 0.0, k), NEON, arena.things)
     ink.set_transform(0.0, 0.0)
     for player, start in enumerate(arena.starts):
         r, c, s = max(9.0, 44 * k), math.cos(start.heading), math.sin(start.heading)
         x, y = left + k * start.x, top + k * start.y
-        ink.fill([(x + py, y - px) for px, py in shape_points(player, r)], PLAYERS[player])
-        ink.line([(x + 1.5 * r * c, y + 1.5 * r * s), (x + 2.3 * r * c, y + 2.3 * r * s)], PLAYERS[player], HAIR + 1)
+        ink.fill([(x + py, y - px) for px, py in kit.shape_points(player, r)], kit.PLAYERS[player])
+        ink.line(
+            [(x + 1.5 * r * c, y + 1.5 * r * s), (x + 2.3 * r * c, y + 2.3 * r * s)], kit.PLAYERS[player], kit.HAIR + 1
+        )
     yield
     return (yield from ink.lit_steps(0.6))
 

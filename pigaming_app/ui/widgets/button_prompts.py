@@ -5,18 +5,7 @@ from dataclasses import replace
 
 import pygame
 
-from pigaming_app.ui.draw import (
-    BLACK,
-    BODY,
-    MIST,
-    STEEL,
-    THIN,
-    button,
-    button_width,
-    cut_box,
-    readable,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
@@ -74,9 +63,9 @@ class ButtonPrompts:
     def draw(self, screen: pygame.Surface) -> None:
         if self.solid:
             ends = places(self.labels, self.room)
-            outline = cut_box(ends[0][0] - 40, self.y - 46, ends[-1][1] - ends[0][0] + 80, 92)
-            pygame.draw.polygon(screen, BLACK, outline)
-            pygame.draw.polygon(screen, STEEL, outline, THIN)
+            outline = kit.cut_box(ends[0][0] - 40, self.y - 46, ends[-1][1] - ends[0][0] + 80, 92)
+            pygame.draw.polygon(screen, kit.BLACK, outline)
+            pygame.draw.polygon(screen, kit.STEEL, outline, kit.THIN)
         row(self.labels, self.y, self.room).draw(screen)
 
     def _label(self, button: Button) -> str:
@@ -100,13 +89,16 @@ def places(prompts: Sequence[tuple[str, str]], room: int) -> list[tuple[float, f
 def type_size(prompts: Sequence[tuple[str, str]], room: int) -> int:
     """The size of the texts, px: the readable one if the row has room for it, else the largest that has."""
     gaps = GAPS[-1] * (len(prompts) - 1)
-    sizes = [readable(BODY), *range(BODY, SMALLEST, -2), SMALLEST]
+    sizes = [kit.readable(kit.BODY), *range(kit.BODY, SMALLEST, -2), SMALLEST]
     return next((size for size in sizes if sum(_widths(prompts, size)) + gaps <= room), SMALLEST)
 
 
 def _widths(prompts: Sequence[tuple[str, str]], size: int) -> list[float]:
     """The width of each prompt, px; the labels of buttons are at most of size BODY."""
-    return [button_width(label, min(size, BODY)) + 18 + text_width(text, size, "body") for label, text in prompts]
+    return [
+        kit.button_width(label, min(size, kit.BODY)) + 18 + kit.text_width(text, size, "body")
+        for label, text in prompts
+    ]
 
 
 @cached
@@ -116,6 +108,6 @@ def row(prompts: tuple[tuple[str, str], ...], y: int, room: int) -> Steps[LitIma
     ends, size = places(prompts, room), type_size(prompts, room)
     layer = Layer(ends[0][0], y - HIGH, ends[-1][1] - ends[0][0], 2 * HIGH)
     for (label, text), (left, _) in zip(prompts, ends, strict=True):
-        wide = button(layer.canvas, left, y, label, size=min(size, BODY))
-        layer.canvas.body(text, left + wide + 18, y, MIST, "l", size)
+        wide = kit.button(layer.canvas, left, y, label, size=min(size, kit.BODY))
+        layer.canvas.body(text, left + wide + 18, y, kit.MIST, "l", size)
     return (yield from layer.render_steps())

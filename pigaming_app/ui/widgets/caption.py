@@ -5,21 +5,7 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.ui.draw import (
-    BODY,
-    FOCUS,
-    ICE,
-    LINE,
-    STEEL,
-    THIN,
-    Color,
-    GlowCanvas,
-    badge,
-    cut_box,
-    icon,
-    readable,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.surface_cache import cached
 
 MARGIN = 24  # px of glow round a plate
@@ -77,20 +63,20 @@ RING_STEPS = 12  # images of a ring that fills
 def hold_ring(player: int, step: int) -> Caption:
     """A player's badge in a ring filled to `step` of RING_STEPS: progress of a held button."""
     r = 46
-    ink = GlowCanvas(2 * r + 2 * MARGIN, 2 * r + 2 * MARGIN).set_transform(r + MARGIN, r + MARGIN)
+    ink = kit.GlowCanvas(2 * r + 2 * MARGIN, 2 * r + 2 * MARGIN).set_transform(r + MARGIN, r + MARGIN)
     ink.solid([(1.2 * r * math.cos(i * math.tau / 32), 1.2 * r * math.sin(i * math.tau / 32)) for i in range(32)])
-    ink.ring(0, 0, r - 2, STEEL, THIN)
+    ink.ring(0, 0, r - 2, kit.STEEL, kit.THIN)
     if step:
-        ink.arc(0, 0, r - 2, math.tau * 0.75, math.tau * (0.75 + step / RING_STEPS), FOCUS, LINE)
-    badge(ink, player, 0, 0, 24)
+        ink.arc(0, 0, r - 2, math.tau * 0.75, math.tau * (0.75 + step / RING_STEPS), kit.FOCUS, kit.LINE)
+    kit.badge(ink, player, 0, 0, 24)
     return Caption(ink.sprite(0.6), 2 * r, 2 * r)
 
 
 @cached
 def caption(
     text: str,
-    color: Color = STEEL,
-    ink_color: Color = ICE,
+    color: kit.Color = kit.STEEL,
+    ink_color: kit.Color = kit.ICE,
     size: int = 0,
     player: int | None = None,
     sign: str | None = None,
@@ -99,19 +85,19 @@ def caption(
     """A plate outlined in `color`, with a player's badge and an icon before the text if given. `size`: of the type, px;
     0: of readable texts.
     """
-    size = size or (readable(BODY) if text_width(text, readable(BODY), face) <= ROOM else BODY)
+    size = size or (kit.readable(kit.BODY) if kit.text_width(text, kit.readable(kit.BODY), face) <= ROOM else kit.BODY)
     high = round(size * 1.7)
     lead = (0 if player is None else round(size * 1.35)) + (0 if sign is None else round(size * 1.35))
-    wide = round(text_width(text, size, face)) + lead + 2 * round(size * 0.6)
-    ink = GlowCanvas(wide + 2 * MARGIN, high + 2 * MARGIN).set_transform(MARGIN, MARGIN)
-    outline = cut_box(0, 0, wide, high, 14)
-    ink.solid(outline).line(outline, color, THIN, True)
+    wide = round(kit.text_width(text, size, face)) + lead + 2 * round(size * 0.6)
+    ink = kit.GlowCanvas(wide + 2 * MARGIN, high + 2 * MARGIN).set_transform(MARGIN, MARGIN)
+    outline = kit.cut_box(0, 0, wide, high, 14)
+    ink.solid(outline).line(outline, color, kit.THIN, True)
     x, y = round(size * 0.6), high / 2
     if player is not None:
-        badge(ink, player, x + size * 0.4, y, size * 0.5)
+        kit.badge(ink, player, x + size * 0.4, y, size * 0.5)
         x += round(size * 1.35)
     if sign is not None:
-        icon(ink, sign, x + size * 0.4, y, size * 0.48, ink_color, THIN)
+        kit.icon(ink, sign, x + size * 0.4, y, size * 0.48, ink_color, kit.THIN)
         x += round(size * 1.35)
     ink.text(text, size, x, y, ink_color, face)
     return Caption(ink.sprite(0.6), wide, high)

@@ -6,24 +6,7 @@ from dataclasses import dataclass
 
 import pygame
 
-from pigaming_app.ui.draw import (
-    ALARM,
-    BODY,
-    FOCUS,
-    HAIR,
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    STEEL,
-    THIN,
-    GlowCanvas,
-    cut_box,
-    dim,
-    icon,
-    readable,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
@@ -82,13 +65,15 @@ def draw_rows(screen: pygame.Surface, focus: Focus, labels: dict[str, str], valu
 
 def label(name: str, focused: bool) -> LitImage:
     """The name of a row, its middle at y = 0."""
-    return text(name, readable(BODY), ICE if focused else MIST, "body", "l", AT - 60)
+    return text(name, kit.readable(kit.BODY), kit.ICE if focused else kit.MIST, "body", "l", AT - 60)
 
 
 @cached
 def separator(w: int) -> LitImage:
     """The thin line between two rows."""
-    return LitImage(GlowCanvas(w, 4).line([(24, 2), (w - 24, 2)], dim(STEEL, 0.6), HAIR).plain(), (0, -2))
+    return LitImage(
+        kit.GlowCanvas(w, 4).line([(24, 2), (w - 24, 2)], kit.dim(kit.STEEL, 0.6), kit.HAIR).plain(), (0, -2)
+    )
 
 
 @cached
@@ -98,33 +83,33 @@ def value(kind: str, options: tuple[str, ...], chosen: int, focused: bool) -> Li
     if kind == "toggle":
         for option, (x, w), on in zip(options, chips(options), range(len(options)), strict=True):
             lit = on == chosen
-            edge = (FOCUS if focused else ICE) if lit else STEEL
-            layer.glow.line(cut_box(x, -24, w, 48, 12), edge, THIN, True)
-            layer.canvas.crisp.text(option, BODY, x + w / 2, 0, ICE if lit else MIST, "head", "c")
+            edge = (kit.FOCUS if focused else kit.ICE) if lit else kit.STEEL
+            layer.glow.line(kit.cut_box(x, -24, w, 48, 12), edge, kit.THIN, True)
+            layer.canvas.crisp.text(option, kit.BODY, x + w / 2, 0, kit.ICE if lit else kit.MIST, "head", "c")
     elif kind == "meter":
         _meter(layer, chosen, focused)
     elif kind == "arrows":
         for sign, x in (("left", AT + 14), ("right", W - 54)):
-            icon(layer.glow, sign, x, 0, 18, FOCUS if focused else MIST, 5)
+            kit.icon(layer.glow, sign, x, 0, 18, kit.FOCUS if focused else kit.MIST, 5)
         option = options[chosen] if chosen < len(options) else ""
-        option, size = fit_text(option, readable(BODY), VALUE_ROOM, "body")
-        layer.canvas.crisp.text(option, size, (AT + W - 40) / 2, 0, ICE, "body", "c")
+        option, size = fit_text(option, kit.readable(kit.BODY), VALUE_ROOM, "body")
+        layer.canvas.crisp.text(option, size, (AT + W - 40) / 2, 0, kit.ICE, "body", "c")
     else:
         w = chips(options)[0][1]
-        layer.glow.line(cut_box(AT, -24, w, 48, 12), FOCUS if focused else STEEL, THIN, True)
-        layer.canvas.crisp.text(options[0], BODY, AT + w / 2, 0, ICE if focused else MIST, "head", "c")
+        layer.glow.line(kit.cut_box(AT, -24, w, 48, 12), kit.FOCUS if focused else kit.STEEL, kit.THIN, True)
+        layer.canvas.crisp.text(options[0], kit.BODY, AT + w / 2, 0, kit.ICE if focused else kit.MIST, "head", "c")
     return layer.render()
 
 
 def _meter(layer: Layer, chosen: int, focused: bool) -> None:
-    color = FOCUS if focused else MIST
+    color = kit.FOCUS if focused else kit.MIST
     for i in range(CELLS):
-        box = cut_box(AT + CELL * i, -22, 30, 44, 6)
+        box = kit.cut_box(AT + CELL * i, -22, 30, 44, 6)
         if i < chosen:
             layer.glow.fill(box, color)
         else:
-            layer.glow.line(box, STEEL, 3, True)
-    layer.canvas.crisp.text(str(chosen), BODY, W - 40, 0, ICE if focused else MIST, "head", "r")
+            layer.glow.line(box, kit.STEEL, 3, True)
+    layer.canvas.crisp.text(str(chosen), kit.BODY, W - 40, 0, kit.ICE if focused else kit.MIST, "head", "r")
 
 
 def chips(options: tuple[str, ...]) -> list[tuple[int, int]]:
@@ -132,7 +117,7 @@ def chips(options: tuple[str, ...]) -> list[tuple[int, int]]:
     places: list[tuple[int, int]] = []
     x = AT
     for option in options:
-        w = round(text_width(option, BODY)) + 40
+        w = round(kit.text_width(option, kit.BODY)) + 40
         places.append((x, w))
         x += w + 12
     return places
@@ -156,7 +141,7 @@ def describe(screen: pygame.Surface, title: str, sentence: str) -> None:
 def description(title: str, sentence: str) -> tuple[LitImage, ...]:
     """A title and its description, wrapped to the panel."""
     room = PANEL.w - 80
-    return (text(title, LABEL, ICE, "head", "l", room), *paragraph(sentence, room, 3, MIST))
+    return (text(title, kit.LABEL, kit.ICE, "head", "l", room), *paragraph(sentence, room, 3, kit.MIST))
 
 
 def ring(screen: pygame.Surface, share: float) -> None:
@@ -169,6 +154,6 @@ def ring(screen: pygame.Surface, share: float) -> None:
 def filling(step: int) -> Sprite:
     """A ring filled to `step` of RING_STEPS, centred on (0, 0)."""
     half = RING_R + 22
-    ink = GlowCanvas(2 * half, 2 * half)
-    ink.arc(half, half, RING_R, math.tau * 0.75, math.tau * (0.75 + step / RING_STEPS), ALARM, LINE)
+    ink = kit.GlowCanvas(2 * half, 2 * half)
+    ink.arc(half, half, RING_R, math.tau * 0.75, math.tau * (0.75 + step / RING_STEPS), kit.ALARM, kit.LINE)
     return trim(ink.lit(0.8), half, half)

@@ -4,20 +4,7 @@ from collections.abc import Sequence
 from itertools import cycle
 
 from pigaming_app.scenes.kiosk.day_report import DayReport
-from pigaming_app.ui.draw import (
-    BODY,
-    FOCUS,
-    GREEN,
-    HAIR,
-    ICE,
-    MIST,
-    ORANGE,
-    PURPLE,
-    STEEL,
-    Color,
-    cut_box,
-    dim,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
@@ -25,7 +12,7 @@ from pigaming_app.ui.draw.text import fit_text
 
 X, Y, W, H = 170, 270, 1010, 476  # px: the plot without its labels
 FEWEST_HOURS = 8
-COLORS: tuple[Color, ...] = (FOCUS, ICE, (90, 120, 176), ORANGE, GREEN, PURPLE)
+COLORS: tuple[kit.Color, ...] = (kit.FOCUS, kit.ICE, (90, 120, 176), kit.ORANGE, kit.GREEN, kit.PURPLE)
 OTHERS = ""
 LEGEND_Y, ROW_H, GAP = 866, 52, 24  # px
 ONE_ROW = 4  # names in it
@@ -81,8 +68,8 @@ def chart(bars: Bars, names: tuple[str, ...]) -> Steps[LitImage]:
     top = step * -(-most // step)
     for value in range(0, top + 1, step):
         y = Y + H - H * value / top
-        layer.glow.line([(X, y), (X + W, y)], dim(STEEL, 1.0 if value == 0 else 0.6), HAIR)
-        layer.canvas.body(str(value), X - 24, y, MIST, "r", 36)
+        layer.glow.line([(X, y), (X + W, y)], kit.dim(kit.STEEL, 1.0 if value == 0 else 0.6), kit.HAIR)
+        layer.canvas.body(str(value), X - 24, y, kit.MIST, "r", 36)
     yield
     pitch = W / len(bars)
     for i, (hour, counts) in enumerate(bars):
@@ -90,20 +77,22 @@ def chart(bars: Bars, names: tuple[str, ...]) -> Steps[LitImage]:
         for game, count in enumerate(counts):
             if count:
                 high = H * count / top
-                box = cut_box(x + 0.16 * pitch, Y + H - H * below / top - high + 2, 0.68 * pitch, max(4, high - 4), 3)
+                box = kit.cut_box(
+                    x + 0.16 * pitch, Y + H - H * below / top - high + 2, 0.68 * pitch, max(4, high - 4), 3
+                )
                 layer.glow.fill(box, COLORS[game])
                 below += count
         if len(bars) <= 12 or i % 2 == 0:
-            layer.canvas.body(str(hour), x + pitch / 2, Y + H + 36, MIST, "c", 36)
+            layer.canvas.body(str(hour), x + pitch / 2, Y + H + 36, kit.MIST, "c", 36)
         yield
     rows = [names[:3], names[3:]] if len(names) > ONE_ROW else [names]
     room = W // max(map(len, rows)) - GAP
-    labels = [fit_text(name, BODY, room - 48, "body") for name in names]
+    labels = [fit_text(name, kit.BODY, room - 48, "body") for name in names]
     size = min(size for _, size in labels)
     for game, (name, _) in enumerate(labels):
         row, column = divmod(game, len(rows[0]))
         x, y = X + column * (room + GAP), LEGEND_Y + round(ROW_H * (row - (len(rows) - 1) / 2))
-        layer.glow.fill(cut_box(x, y - 16, 32, 32, 6), COLORS[game])
-        layer.canvas.body(name, x + 48, y, ICE, "l", size)
+        layer.glow.fill(kit.cut_box(x, y - 16, 32, 32, 6), COLORS[game])
+        layer.canvas.body(name, x + 48, y, kit.ICE, "l", size)
     yield
     return (yield from layer.render_steps())

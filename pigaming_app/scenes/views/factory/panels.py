@@ -11,21 +11,7 @@ from pigaming_app.scenes.views.hud.ai_sign import driver_tab, level_mark
 from pigaming_app.scenes.views.hud.parts import EDGE, number_bits, plate
 from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
 from pigaming_app.scenes.views.sprites.factory import draw_crate, emblem
-from pigaming_app.ui.draw import (
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    PLAYERS,
-    SUB,
-    Color,
-    GlowCanvas,
-    badge,
-    cut_box,
-    dim,
-    icon,
-    readable,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, number_width
 
@@ -46,9 +32,9 @@ def frame(team: int, lorry: bool = False, mates: tuple[Mate, ...] = ()) -> pygam
     _outline(ink, team)
     for i, (seat, brain, name, _) in enumerate(mates):
         x, room = 24 + (W - 48) / len(mates) * i, (W - 48) / len(mates)
-        ink.solid(cut_box(x, NAMES - 18, 38, 34, 4))
-        badge(ink, seat, x + 18, NAMES, 14)
-        driver_tab(ink, brain, name, x + 34, NAMES, room - 50, PLAYERS[seat])
+        ink.solid(kit.cut_box(x, NAMES - 18, 38, 34, 4))
+        kit.badge(ink, seat, x + 18, NAMES, 14)
+        driver_tab(ink, brain, name, x + 34, NAMES, room - 50, kit.PLAYERS[seat])
     if lorry:
         ink.set_transform(EDGE + EMBLEM, EDGE + H / 2, 0.0, 0.8)
         draw_lorry(ink, 0, 0, COLORS[team], 1)
@@ -65,23 +51,25 @@ def plain_frame(team: int) -> pygame.Surface:
     return ink.lit(0.6)
 
 
-def _outline(ink: GlowCanvas, team: int) -> None:
-    ink.fill(cut_box(0, 0, W, H), dim(COLORS[team], 0.05)).line(cut_box(0, 0, W, H), COLORS[team], LINE, True)
+def _outline(ink: kit.GlowCanvas, team: int) -> None:
+    ink.fill(kit.cut_box(0, 0, W, H), kit.dim(COLORS[team], 0.05)).line(
+        kit.cut_box(0, 0, W, H), COLORS[team], kit.LINE, True
+    )
 
 
 @cached
-def banner(text: str, color: Color) -> pygame.Surface:
+def banner(text: str, color: kit.Color) -> pygame.Surface:
     """A whole panel with a call instead of its content."""
     ink = plate(W, H)
-    ink.fill(cut_box(0, 0, W, H), dim(color, 0.2)).line(cut_box(0, 0, W, H), color, LINE + 4, True)
-    ink.text(text, fit_size(text, readable(SUB), W - 80, "hero"), W / 2, H / 2, color, "hero", "c")
+    ink.fill(kit.cut_box(0, 0, W, H), kit.dim(color, 0.2)).line(kit.cut_box(0, 0, W, H), color, kit.LINE + 4, True)
+    ink.text(text, fit_size(text, kit.readable(kit.SUB), W - 80, "hero"), W / 2, H / 2, color, "hero", "c")
     return ink.lit(0.7)
 
 
 @cached
 def small_crate(team: int, state: int, size: int) -> pygame.Surface:
     """Crate in a panel."""
-    ink = GlowCanvas(size + 28, size + 28, 3)
+    ink = kit.GlowCanvas(size + 28, size + 28, 3)
     draw_crate(ink, team, state, size / 2 + 14, size / 2 + 14, size)
     return ink.lit(0.5)
 
@@ -89,15 +77,15 @@ def small_crate(team: int, state: int, size: int) -> pygame.Surface:
 @cached
 def robot_sign(seat: int, brain: str, turbo: int) -> pygame.Surface:
     """Robot in a panel: badge, AI sign, and turbo in sixteenths."""
-    ink = GlowCanvas(120, 52, 3)
-    badge(ink, seat, 34, 22, 18)
+    ink = kit.GlowCanvas(120, 52, 3)
+    kit.badge(ink, seat, 34, 22, 18)
     if text := level_mark(brain):
-        ink.text(text, readable(30), 61, 22, ICE, "head")
+        ink.text(text, kit.readable(30), 61, 22, kit.ICE, "head")
     elif brain:
-        icon(ink, "ai", 80, 20, 13, MIST, 3)
-    ink.line([(14, 46), (104, 46)], dim(PLAYERS[seat], 0.2), 4)
+        kit.icon(ink, "ai", 80, 20, 13, kit.MIST, 3)
+    ink.line([(14, 46), (104, 46)], kit.dim(kit.PLAYERS[seat], 0.2), 4)
     if turbo:
-        ink.line([(14, 46), (14 + 90 * turbo / 16, 46)], PLAYERS[seat], 4)
+        ink.line([(14, 46), (14 + 90 * turbo / 16, 46)], kit.PLAYERS[seat], 4)
     return ink.lit(0.4)
 
 
@@ -108,14 +96,16 @@ def centred(image: pygame.Surface, x: float, y: float) -> Bit:
 
 def count_width(number: str, rest: str) -> float:
     """Width of a large number and what follows it in smaller type, px."""
-    return number_width(number, readable(SUB)) + 4 + number_width(rest, readable(LABEL))
+    return number_width(number, kit.readable(kit.SUB)) + 4 + number_width(rest, kit.readable(kit.LABEL))
 
 
-def count_bits(number: str, rest: str, x: float, color: Color) -> Iterator[Bit]:
+def count_bits(number: str, rest: str, x: float, color: kit.Color) -> Iterator[Bit]:
     """A large number from `x`, and what follows it in smaller type."""
-    size, smaller = readable(SUB), readable(LABEL)
+    size, smaller = kit.readable(kit.SUB), kit.readable(kit.LABEL)
     yield from number_bits(number, size, x, MIDDLE, color)
-    yield from number_bits(rest, smaller, x + number_width(number, size) + 4, MIDDLE + 0.35 * (size - smaller), MIST)
+    yield from number_bits(
+        rest, smaller, x + number_width(number, size) + 4, MIDDLE + 0.35 * (size - smaller), kit.MIST
+    )
 
 
 def robot_bits(mates: tuple[Mate, ...], xs: tuple[float, ...]) -> Iterator[Bit]:

@@ -12,43 +12,9 @@ from typing import Any
 import pygame
 
 from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
+from pigaming_app.scenes.views.hud import parts
 from pigaming_app.scenes.views.hud.ai_sign import ai_of, driver_tab, name_of
-from pigaming_app.scenes.views.hud.parts import (
-    CLOCK,
-    EDGE,
-    PANEL_W,
-    XS,
-    H,
-    HudParts,
-    Y,
-    bar_bits,
-    clock_jobs,
-    drawn,
-    number_bits,
-    number_size,
-    plate,
-    pulse,
-    turbo_cells,
-    word_bits,
-)
-from pigaming_app.ui.draw import (
-    ICE,
-    LABEL,
-    LINE,
-    MIST,
-    PLAYERS,
-    STEEL,
-    SUB,
-    THIN,
-    WHITE,
-    GlowCanvas,
-    badge,
-    cut_box,
-    dim,
-    icon,
-    mix,
-    readable,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import number_width
 from pigaming_app.ui.numbers import numeral
@@ -83,13 +49,13 @@ def layout(robots: Any) -> tuple[list[SeatPanel], list[TeamPanel]]:
     if len(teams) == 2 == len(seats):
         seats.sort(key=lambda i: robots[i].team)
     if len(teams) != 2 or len(seats) == 2:
-        places = XS.get(len(seats), ())
-        return [SeatPanel(seat, x, PANEL_W) for seat, x in zip(seats, places, strict=False)], []
+        places = parts.XS.get(len(seats), ())
+        return [SeatPanel(seat, x, parts.PANEL_W) for seat, x in zip(seats, places, strict=False)], []
     slots: list[SeatPanel] = []
     sums: list[TeamPanel] = []
     for side, team in enumerate(teams):
         members = [i for i in seats if robots[i].team == team]
-        w = min(PANEL_W, (648 - SUM_W - 12 - 8 * (len(members) - 1)) // len(members))
+        w = min(parts.PANEL_W, (648 - SUM_W - 12 - 8 * (len(members) - 1)) // len(members))
         total = len(members) * w + 8 * (len(members) - 1)
         first = 692 - 12 - total if side == 0 else 1112 + SUM_W + 12
         mates = tuple(SeatPanel(seat, first + i * (w + 8), w) for i, seat in enumerate(members))
@@ -107,7 +73,7 @@ class ScoreHud:
     def __init__(self, background: Background, state: Any, players: list[str], has_turbo: bool = True) -> None:
         self.background, self.players, self.has_turbo = background, players, has_turbo
         self.slots, self.sums = layout(state.robots)
-        self.parts = HudParts(background)
+        self.parts = parts.HudParts(background)
         self.points: dict[int, int] = {}
         self.clock_words = ""  # in place of the clock; | parts lines
         self.names: Sequence[str] = ()  # of the first seats, in an event
@@ -134,13 +100,13 @@ class ScoreHud:
         """Prewarm jobs: samples of the panels and of the clock."""
         turbo = 32 if self.has_turbo else None
         for slot in self.slots:
-            yield partial(pulse, PLAYERS[slot.seat], slot.w)
+            yield partial(parts.pulse, kit.PLAYERS[slot.seat], slot.w)
             for score in (*range(10), -1):
                 leads = bool(score % 2) and not self.sums
-                yield drawn(self._panel_bits, slot, score, leads, self._driver(slot.seat), turbo, ())
+                yield parts.drawn(self._panel_bits, slot, score, leads, self._driver(slot.seat), turbo, ())
         for i, _ in enumerate(self.sums):
             yield from (partial(sum_frame, leads, bool(i)) for leads in (True, False))
-        yield from clock_jobs(CLOCK_Y)
+        yield from parts.clock_jobs(CLOCK_Y)
 
     def leads(self, state: Any, seat: int, alone: bool) -> bool:
         """True for a seat that is marked as leading; `alone`: it, or its team, has the most points alone."""
@@ -157,7 +123,9 @@ class ScoreHud:
     def show_clock(self, state: Any) -> None:
         """Bake the clock if it has changed."""
         if self.clock_words:
-            self.parts.show("clock", self.clock_words, CLOCK.x, CLOCK.w, partial(word_bits, self.clock_words))
+            self.parts.show(
+                "clock", self.clock_words, parts.CLOCK.x, parts.CLOCK.w, partial(parts.word_bits, self.clock_words)
+            )
         else:
             self.parts.countdown(state, CLOCK_Y)
 
@@ -169,27 +137,35 @@ class ScoreHud:
         self, slot: SeatPanel, score: int, leads: bool, driver: tuple[str, str], turbo: int | None, extras: Hashable
     ) -> list[Bit]:
         """Pieces of a panel."""
-        x, middle = slot.x, Y + (38 if turbo is not None else H // 2)
+        x, middle = slot.x, parts.Y + (38 if turbo is not None else parts.H // 2)
         text = numeral(score)
-        size = number_size(text, slot.w - 176, readable(SUB), SUB, LABEL)
-        bits: list[Bit] = [(frame(slot.seat, slot.w, leads, *driver, turbo is not None), (x - EDGE, Y - EDGE), None)]
-        bits += number_bits(text, size, x + 84, middle, mix(PLAYERS[slot.seat], WHITE, 0.8))
+        size = parts.number_size(text, slot.w - 176, kit.readable(kit.SUB), kit.SUB, kit.LABEL)
+        bits: list[Bit] = [
+            (frame(slot.seat, slot.w, leads, *driver, turbo is not None), (x - parts.EDGE, parts.Y - parts.EDGE), None)
+        ]
+        bits += parts.number_bits(text, size, x + 84, middle, kit.mix(kit.PLAYERS[slot.seat], kit.WHITE, 0.8))
         if turbo is not None:
-            full, empty = (turbo_cells(PLAYERS[slot.seat], slot.w - 32, 10, lit) for lit in (True, False))
-            bits += bar_bits(full, empty, (x + 16, Y + 72), (slot.w - 32) * turbo / 64)
+            full, empty = (parts.turbo_cells(kit.PLAYERS[slot.seat], slot.w - 32, 10, lit) for lit in (True, False))
+            bits += parts.bar_bits(full, empty, (x + 16, parts.Y + 72), (slot.w - 32) * turbo / 64)
         room = int(slot.w - 116 - number_width(text, size))
         return bits + self.extra_bits(extras, x + slot.w, middle, room)
 
     def _bake_sum(self, panel: TeamPanel, points: int, leads: bool) -> None:
         text = numeral(points)
-        size = number_size(text, SUM_W - 16, readable(SUB), SUB, LABEL)
-        bits: list[Bit] = [(sum_frame(leads, panel is self.sums[1]), (panel.x - EDGE, Y - EDGE), None)]
-        bits += number_bits(text, size, panel.x + (SUM_W - number_width(text, size)) / 2, Y + H / 2 - 4, ICE)
+        size = parts.number_size(text, SUM_W - 16, kit.readable(kit.SUB), kit.SUB, kit.LABEL)
+        bits: list[Bit] = [
+            (sum_frame(leads, panel is self.sums[1]), (panel.x - parts.EDGE, parts.Y - parts.EDGE), None)
+        ]
+        bits += parts.number_bits(
+            text, size, panel.x + (SUM_W - number_width(text, size)) / 2, parts.Y + parts.H / 2 - 4, kit.ICE
+        )
         self.background.bake(pygame.Rect(panel.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
         inner = panel.x - 12 if panel.x < 960 else panel.x + SUM_W
         gaps = [inner, *(slot.x + slot.w for slot in panel.mates[:-1])]
         for x, w in zip(gaps, [12] + [8] * len(gaps), strict=False):
-            self.background.bake(pygame.Rect(x + 1, Y, w - 2, H), [(link(), (x - EDGE, Y - EDGE), None)])
+            self.background.bake(
+                pygame.Rect(x + 1, parts.Y, w - 2, parts.H), [(link(), (x - parts.EDGE, parts.Y - parts.EDGE), None)]
+            )
 
 
 def sole_leader(points: dict[int, int]) -> int | None:
@@ -202,15 +178,15 @@ def sole_leader(points: dict[int, int]) -> int | None:
 @cached
 def frame(player: int, w: int, leads: bool, brain: str, name: str, turbo: bool) -> pygame.Surface:
     """Outline and badge of a panel, with the leader's crown and who drives."""
-    ink, color = plate(w, H), PLAYERS[player]
-    outline = cut_box(0, 0, w, H)
+    ink, color = parts.plate(w, parts.H), kit.PLAYERS[player]
+    outline = kit.cut_box(0, 0, w, parts.H)
     if leads:
-        ink.fill(outline, dim(color, 0.14))
-    ink.line(outline, color, LINE if leads else THIN, True)
-    badge(ink, player, 44, 38 if turbo else H / 2, 24)
+        ink.fill(outline, kit.dim(color, 0.14))
+    ink.line(outline, color, kit.LINE if leads else kit.THIN, True)
+    kit.badge(ink, player, 44, 38 if turbo else parts.H / 2, 24)
     if leads:
-        ink.solid(cut_box(22, -22, 44, 32, 4))
-        icon(ink, "crown", 44, -6, 16, color, THIN)
+        ink.solid(kit.cut_box(22, -22, 44, 32, 4))
+        kit.icon(ink, "crown", 44, -6, 16, color, kit.THIN)
     driver_tab(ink, brain, name, 76, -4, w - 92, color)
     return ink.lit(0.7)
 
@@ -218,22 +194,22 @@ def frame(player: int, w: int, leads: bool, brain: str, name: str, turbo: bool) 
 @cached
 def sum_frame(leads: bool, second: bool) -> pygame.Surface:
     """Box of a team's total, with its team bars: one, or two for the second team."""
-    ink = plate(SUM_W, H)
+    ink = parts.plate(SUM_W, parts.H)
     if leads:
-        ink.fill(cut_box(0, 0, SUM_W, H), dim(ICE, 0.10))
-    ink.line(cut_box(0, 0, SUM_W, H), ICE if leads else STEEL, LINE if leads else THIN, True)
+        ink.fill(kit.cut_box(0, 0, SUM_W, parts.H), kit.dim(kit.ICE, 0.10))
+    ink.line(kit.cut_box(0, 0, SUM_W, parts.H), kit.ICE if leads else kit.STEEL, kit.LINE if leads else kit.THIN, True)
     for a, b in ((-24, -5), (5, 24)) if second else ((-18, 18),):
-        ink.line([(SUM_W / 2 + a, H - 13), (SUM_W / 2 + b, H - 13)], ICE, THIN)
+        ink.line([(SUM_W / 2 + a, parts.H - 13), (SUM_W / 2 + b, parts.H - 13)], kit.ICE, kit.THIN)
     if leads:
-        ink.solid(cut_box(SUM_W / 2 - 22, -22, 44, 36, 4))
-        icon(ink, "crown", SUM_W / 2, -4, 16, ICE, THIN)
+        ink.solid(kit.cut_box(SUM_W / 2 - 22, -22, 44, 36, 4))
+        kit.icon(ink, "crown", SUM_W / 2, -4, 16, kit.ICE, kit.THIN)
     return ink.lit(0.7)
 
 
 @cached
 def link() -> pygame.Surface:
     """Two short bars between linked panels."""
-    ink = GlowCanvas(12 + 2 * EDGE, H + 2 * EDGE).set_transform(EDGE, EDGE)
+    ink = kit.GlowCanvas(12 + 2 * parts.EDGE, parts.H + 2 * parts.EDGE).set_transform(parts.EDGE, parts.EDGE)
     for y in (30, 62):
-        ink.line([(-6, y), (18, y)], MIST, LINE)
+        ink.line([(-6, y), (18, y)], kit.MIST, kit.LINE)
     return ink.plain()

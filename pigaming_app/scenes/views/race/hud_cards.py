@@ -9,49 +9,17 @@ from dataclasses import dataclass
 import pygame
 
 from pigaming_app.scenes.views.background import Bit
+from pigaming_app.scenes.views.hud import parts
 from pigaming_app.scenes.views.hud.ai_sign import driver_tab
-from pigaming_app.scenes.views.hud.parts import (
-    CELL,
-    EDGE,
-    PANEL_W,
-    H,
-    Y,
-    bar_bits,
-    number_bits,
-    number_size,
-    plate,
-    turbo_cells,
-)
 from pigaming_app.scenes.views.race.lines import draw_sign, flag
-from pigaming_app.ui.draw import (
-    ALARM,
-    BODY,
-    FOCUS,
-    ICE,
-    LINE,
-    MIST,
-    PLAYERS,
-    SUB,
-    THIN,
-    WHITE,
-    Color,
-    GlowCanvas,
-    badge,
-    cut_box,
-    dim,
-    icon,
-    mix,
-    readable,
-    reads_large,
-    regular_polygon,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import number_width
 
-W = PANEL_W  # px, width of the cards
+W = parts.PANEL_W  # px, width of the cards
 GAIN, LOSS = (96, 255, 150), (255, 128, 118)  # colours of a gain and a loss of time; the sign shows it too
 CELLS = 16  # of the turbo bar
-PLACE, FIGURE, OF, ENDING = SUB, 58, BODY, 30  # font sizes: digits of 58 are 41 px high
+PLACE, FIGURE, OF, ENDING = kit.SUB, 58, kit.BODY, 30  # font sizes: digits of 58 are 41 px high
 ROW = 49  # px, vertical centre of the digits
 LEFT, LAP, RIGHT = 16, 103, W - 14  # px: left edge of place and lap, right edge of the gap
 GAP = 122  # px, maximum width of a gap
@@ -87,29 +55,31 @@ class RaceCard:
 
 def card_bits(card: RaceCard, x: int) -> list[Bit]:
     """Pieces of a card with its left edge at `x`."""
-    corner = (x - EDGE, Y - EDGE)
+    corner = (x - parts.EDGE, parts.Y - parts.EDGE)
     bits: list[Bit] = [
         (frame(card.seat, card.brain, card.name, bool(card.sign), card.done, card.item != "none"), corner, None)
     ]
-    number = FOCUS if card.done and card.place == 1 else WHITE
-    text, large = str(card.place), reads_large()
-    bits += number_bits(text, place_size(), x + LEFT, Y + (LARGE_ROW if large else ROW), number)
+    number = kit.FOCUS if card.done and card.place == 1 else kit.WHITE
+    text, large = str(card.place), kit.reads_large()
+    bits += parts.number_bits(text, place_size(), x + LEFT, parts.Y + (LARGE_ROW if large else ROW), number)
     after = x + LEFT + round(number_width(text, place_size())) + 1
     if not large:
-        bits.append((word(card.ending, number, ENDING), (after - EDGE, Y + ROW - 15 - EDGE), None))
+        bits.append((word(card.ending, number, ENDING), (after - parts.EDGE, parts.Y + ROW - 15 - parts.EDGE), None))
     if card.moved:
-        bits.append((mover(card.moved > 0), (after + 15 - EDGE, Y + ROW + 16 - EDGE), None))
+        bits.append((mover(card.moved > 0), (after + 15 - parts.EDGE, parts.Y + ROW + 16 - parts.EDGE), None))
     if card.item != "none":
-        bits.append((item_slot(card.item), (x + ITEM - EDGE, Y - 2 * EDGE - ITEM_UP), None))
-    color, wide = PLAYERS[card.seat], round(CELLS * CELL)
-    full = turbo_cells(WHITE, wide, 7, True, 1.0) if card.slip else turbo_cells(color, wide, 7, True)
-    bits += bar_bits(full, turbo_cells(color, wide, 7, False), (x + 17, Y + 76), card.turbo * CELLS * CELL / 64)
+        bits.append((item_slot(card.item), (x + ITEM - parts.EDGE, parts.Y - 2 * parts.EDGE - ITEM_UP), None))
+    color, wide = kit.PLAYERS[card.seat], round(CELLS * parts.CELL)
+    full = parts.turbo_cells(kit.WHITE, wide, 7, True, 1.0) if card.slip else parts.turbo_cells(color, wide, 7, True)
+    bits += parts.bar_bits(
+        full, parts.turbo_cells(color, wide, 7, False), (x + 17, parts.Y + 76), card.turbo * CELLS * parts.CELL / 64
+    )
     full, empty = (foot(card.seat, card.laps, lit) for lit in (True, False))
-    bits += bar_bits(full, empty, (x + 20, Y + H - 3), card.way)
+    bits += parts.bar_bits(full, empty, (x + 20, parts.Y + parts.H - 3), card.way)
     if card.sign == "missed":
-        bits.append((missed_mark(card.missed), (x + SIGNS - EDGE, Y - EDGE), None))
+        bits.append((missed_mark(card.missed), (x + SIGNS - parts.EDGE, parts.Y - parts.EDGE), None))
     elif card.sign:
-        bits.append((wrong_mark(), (x + SIGNS - EDGE, Y - EDGE), None))
+        bits.append((wrong_mark(), (x + SIGNS - parts.EDGE, parts.Y - parts.EDGE), None))
     else:
         bits += _figures(card, x)
     return bits
@@ -117,19 +87,21 @@ def card_bits(card: RaceCard, x: int) -> list[Bit]:
 
 def _figures(card: RaceCard, x: int) -> list[Bit]:
     """Lap and gap; the leader has a crown instead, and a flag at the end."""
-    lap, size, at = str(card.lap), readable(FIGURE), LARGE_LAP if reads_large() else LAP
-    bits = number_bits(lap, size, x + at, Y + ROW, ICE)
-    low = Y + ROW + 0.35 * (size - OF)  # common baseline
-    bits += number_bits(f"/{card.laps}", OF, x + at + number_width(lap, size), low, MIST)
+    lap, size, at = str(card.lap), kit.readable(FIGURE), LARGE_LAP if kit.reads_large() else LAP
+    bits = parts.number_bits(lap, size, x + at, parts.Y + ROW, kit.ICE)
+    low = parts.Y + ROW + 0.35 * (size - OF)  # common baseline
+    bits += parts.number_bits(f"/{card.laps}", OF, x + at + number_width(lap, size), low, kit.MIST)
     if card.gap:
-        size = number_size(card.gap, GAP, FIGURE, OF)  # OF: a gap of minutes
-        return bits + number_bits(card.gap, size, x + RIGHT - number_width(card.gap, size), Y + ROW, ICE)
-    return [*bits, (leader(card.done), (x + RIGHT - 60 - EDGE, Y - EDGE), None)]
+        size = parts.number_size(card.gap, GAP, FIGURE, OF)  # OF: a gap of minutes
+        return bits + parts.number_bits(
+            card.gap, size, x + RIGHT - number_width(card.gap, size), parts.Y + ROW, kit.ICE
+        )
+    return [*bits, (leader(card.done), (x + RIGHT - 60 - parts.EDGE, parts.Y - parts.EDGE), None)]
 
 
 def place_size() -> int:
     """Type size of the place, px."""
-    return LARGE_PLACE if reads_large() else PLACE
+    return LARGE_PLACE if kit.reads_large() else PLACE
 
 
 # ---- cached pieces
@@ -140,47 +112,47 @@ def frame(seat: int, brain: str, name: str, alarm: bool, done: bool, slot: bool)
     """Outline and badge of a card, and who drives; red during a warning, bold after the finish. `slot`: with a gap for
     an item.
     """
-    ink, color = plate(W, H), PLAYERS[seat]
-    outline, edge = cut_box(0, 0, W, H), ALARM if alarm else color
+    ink, color = parts.plate(W, parts.H), kit.PLAYERS[seat]
+    outline, edge = kit.cut_box(0, 0, W, parts.H), kit.ALARM if alarm else color
     if alarm or done:
-        ink.fill(outline, dim(edge, 0.16))
-    ink.line(outline, edge if alarm or done else dim(edge, 0.8), LINE if alarm or done else THIN, True)
+        ink.fill(outline, kit.dim(edge, 0.16))
+    ink.line(outline, edge if alarm or done else kit.dim(edge, 0.8), kit.LINE if alarm or done else kit.THIN, True)
     if slot:
-        ink.fill(regular_polygon(6, ITEM_SIZE + 9, 0.0, ITEM + EDGE, -ITEM_UP), (0, 0, 0))
-    ink.fill([(18, H - 8), (W - 18, H - 8), (W - 18, H + 8), (18, H + 8)], (0, 0, 0))
-    ink.solid(cut_box(14, -20, 56, 36, 4))
-    badge(ink, seat, 42, -2, 20)
-    driver_tab(ink, brain, name, 76, -2, (ITEM + EDGE - ITEM_SIZE - 12 if slot else W - 16) - 76, color)
+        ink.fill(kit.regular_polygon(6, ITEM_SIZE + 9, 0.0, ITEM + parts.EDGE, -ITEM_UP), (0, 0, 0))
+    ink.fill([(18, parts.H - 8), (W - 18, parts.H - 8), (W - 18, parts.H + 8), (18, parts.H + 8)], (0, 0, 0))
+    ink.solid(kit.cut_box(14, -20, 56, 36, 4))
+    kit.badge(ink, seat, 42, -2, 20)
+    driver_tab(ink, brain, name, 76, -2, (ITEM + parts.EDGE - ITEM_SIZE - 12 if slot else W - 16) - 76, color)
     return ink.lit(0.7)
 
 
 @cached
-def word(text: str, color: Color, size: int = BODY) -> pygame.Surface:
+def word(text: str, color: kit.Color, size: int = kit.BODY) -> pygame.Surface:
     """Short word, EDGE px from the left, vertical centre EDGE px from the top."""
     width = max(1, round(number_width(text, size)))
-    ink = GlowCanvas(width + 2 * EDGE, size + 2 * EDGE)
-    return ink.text(text, size, EDGE, EDGE, color, "head").lit(0.5)
+    ink = kit.GlowCanvas(width + 2 * parts.EDGE, size + 2 * parts.EDGE)
+    return ink.text(text, size, parts.EDGE, parts.EDGE, color, "head").lit(0.5)
 
 
 @cached
 def item_slot(name: str) -> pygame.Surface:
     """Hexagon on the upper edge of a card with the icon of the item, or empty."""
-    ink = GlowCanvas(4 * EDGE, 4 * EDGE, 3).set_transform(2 * EDGE, 2 * EDGE)
-    frame = regular_polygon(6, ITEM_SIZE)
+    ink = kit.GlowCanvas(4 * parts.EDGE, 4 * parts.EDGE, 3).set_transform(2 * parts.EDGE, 2 * parts.EDGE)
+    frame = kit.regular_polygon(6, ITEM_SIZE)
     if not name:
-        return ink.dashes(frame, dim(MIST, 0.5), 3, 10, 7).plain()
-    ink.fill(frame, dim(FOCUS, 0.14)).line(frame, FOCUS, THIN, True)
-    return icon(ink, name, 0, 0, 19, mix(FOCUS, WHITE, 0.5), 5).lit(0.7)
+        return ink.dashes(frame, kit.dim(kit.MIST, 0.5), 3, 10, 7).plain()
+    ink.fill(frame, kit.dim(kit.FOCUS, 0.14)).line(frame, kit.FOCUS, kit.THIN, True)
+    return kit.icon(ink, name, 0, 0, 19, kit.mix(kit.FOCUS, kit.WHITE, 0.5), 5).lit(0.7)
 
 
 @cached
 def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
     """Lap bar along the bottom of a card, one segment per lap, all lit or all dark."""
-    ink, color = plate(FOOT, 6), PLAYERS[seat]
+    ink, color = parts.plate(FOOT, 6), kit.PLAYERS[seat]
     piece = FOOT / laps
     for i in range(laps):
         corners = [(i * piece, 0), ((i + 1) * piece - 5, 0), ((i + 1) * piece - 5, 6), (i * piece, 6)]
-        ink.fill(corners, mix(color, WHITE, 0.25) if full else dim(color, 0.28))
+        ink.fill(corners, kit.mix(color, kit.WHITE, 0.25) if full else kit.dim(color, 0.28))
     return ink.lit(0.6) if full else ink.plain()
 
 
@@ -188,40 +160,40 @@ def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
 def mover(up: bool) -> pygame.Surface:
     """Arrowhead for a gained or lost place."""
     side = -1 if up else 1
-    ink = plate(2, 2)
+    ink = parts.plate(2, 2)
     return ink.fill([(-13, -side * 9), (13, -side * 9), (0, side * 11)], GAIN if up else LOSS).lit(0.9)
 
 
 @cached
 def leader(done: bool) -> pygame.Surface:
     """Crown of the leader or, at the end, a flag."""
-    ink = plate(60, H)
+    ink = parts.plate(60, parts.H)
     if done:
-        flag(ink, 30, ROW, 21, FOCUS)
+        flag(ink, 30, ROW, 21, kit.FOCUS)
     else:
-        icon(ink, "crown", 30, ROW, 24, FOCUS, LINE)
+        kit.icon(ink, "crown", 30, ROW, 24, kit.FOCUS, kit.LINE)
     return ink.lit(0.7)
 
 
 @cached
 def missed_mark(sign: int) -> pygame.Surface:
     """Warning: sign of the missed line."""
-    ink = plate(W // 2, H)
+    ink = parts.plate(W // 2, parts.H)
     draw_sign(ink, sign, 36, 44, 30)
-    ink.line([(92, 22), (92, 50)], WHITE, 12)
-    return ink.disc(92, 69, 8, WHITE).lit(0.7)
+    ink.line([(92, 22), (92, 50)], kit.WHITE, 12)
+    return ink.disc(92, 69, 8, kit.WHITE).lit(0.7)
 
 
 @cached
 def wrong_mark() -> pygame.Surface:
     """Warning: wrong way."""
-    ink = plate(W // 2, H)
+    ink = parts.plate(W // 2, parts.H)
     return u_turn(ink, 56, 46, 0.85).lit(0.7)
 
 
-def u_turn(ink: GlowCanvas, x: float, y: float, k: float) -> GlowCanvas:
+def u_turn(ink: kit.GlowCanvas, x: float, y: float, k: float) -> kit.GlowCanvas:
     """U-turn arrow, 72 px high at scale 1."""
     arc = [(18 * math.cos(t / 8), -8 - 18 * math.sin(t / 8)) for t in range(26)]
     way = [(18.0, 30.0), (18.0, -8.0), *arc, (-18.0, 6.0)]
-    ink.line([(x + k * a, y + k * b) for a, b in way], WHITE, 11 * k)
-    return ink.fill([(x + k * a, y + k * b) for a, b in ((-39, 4), (3, 4), (-18, 32))], WHITE)
+    ink.line([(x + k * a, y + k * b) for a, b in way], kit.WHITE, 11 * k)
+    return ink.fill([(x + k * a, y + k * b) for a, b in ((-39, 4), (3, 4), (-18, 32))], kit.WHITE)

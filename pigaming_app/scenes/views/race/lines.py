@@ -11,23 +11,7 @@ from typing import NamedTuple
 from pigaming_app.games.race.course import Course, CoursePosition, half_width_at, locate, point_at, segment_at
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
-from pigaming_app.ui.draw import (
-    ADD,
-    BLACK,
-    FOCUS,
-    ICE,
-    MIST,
-    PLAYERS,
-    THIN,
-    WHITE,
-    Color,
-    GlowCanvas,
-    Point,
-    badge,
-    cut_box,
-    dim,
-    mix,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import run_to_end
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
@@ -50,7 +34,7 @@ class LineFrame(NamedTuple):
     s: float
     half: float
 
-    def at(self, ahead: float, right: float) -> Point:
+    def at(self, ahead: float, right: float) -> kit.Point:
         """Point at an offset from the line's centre, px."""
         return self.x + ahead * self.c - right * self.s, self.y + ahead * self.s + right * self.c
 
@@ -73,51 +57,51 @@ def line_signs(state: Race) -> tuple[int, ...]:
     return tuple(owners)
 
 
-def sign_color(sign: int) -> Color:
+def sign_color(sign: int) -> kit.Color:
     """Colour of the sparks on a line."""
-    return PLAYERS[sign] if sign < ROBOTS else FOCUS
+    return kit.PLAYERS[sign] if sign < ROBOTS else kit.FOCUS
 
 
-def draw_sign(ink: GlowCanvas, sign: int, x: float, y: float, r: float) -> None:
+def draw_sign(ink: kit.GlowCanvas, sign: int, x: float, y: float, r: float) -> None:
     """Draw a sign, `r` px to each side: a player's badge, a chequered flag, or a letter on a plate."""
     if sign < ROBOTS:
-        badge(ink, sign, x, y, r)
+        kit.badge(ink, sign, x, y, r)
     elif sign == START:
-        flag(ink, x, y, r * 0.9, ICE)
+        flag(ink, x, y, r * 0.9, kit.ICE)
     else:
-        plate = cut_box(x - r * 0.86, y - r * 0.86, r * 1.72, r * 1.72, r * 0.4)
-        ink.fill(plate, MIST).line(plate, mix(MIST, WHITE, 0.35), max(2, r * 0.09), True)
-        ink.text(LETTERS[sign - CHECKPOINT], round(r * 1.3), x, y, BLACK, "hero", "c")
+        plate = kit.cut_box(x - r * 0.86, y - r * 0.86, r * 1.72, r * 1.72, r * 0.4)
+        ink.fill(plate, kit.MIST).line(plate, kit.mix(kit.MIST, kit.WHITE, 0.35), max(2, r * 0.09), True)
+        ink.text(LETTERS[sign - CHECKPOINT], round(r * 1.3), x, y, kit.BLACK, "hero", "c")
 
 
-def draw_line(glow: GlowCanvas, crisp: GlowCanvas, line: LineFrame, color: Color) -> None:
+def draw_line(glow: kit.GlowCanvas, crisp: kit.GlowCanvas, line: LineFrame, color: kit.Color) -> None:
     """Two chequered columns between two bright rails."""
     half = line.half - 3
-    crisp.fill([line.at(a, b) for a, b in ((-26, -half), (26, -half), (26, half), (-26, half))], BLACK)
+    crisp.fill([line.at(a, b) for a, b in ((-26, -half), (26, -half), (26, half), (-26, half))], kit.BLACK)
     cells = 2 * round(half / 20)
     size = 2 * half / cells
     for row in range(cells):
         column, side = row % 2 - 1, -half + row * size
         a, b = column * (WIDE_LINE - 5), (column + 1) * (WIDE_LINE - 5)
         cell = [(a, side), (b, side), (b, side + size), (a, side + size)]
-        crisp.fill([line.at(*corner) for corner in cell], dim(color, 0.9))
+        crisp.fill([line.at(*corner) for corner in cell], kit.dim(color, 0.9))
     for rail in (-WIDE_LINE, WIDE_LINE):
         glow.neon([line.at(rail, -half), line.at(rail, half)], color, 5)
 
 
-def draw_checkpoint(ink: GlowCanvas, line: LineFrame) -> None:
+def draw_checkpoint(ink: kit.GlowCanvas, line: LineFrame) -> None:
     """A narrow dashed line in a neutral colour."""
     half = line.half - 3
     for rail in (-NARROW_LINE, NARROW_LINE):
-        ink.line([line.at(rail, -half), line.at(rail, half)], dim(MIST, 0.5), THIN - 1)
+        ink.line([line.at(rail, -half), line.at(rail, half)], kit.dim(kit.MIST, 0.5), kit.THIN - 1)
     blocks = 2 * round(half / 26) + 1
     size = 2 * half / blocks
     for i in range(0, blocks, 2):
         a, b = -half + i * size + 3, -half + (i + 1) * size - 3
-        ink.fill([line.at(*corner) for corner in ((-4, a), (4, a), (4, b), (-4, b))], dim(MIST, 0.8))
+        ink.fill([line.at(*corner) for corner in ((-4, a), (4, a), (4, b), (-4, b))], kit.dim(kit.MIST, 0.8))
 
 
-def draw_slot(ink: GlowCanvas, color: Color) -> None:
+def draw_slot(ink: kit.GlowCanvas, color: kit.Color) -> None:
     """Start box of a robot that stands at the origin of `ink` and heads for +x."""
     for side in (-1, 1):
         ink.line([(-46, side * 26), (-46, side * 46), (8, side * 46)], color, 4)
@@ -127,14 +111,14 @@ def draw_slot(ink: GlowCanvas, color: Color) -> None:
 def line_sprite(line: LineFrame, sign: int) -> Sprite:
     """A line of a race, anchored at its centre. Blit with PRE."""
     half = math.ceil(line.half) + 40
-    glow, crisp = (GlowCanvas(2 * half, 2 * half).set_transform(half - line.x, half - line.y) for _ in range(2))
+    glow, crisp = (kit.GlowCanvas(2 * half, 2 * half).set_transform(half - line.x, half - line.y) for _ in range(2))
     wide = NARROW_LINE if sign >= CHECKPOINT else WIDE_LINE
     edge = line.half - 3
     glow.solid([line.at(a, b) for a, b in ((-wide, -edge), (wide, -edge), (wide, edge), (-wide, edge))])
     if sign >= CHECKPOINT:
         draw_checkpoint(crisp, line)
     else:
-        draw_line(glow, crisp, line, ICE if sign == START else PLAYERS[sign])
+        draw_line(glow, crisp, line, kit.ICE if sign == START else kit.PLAYERS[sign])
     image = glow.sprite(GLOW)
     run_to_end(crisp.downscale_onto(image))
     return trim(image, half, half)
@@ -143,7 +127,7 @@ def line_sprite(line: LineFrame, sign: int) -> Sprite:
 @cached
 def post_sprite(sign: int) -> Sprite:
     """Sign beside the track, as light."""
-    ink = GlowCanvas(128, 128).set_transform(64, 64)
+    ink = kit.GlowCanvas(128, 128).set_transform(64, 64)
     draw_sign(ink, sign, 0, 0, BADGE)
     return trim(ink.lit(GLOW), 64, 64)
 
@@ -151,18 +135,20 @@ def post_sprite(sign: int) -> Sprite:
 @cached
 def slot_sprite(seat: int, heading: float, numbered: bool) -> Sprite:
     """Start box of a seat, as light; `numbered`: with its badge behind it, as no line of its own shows it."""
-    ink = GlowCanvas(256, 256).set_transform(128, 128, heading)
-    draw_slot(ink, dim(PLAYERS[seat], 0.6 if numbered else 0.30))
+    ink = kit.GlowCanvas(256, 256).set_transform(128, 128, heading)
+    draw_slot(ink, kit.dim(kit.PLAYERS[seat], 0.6 if numbered else 0.30))
     image = ink.plain()
     if numbered:
-        ink = GlowCanvas(256, 256)
-        badge(ink, seat, 128 - 72 * math.cos(heading), 128 - 72 * math.sin(heading), 15, dim(PLAYERS[seat], 0.75))
-        image.blit(ink.plain(), (0, 0), special_flags=ADD)
+        ink = kit.GlowCanvas(256, 256)
+        kit.badge(
+            ink, seat, 128 - 72 * math.cos(heading), 128 - 72 * math.sin(heading), 15, kit.dim(kit.PLAYERS[seat], 0.75)
+        )
+        image.blit(ink.plain(), (0, 0), special_flags=kit.ADD)
     return trim(image, 128, 128)
 
 
 @lru_cache(maxsize=32)
-def sign_post(course: Course, along: float) -> Point:
+def sign_post(course: Course, along: float) -> kit.Point:
     """Position of a line's sign: beside the track, on the side with more space."""
     line, place = frame(course, along), CoursePosition()
     best, room = (0.0, 0.0), -1e9
@@ -176,7 +162,7 @@ def sign_post(course: Course, along: float) -> Point:
     return best
 
 
-def flag(ink: GlowCanvas, x: float, y: float, r: float, color: Color) -> None:
+def flag(ink: kit.GlowCanvas, x: float, y: float, r: float, color: kit.Color) -> None:
     """Chequered flag on a pole, `r` px to each side."""
     size = 2 * r / 4
     ink.line([(x - r, y - r), (x - r, y + r)], color, max(3, r * 0.2))

@@ -9,31 +9,18 @@ import math
 import pygame
 
 from pigaming_app.games.factory.state import DAMAGED, DELIVERED, DONE, HALF, ICE, RAW, A
-from pigaming_app.ui.draw import (
-    ALARM,
-    BLACK,
-    LINE,
-    THIN,
-    WHITE,
-    Color,
-    GlowCanvas,
-    Points,
-    cut_box,
-    dim,
-    regular_polygon,
-    star_points,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.numbers import signed
 
-TEAMS: tuple[Color, Color] = ((70, 210, 255), (255, 150, 40))
-STATES: dict[int, Color] = {
+TEAMS: tuple[kit.Color, kit.Color] = ((70, 210, 255), (255, 150, 40))
+STATES: dict[int, kit.Color] = {
     RAW: (255, 84, 76),
     HALF: (84, 236, 120),
     DONE: (104, 176, 255),
     DAMAGED: (172, 164, 152),
-    DELIVERED: BLACK,
+    DELIVERED: kit.BLACK,
 }
 CRATE = 54  # px
 PERSON_TURNS, STRIDE = 36, 4  # headings, frames of the walk cycle
@@ -42,7 +29,7 @@ COUNTS = 36  # steps of a progress ring
 FROZEN = 54  # px, radius of the ring of a frozen robot that is not real
 
 
-def state_icon(ink: GlowCanvas, state: int, x: float, y: float, r: float, color: Color) -> None:
+def state_icon(ink: kit.GlowCanvas, state: int, x: float, y: float, r: float, color: kit.Color) -> None:
     """State icon: raw a disc, half done half a disc, done and delivered a star, damaged a cross."""
     if state == RAW:
         ink.disc(x, y, r, color)
@@ -53,14 +40,14 @@ def state_icon(ink: GlowCanvas, state: int, x: float, y: float, r: float, color:
         for side in (-1, 1):
             ink.line([(x - r * 0.8, y - side * r * 0.8), (x + r * 0.8, y + side * r * 0.8)], color, r * 0.4)
     else:
-        ink.fill(star_points(r * 1.2, x, y), color)
+        ink.fill(kit.star_points(r * 1.2, x, y), color)
 
 
-def outline(team: int, x: float, y: float, half: float) -> Points:
+def outline(team: int, x: float, y: float, half: float) -> kit.Points:
     """Shape of a team's crate, `half` px to each side of (x, y)."""
     corner = half * 0.52
     if team != ICE:
-        return cut_box(x - half, y - half, 2 * half, 2 * half, corner)
+        return kit.cut_box(x - half, y - half, 2 * half, 2 * half, corner)
     points = []
     for i in range(4):
         sx, sy = ((1, 1), (-1, 1), (-1, -1), (1, -1))[i]
@@ -72,7 +59,7 @@ def outline(team: int, x: float, y: float, half: float) -> Points:
     return points
 
 
-def draw_crate(ink: GlowCanvas, team: int, state: int, x: float, y: float, size: float = CRATE) -> None:
+def draw_crate(ink: kit.GlowCanvas, team: int, state: int, x: float, y: float, size: float = CRATE) -> None:
     """Draw a crate centred on (x, y)."""
     color, half = TEAMS[team], size / 2 - 3
     shape = outline(team, x, y, half)
@@ -80,10 +67,10 @@ def draw_crate(ink: GlowCanvas, team: int, state: int, x: float, y: float, size:
     if state == DELIVERED:
         ink.fill(shape, color)
         ink.line(shape, color, 5, True)
-        ink.fill(star_points(size * 0.34, x, y), BLACK)
+        ink.fill(kit.star_points(size * 0.34, x, y), kit.BLACK)
         return
-    edge = dim(color, 0.45) if state == DAMAGED else color
-    ink.fill(shape, dim(edge, 0.10)).line(shape, edge, 5, True)
+    edge = kit.dim(color, 0.45) if state == DAMAGED else color
+    ink.fill(shape, kit.dim(edge, 0.10)).line(shape, edge, 5, True)
     state_icon(ink, state, x, y, size * 0.27, STATES[state])
 
 
@@ -91,12 +78,12 @@ def draw_crate(ink: GlowCanvas, team: int, state: int, x: float, y: float, size:
 def crate(team: int, state: int, tenths: int = 10) -> Sprite:
     """Opaque crate of a team in a state, scaled to `tenths` / 10."""
     size = CRATE * tenths / 10
-    ink = GlowCanvas(120, 120, 3).set_transform(60, 60)
+    ink = kit.GlowCanvas(120, 120, 3).set_transform(60, 60)
     draw_crate(ink, team, state, 0, 0, size)
     return trim(ink.sprite(0.6), 60, 60)
 
 
-def emblem(ink: GlowCanvas, team: int, x: float, y: float, r: float) -> None:
+def emblem(ink: kit.GlowCanvas, team: int, x: float, y: float, r: float) -> None:
     """Snowflake for ICE, flame for FIRE."""
     color = TEAMS[team]
     if team == ICE:
@@ -112,7 +99,7 @@ def emblem(ink: GlowCanvas, team: int, x: float, y: float, r: float) -> None:
     ink.fill(flame(x, y + 0.38 * r, r * 0.5), (255, 226, 130))
 
 
-def flame(x: float, y: float, r: float) -> Points:
+def flame(x: float, y: float, r: float) -> kit.Points:
     """Outline of a flame."""
     half = [(0.0, -1.05), (0.20, -0.62), (0.50, -0.25), (0.72, 0.22), (0.56, 0.74), (0.0, 1.0)]
     left = [(-0.56, 0.74), (-0.72, 0.24), (-0.60, -0.18), (-0.36, -0.42), (-0.26, -0.12), (-0.14, -0.60)]
@@ -130,8 +117,8 @@ def forks(team: int, turn: int) -> Sprite:
 def _forks(team: int) -> pygame.Surface:
     ink = master(76, 24)
     for side in (-20, 20):
-        ink.solid(cut_box(26, side - 7, 69, 14, 5)).line([(30, side), (90, side)], TEAMS[team], 8)
-    ink.arc(0, 0, 45, 0.66, math.tau - 0.66, TEAMS[team], LINE)
+        ink.solid(kit.cut_box(26, side - 7, 69, 14, 5)).line([(30, side), (90, side)], TEAMS[team], 8)
+    ink.arc(0, 0, 45, 0.66, math.tau - 0.66, TEAMS[team], kit.LINE)
     return ink.sprite(0.5)
 
 
@@ -143,7 +130,7 @@ def person(turn: int, stride: int, working: bool) -> Sprite:
 
 def _person(stride: int, working: bool) -> pygame.Surface:
     ink, swing = master(48), 8 * math.sin(stride * math.tau / STRIDE)
-    ink.solid(regular_polygon(32, 26))
+    ink.solid(kit.regular_polygon(32, 26))
     for side in (-1, 1):
         if working:
             hand = (27 + 0.4 * swing * side, 9 * side)
@@ -166,7 +153,7 @@ def _person(stride: int, working: bool) -> pygame.Surface:
 @cached
 def progress(state: int, part: int) -> Sprite:
     """Progress ring of a machine, `part` of COUNTS, in the colour of its product."""
-    ink = GlowCanvas(150, 150).set_transform(75, 75)
+    ink = kit.GlowCanvas(150, 150).set_transform(75, 75)
     if part:
         ink.arc(0, 0, 44, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, STATES[state], 10)
     return trim(ink.lit(0.9), 75, 75)
@@ -175,10 +162,12 @@ def progress(state: int, part: int) -> Sprite:
 @cached
 def busy(team: int, kind: int) -> Sprite:
     """Machine of a kind in use: it shows the team's outline."""
-    ink, body = GlowCanvas(230, 230).set_transform(115, 115), cut_box(-66, -66, 132, 132, 20)
-    ink.solid(cut_box(-69, -69, 138, 138, 21)).fill(body, dim(TEAMS[team], 0.10)).line(body, TEAMS[team], 8, True)
-    ink.ring(0, 0, 44, dim(TEAMS[team], 0.26), 10)
-    ink.text("A" if kind == A else "B", 62, 0, 0, WHITE, "hero", "c")
+    ink, body = kit.GlowCanvas(230, 230).set_transform(115, 115), kit.cut_box(-66, -66, 132, 132, 20)
+    ink.solid(kit.cut_box(-69, -69, 138, 138, 21)).fill(body, kit.dim(TEAMS[team], 0.10)).line(
+        body, TEAMS[team], 8, True
+    )
+    ink.ring(0, 0, 44, kit.dim(TEAMS[team], 0.26), 10)
+    ink.text("A" if kind == A else "B", 62, 0, 0, kit.WHITE, "hero", "c")
     return trim(ink.sprite(0.8), 115, 115)
 
 
@@ -186,54 +175,56 @@ def busy(team: int, kind: int) -> Sprite:
 def frozen(part: int, r: int) -> Sprite:
     """Timer ring of a frozen robot, radius `r` px, `part` of COUNTS left."""
     half = r + 31
-    ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)
-    ink.ring(0, 0, r, dim(ALARM, 0.3), 8)
+    ink = kit.GlowCanvas(2 * half, 2 * half).set_transform(half, half)
+    ink.ring(0, 0, r, kit.dim(kit.ALARM, 0.3), 8)
     if part:
-        ink.arc(0, 0, r, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, ALARM, 8)
+        ink.arc(0, 0, r, -math.pi / 2, -math.pi / 2 + math.tau * part / COUNTS, kit.ALARM, 8)
     return trim(ink.lit(0.9), half, half)
 
 
 @cached
 def awaited(seconds: int) -> Sprite:
     """Marker and countdown for the next pallet."""
-    ink = GlowCanvas(110, 110, 3).set_transform(55, 55)
-    ink.dashes(regular_polygon(40, 27), dim(STATES[RAW], 0.85), THIN, 8, 8)
-    ink.text(str(seconds), 40, 0, 0, WHITE, "hero", "c")
+    ink = kit.GlowCanvas(110, 110, 3).set_transform(55, 55)
+    ink.dashes(kit.regular_polygon(40, 27), kit.dim(STATES[RAW], 0.85), kit.THIN, 8, 8)
+    ink.text(str(seconds), 40, 0, 0, kit.WHITE, "hero", "c")
     return trim(ink.lit(0.5), 55, 55)
 
 
 @cached
 def exclaim() -> Sprite:
     """Exclamation mark."""
-    ink = GlowCanvas(120, 130, 3).set_transform(60, 60)
-    ink.solid(cut_box(-30, -30, 60, 56, 10)).fill([(-10, 24), (10, 24), (-12, 44)], ALARM)
-    ink.line(cut_box(-30, -30, 60, 56, 10), ALARM, 5, True).line([(0, -18), (0, 2)], WHITE, 8).disc(0, 15, 5, WHITE)
+    ink = kit.GlowCanvas(120, 130, 3).set_transform(60, 60)
+    ink.solid(kit.cut_box(-30, -30, 60, 56, 10)).fill([(-10, 24), (10, 24), (-12, 44)], kit.ALARM)
+    ink.line(kit.cut_box(-30, -30, 60, 56, 10), kit.ALARM, 5, True).line([(0, -18), (0, 2)], kit.WHITE, 8).disc(
+        0, 15, 5, kit.WHITE
+    )
     return trim(ink.sprite(0.7), 60, 60)
 
 
 @cached
 def cross() -> Sprite:
     """Refusal cross."""
-    ink = GlowCanvas(110, 110, 3).set_transform(55, 55)
-    ink.solid(regular_polygon(32, 30)).ring(0, 0, 27, ALARM, 5)
+    ink = kit.GlowCanvas(110, 110, 3).set_transform(55, 55)
+    ink.solid(kit.regular_polygon(32, 30)).ring(0, 0, 27, kit.ALARM, 5)
     for side in (-1, 1):
-        ink.line([(-11, -11 * side), (11, 11 * side)], ALARM, 8)
+        ink.line([(-11, -11 * side), (11, 11 * side)], kit.ALARM, 8)
     return trim(ink.sprite(0.8), 55, 55)
 
 
 @cached
 def digit(number: int) -> Sprite:
     """Large countdown digit over a frozen robot."""
-    ink = GlowCanvas(130, 140, 3).set_transform(65, 70)
-    ink.solid(regular_polygon(8, 40, math.pi / 8)).text(str(number), 76, 0, 0, WHITE, "hero", "c")
+    ink = kit.GlowCanvas(130, 140, 3).set_transform(65, 70)
+    ink.solid(kit.regular_polygon(8, 40, math.pi / 8)).text(str(number), 76, 0, 0, kit.WHITE, "hero", "c")
     return trim(ink.sprite(0.6), 65, 70)
 
 
 @cached
-def target(color: Color, small: bool) -> Sprite:
+def target(color: kit.Color, small: bool) -> Sprite:
     """Corners around a targeted slot."""
     half, reach, width = (38, 12, 4) if small else (44, 22, 7)
-    ink = GlowCanvas(150, 150, 3).set_transform(75, 75)
+    ink = kit.GlowCanvas(150, 150, 3).set_transform(75, 75)
     for sx in (-1, 1):
         for sy in (-1, 1):
             corner = [(sx * half, sy * (half - reach)), (sx * half, sy * half), (sx * (half - reach), sy * half)]
@@ -242,28 +233,28 @@ def target(color: Color, small: bool) -> Sprite:
 
 
 @cached
-def arrow(color: Color, turn: int) -> Sprite:
+def arrow(color: kit.Color, turn: int) -> Sprite:
     """Head of a dashed arrow at heading `turn` of HEADINGS."""
     return turned(painted(_arrow, (color,)), turn, HEADINGS)
 
 
-def _arrow(color: Color) -> pygame.Surface:
+def _arrow(color: kit.Color) -> pygame.Surface:
     return master(32).fill([(20, 0), (-12, -19), (-12, 19)], color).lit(0.7)
 
 
 @cached
-def dash(color: Color, turn: int) -> Sprite:
+def dash(color: kit.Color, turn: int) -> Sprite:
     """Dash of an arrow at heading `turn` of HEADINGS."""
     return turned(painted(_dash, (color,)), turn, HEADINGS)
 
 
-def _dash(color: Color) -> pygame.Surface:
+def _dash(color: kit.Color) -> pygame.Surface:
     return master(24).line([(-8, 0), (8, 0)], color, 7).lit(0.6)
 
 
 @cached
 def count(number: int, team: int) -> Sprite:
     """Number of further pallets beside a warehouse."""
-    ink = GlowCanvas(160, 80, 3).set_transform(80, 40)
+    ink = kit.GlowCanvas(160, 80, 3).set_transform(80, 40)
     ink.text(signed(number), 40, 0, 0, TEAMS[team], "hero", "c")
     return trim(ink.lit(0.5), 80, 40)

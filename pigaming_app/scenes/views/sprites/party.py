@@ -6,20 +6,7 @@ import pygame
 
 from pigaming_app.games.pitanks.state import PiTanksRules
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.ui.draw import (
-    FOCUS,
-    LABEL,
-    LINE,
-    THIN,
-    WHITE,
-    GlowCanvas,
-    cut_box,
-    dim,
-    icon,
-    mix,
-    star_points,
-    text_width,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.sprites import Sprite, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.numbers import signed
@@ -40,8 +27,8 @@ def _stars(r: int) -> pygame.Surface:
     ink = master(r + 32)
     for i in range(STARS):
         a = i * math.tau / STARS
-        shape = star_points(14, r * math.cos(a), r * math.sin(a), a)
-        ink.fill(shape, FOCUS).line(shape, mix(FOCUS, WHITE, 0.6), 2, True)
+        shape = kit.star_points(14, r * math.cos(a), r * math.sin(a), a)
+        ink.fill(shape, kit.FOCUS).line(shape, kit.mix(kit.FOCUS, kit.WHITE, 0.6), 2, True)
     return ink.lit(1.0)
 
 
@@ -49,11 +36,11 @@ def _stars(r: int) -> pygame.Surface:
 def spotlight() -> Sprite:
     """Light from above on the circle that a robot has not left, additive."""
     half = STAGE + 40
-    ink = GlowCanvas(half, half, 1)
+    ink = kit.GlowCanvas(half, half, 1)
     for i in range(12):
-        ink.disc(half / 2, half / 2, STAGE / 2 * (1.0 - i / 14), dim(LAMP, 0.10 + 0.045 * i))
+        ink.disc(half / 2, half / 2, STAGE / 2 * (1.0 - i / 14), kit.dim(LAMP, 0.10 + 0.045 * i))
     pool = pygame.transform.smoothscale(pygame.transform.gaussian_blur(ink.plain(), 4), (2 * half, 2 * half))
-    rim = GlowCanvas(2 * half, 2 * half).ring(half, half, STAGE, LAMP, LINE).lit(1.0)
+    rim = kit.GlowCanvas(2 * half, 2 * half).ring(half, half, STAGE, LAMP, kit.LINE).lit(1.0)
     pool.blit(rim, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
     return trim(pool, half, half)
 
@@ -62,10 +49,10 @@ def spotlight() -> Sprite:
 def stage() -> Sprite:
     """The edge of that circle, dashed, shortly before the light comes on."""
     half = STAGE + 24
-    ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)
+    ink = kit.GlowCanvas(2 * half, 2 * half).set_transform(half, half)
     for i in range(16):
         a = i * math.tau / 16
-        ink.arc(0, 0, STAGE, a, a + 0.2, dim(LAMP, 0.7), THIN)
+        ink.arc(0, 0, STAGE, a, a + 0.2, kit.dim(LAMP, 0.7), kit.THIN)
     return trim(ink.lit(0.6), half, half)
 
 
@@ -73,10 +60,10 @@ def stage() -> Sprite:
 def bounty(points: int) -> Sprite:
     """A crown and the points that a hit on this robot scores, on black."""
     text = signed(points)
-    w = round(text_width(text, LABEL, "hero")) + 74
-    ink = GlowCanvas(w + 48, 112).set_transform(w / 2 + 24, 56)
-    box = cut_box(-w / 2, -28, w, 56, 12)
-    ink.solid(box).line(box, FOCUS, THIN, True)
-    icon(ink, "crown", -w / 2 + 34, 2, 20, FOCUS, THIN)
-    ink.text(text, LABEL, -w / 2 + 60, 0, FOCUS, "hero", "l")
+    w = round(kit.text_width(text, kit.LABEL, "hero")) + 74
+    ink = kit.GlowCanvas(w + 48, 112).set_transform(w / 2 + 24, 56)
+    box = kit.cut_box(-w / 2, -28, w, 56, 12)
+    ink.solid(box).line(box, kit.FOCUS, kit.THIN, True)
+    kit.icon(ink, "crown", -w / 2 + 34, 2, 20, kit.FOCUS, kit.THIN)
+    ink.text(text, kit.LABEL, -w / 2 + 60, 0, kit.FOCUS, "hero", "l")
     return trim(ink.sprite(0.6), w / 2 + 24, 56)

@@ -3,22 +3,7 @@
 import math
 
 from pigaming_app.scenes.views.sprites.lettering import edged
-from pigaming_app.ui.draw import (
-    ALARM,
-    BLACK,
-    FOCUS,
-    ICE,
-    PLAYERS,
-    SUB,
-    THIN,
-    WHITE,
-    Color,
-    GlowCanvas,
-    dim,
-    icon,
-    mix,
-    regular_polygon,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.sprites import Sprite, faded, trim
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -28,29 +13,29 @@ POPUP_LEVELS = 6
 @cached
 def pickup(name: str) -> Sprite:
     """A power on the floor."""
-    ink = GlowCanvas(152, 152, 3).set_transform(76, 76)
-    frame = regular_polygon(6, 42, math.pi / 6)
-    ink.solid(frame).neon(frame, FOCUS, THIN, True)
-    icon(ink, name, 0, 0, 23, mix(FOCUS, WHITE, 0.5), 5)
+    ink = kit.GlowCanvas(152, 152, 3).set_transform(76, 76)
+    frame = kit.regular_polygon(6, 42, math.pi / 6)
+    ink.solid(frame).neon(frame, kit.FOCUS, kit.THIN, True)
+    kit.icon(ink, name, 0, 0, 23, kit.mix(kit.FOCUS, kit.WHITE, 0.5), 5)
     return trim(ink.sprite(1.0), 76, 76)
 
 
 @cached
 def mine(player: int, bright: bool) -> Sprite:
     """Mine in its owner's colour with the player number; an armed mine blinks with `bright`."""
-    ink = GlowCanvas(120, 120, 3).set_transform(60, 60)
-    ink.solid(regular_polygon(24, 25))
-    icon(ink, "mine", 0, 0, 27, PLAYERS[player], 4)
-    ink.disc(0, 0, 12, ALARM if bright else dim(ALARM, 0.45))
-    ink.text(str(player + 1), 20, 0, 0, BLACK, "hero", "c")
+    ink = kit.GlowCanvas(120, 120, 3).set_transform(60, 60)
+    ink.solid(kit.regular_polygon(24, 25))
+    kit.icon(ink, "mine", 0, 0, 27, kit.PLAYERS[player], 4)
+    ink.disc(0, 0, 12, kit.ALARM if bright else kit.dim(kit.ALARM, 0.45))
+    ink.text(str(player + 1), 20, 0, 0, kit.BLACK, "hero", "c")
     return trim(ink.sprite(1.0 if bright else 0.7), 60, 60)
 
 
 @cached
-def small_icon(name: str, color: Color = ICE, r: int = 16, width: float = THIN) -> Sprite:
+def small_icon(name: str, color: kit.Color = kit.ICE, r: int = 16, width: float = kit.THIN) -> Sprite:
     """Icon as additive light, `r` px to each side."""
-    ink = GlowCanvas(2 * r + 64, 2 * r + 64, 3)
-    icon(ink, name, r + 32, r + 32, r, color, width)
+    ink = kit.GlowCanvas(2 * r + 64, 2 * r + 64, 3)
+    kit.icon(ink, name, r + 32, r + 32, r, color, width)
     return trim(ink.lit(0.6), r + 32, r + 32)
 
 
@@ -59,4 +44,4 @@ def popup(text: str, player: int, level: int = POPUP_LEVELS) -> Sprite:
     """Rising score, opacity `level` of POPUP_LEVELS; a dark edge keeps it readable on any background."""
     if level < POPUP_LEVELS:
         return faded(popup(text, player), level / POPUP_LEVELS)
-    return edged(text, SUB, PLAYERS[player])
+    return edged(text, kit.SUB, kit.PLAYERS[player])

@@ -7,22 +7,7 @@ import math
 
 import pygame
 
-from pigaming_app.ui.draw import (
-    ALARM,
-    BLACK,
-    ICE,
-    LINE,
-    PLAYERS,
-    THIN,
-    WHITE,
-    GlowCanvas,
-    cut_box,
-    dim,
-    font,
-    mix,
-    regular_polygon,
-    shape_points,
-)
+from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 
@@ -30,32 +15,32 @@ HALF, ARM = 80, 13  # px: half the extent of a rotated tank, and the offset of i
 TRIANGLE_BACK = 4  # px by which player 2's turret sits further back
 
 
-def draw_tank(ink: GlowCanvas, player: int) -> GlowCanvas:
+def draw_tank(ink: kit.GlowCanvas, player: int) -> kit.GlowCanvas:
     """Draw a robot at the origin of `ink`, heading +x, radius 36 px, without its number."""
-    color = PLAYERS[player]
-    ink.solid(regular_polygon(64, 37))
+    color = kit.PLAYERS[player]
+    ink.solid(kit.regular_polygon(64, 37))
     hull = [(34 * math.cos(a / 20), 34 * math.sin(a / 20)) for a in range(-20, 21)]
-    ink.neon(hull, color, LINE).neon([(-x, y) for x, y in hull], color, LINE)
+    ink.neon(hull, color, kit.LINE).neon([(-x, y) for x, y in hull], color, kit.LINE)
     for side in (-1, 1):
-        ink.solid(cut_box(-19, side * 33 - 10, 38, 20, 6)).fill(cut_box(-16, side * 33 - 7, 32, 14, 4), color)
+        ink.solid(kit.cut_box(-19, side * 33 - 10, 38, 20, 6)).fill(kit.cut_box(-16, side * 33 - 7, 32, 14, 4), color)
         for x in (-8, 0, 8):
             ink.void([(x, side * 33 - 7), (x, side * 33 + 7)], 3, 0.3)
-        ink.disc(25, side * 15, 5, WHITE)
-        ink.line([(-26, side * 9), (-24, side * 14)], ALARM, THIN)
+        ink.disc(25, side * 15, 5, kit.WHITE)
+        ink.line([(-26, side * 9), (-24, side * 14)], kit.ALARM, kit.THIN)
     barrel = [(10, -9), (46, -9), (46, -14), (61, -14), (61, 14), (46, 14), (46, 9), (10, 9)]
-    ink.solid([(x * 1.05, y * 1.3) for x, y in barrel]).fill(barrel, mix(color, WHITE, 0.5)).void(
-        [(28, 0), (52, 0)], THIN
+    ink.solid([(x * 1.05, y * 1.3) for x, y in barrel]).fill(barrel, kit.mix(color, kit.WHITE, 0.5)).void(
+        [(28, 0), (52, 0)], kit.THIN
     )
-    turret = [(x - _back(player), y) for x, y in shape_points(player, 23)]
+    turret = [(x - _back(player), y) for x, y in kit.shape_points(player, 23)]
     return ink.solid([(x * 1.16, y * 1.16) for x, y in turret]).fill(turret, color)
 
 
-def robot(ink: GlowCanvas, player: int, x: float, y: float, angle: float, scale: float = 1.0) -> GlowCanvas:
+def robot(ink: kit.GlowCanvas, player: int, x: float, y: float, angle: float, scale: float = 1.0) -> kit.GlowCanvas:
     """Draw the robot of seat 0..3 at (x, y), heading `angle` rad, with its number upright."""
     draw_tank(ink.set_transform(x, y, angle, scale), player)
     back, size = _back(player), _number_size(player)
     ink.set_transform(x, y, 0, scale)
-    ink.text(str(player + 1), size, -back * math.cos(angle), -back * math.sin(angle), BLACK, "hero", "c")
+    ink.text(str(player + 1), size, -back * math.cos(angle), -back * math.sin(angle), kit.BLACK, "hero", "c")
     return ink.set_transform(0, 0)
 
 
@@ -63,8 +48,8 @@ def robot(ink: GlowCanvas, player: int, x: float, y: float, angle: float, scale:
 def tank(player: int, turn: int) -> Sprite:
     """Robot at heading `turn` of HEADINGS, number upright. Premultiplied alpha: opaque with a glow."""
     image, dx, dy = turned(painted(_tank, (player,)), turn, HEADINGS, ARM)
-    angle, back, face = turn * math.tau / HEADINGS, _back(player), font("hero", _number_size(player))
-    number = face.render(str(player + 1), True, BLACK)
+    angle, back, face = turn * math.tau / HEADINGS, _back(player), kit.font("hero", _number_size(player))
+    number = face.render(str(player + 1), True, kit.BLACK)
     x = -dx - back * math.cos(angle) - number.get_width() / 2
     y = -dy - back * math.sin(angle) + 0.35 * _number_size(player) - face.get_ascent()
     image.blit(number, (round(x), round(y)))
@@ -74,9 +59,9 @@ def tank(player: int, turn: int) -> Sprite:
 @cached
 def ghost(player: int) -> Sprite:
     """Off phase of a blinking robot: a dim ring and its number."""
-    ink = GlowCanvas(112, 112).set_transform(56, 56)
-    ink.solid(regular_polygon(64, 36)).ring(0, 0, 34, dim(PLAYERS[player], 0.55), THIN)
-    ink.text(str(player + 1), 34, 0, 0, dim(PLAYERS[player], 0.8), "hero", "c")
+    ink = kit.GlowCanvas(112, 112).set_transform(56, 56)
+    ink.solid(kit.regular_polygon(64, 36)).ring(0, 0, 34, kit.dim(kit.PLAYERS[player], 0.55), kit.THIN)
+    ink.text(str(player + 1), 34, 0, 0, kit.dim(kit.PLAYERS[player], 0.8), "hero", "c")
     return trim(ink.sprite(0.6), 56, 56)
 
 
@@ -94,7 +79,7 @@ def _team_mark(team: int) -> pygame.Surface:
     ink = master(36, -46)
     for middle in ((0.0,), (-0.28, 0.28))[min(team, 1)]:
         half = 0.42 if team == 0 else 0.18
-        ink.arc(0, 0, 47, math.pi + middle - half, math.pi + middle + half, ICE, 5)
+        ink.arc(0, 0, 47, math.pi + middle - half, math.pi + middle + half, kit.ICE, 5)
     return ink.lit(0.7)
 
 
@@ -114,5 +99,5 @@ def seat_robot(player: int, angle: float, scale: float = 2.1) -> Sprite:
 @cached
 def _seat_robot(player: int, turn: int, scale: float) -> Sprite:
     half = round(84 * scale)
-    ink = GlowCanvas(2 * half, 2 * half)
+    ink = kit.GlowCanvas(2 * half, 2 * half)
     return trim(robot(ink, player, half, half, turn * math.tau / HEADINGS, scale).sprite(0.9), half, half)
