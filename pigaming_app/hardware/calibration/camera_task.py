@@ -1,8 +1,10 @@
 """Background camera tasks: live preview, and a drift check of the calibration.
 
-Each is a BackgroundWorker that opens the camera, works in small steps and releases it.
+Each opens the camera, works in small steps and releases it, so that no frame of the arcade waits for a camera.
 """
 
+import logging
+import threading
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
@@ -19,7 +21,6 @@ from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureKept, ExposureState, Image
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector, OpenCVMissing, opencv
 from pigaming_app.hardware.vision.sharpness import blur_of, overexposed
-from pigaming_app.hardware.worker import BackgroundWorker, log
 from pigaming_app.storage.messages import OperatorMessage
 
 BLIND = 6.0  # s, timeout without a picture
@@ -28,39 +29,70 @@ SPOT, NEAR = (140.0, 400.0), 90.0  # arena px: the spot for a robot, and the tol
 SEARCH = 0.5  # s between two searches for it
 RATE = 1.0  # s over which pictures are counted
 
+PERIOD = 0.005  # s between two steps
+
 NO_PICTURE = OperatorMessage("no_picture")
 BROKEN = OperatorMessage("broken")
 
+log = logging.getLogger("pigaming")
 
-class CameraTask(BackgroundWorker):
-    """Opens a camera and passes its pictures to `process`. A camera has one user at a time; the next one waits."""
 
-    users: ClassVar[
-        dict[tuple[str, int], BackgroundWorker]
-    ] = {}  # the last user of each camera, by site name and number
+class CameraTask:
+    """Opens a camera and passes its pictures to `process`. A camera has one user at a time; the next one waits.
+
+    A thread carries out the steps until shortly after `close`; in simulated time the owner of the clock calls `pump`.
+    """
+
+    users: ClassVar[dict[tuple[str, int], "CameraTask"]] = {}  # the last user of each camera, by site name and number
 
     locks = True  # lock the exposure: for measurements, not for a preview
     fresh = False  # settle the exposure again; else it stays as set by the calibration, which matches need
+    patience = BLIND  # s without a picture, after which it gives up
 
     def __init__(self, site: CalibrationSite, number: int) -> None:
-        super().__init__()
         self.site, self.number = site, number
         self.fault: OperatorMessage | None = None
         self.small: Image | None = None  # the newest picture, scaled for the preview
         self.kept: ExposureKept | None = None  # exposure of the calibration, to be set when the camera opens
         self._camera: CameraSource | None = None
         self._since = self._newest = inf  # s: when it was opened, when the newest picture came
+        self._closing = threading.Event()
+        self._thread: threading.Thread | None = None
 
     @property
     def exposure(self) -> ExposureState:
         """Exposure and gain of the camera."""
         return self._camera.exposure if self._camera else ExposureState()
 
+    @property
+    def finished(self) -> bool:
+        """True if no picture is needed any more."""
+        return False
+
     def begin(self) -> None:
         """Start a thread; in simulated time the owner of the clock calls `pump`."""
         if not self.site.stepped:
             before, self.users[self.site.name, self.number] = self.users.get((self.site.name, self.number)), self
-            self.start(before)
+            self._thread = threading.Thread(
+                target=self._run, args=(before,), name=type(self).__name__.lower(), daemon=True
+            )
+            self._thread.start()
+
+    def pump(self) -> None:
+        """Carry out one step, unless a thread does."""
+        if self._thread is None and not self._closing.is_set():
+            self.step()
+
+    def close(self) -> None:
+        """Request the end; a thread releases its resources within a second. Idempotent."""
+        if self._thread is None and not self._closing.is_set():
+            self.end()
+        self._closing.set()
+
+    def wait(self, seconds: float) -> None:
+        """Wait for the end of the thread, at most `seconds`."""
+        if self._thread is not None and self._thread is not threading.current_thread():
+            self._thread.join(seconds)
 
     def step(self) -> None:
         """Process the newest picture if there is a new one."""
@@ -77,14 +109,11 @@ class CameraTask(BackgroundWorker):
             self._newest = now
             self.small = scaled_preview(frame.image)
             self.process(frame)
-        else:
-            self.idle(now - self._newest, self._camera.fault)
+        elif now - self._newest > self.patience and not self.finished:
+            self.give_up(self._camera.fault or NO_PICTURE)
 
     def process(self, frame: CameraFrame) -> None:
         """Process a new picture."""
-
-    def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
-        """Handle a step without a new picture, `seconds` after the last one."""
 
     def give_up(self, fault: OperatorMessage) -> None:
         """Set `fault`; it is logged once."""
@@ -92,18 +121,30 @@ class CameraTask(BackgroundWorker):
             log.warning("camera %d: %s", self.number, fault)
         self.fault = fault
 
-    def failed(self, error: Exception) -> None:
-        self.give_up(BROKEN)
-
     def end(self) -> None:
+        """Release the camera."""
         if self._camera is not None:
             self._camera.close()
+
+    def _run(self, before: "CameraTask | None") -> None:
+        """Work until `close`, once `before`, which may hold the same camera, has ended."""
+        if before is not None:
+            before.wait(2.0)
+        try:
+            while not self._closing.wait(PERIOD):
+                self.step()
+        except Exception:
+            log.exception("%s failed", type(self).__name__)
+            self.give_up(BROKEN)
+        finally:
+            self.end()
 
 
 class CameraPreview(CameraTask):
     """Live preview: `small`, `size` in px, `rate` in pictures/s; or the camera's `fault`."""
 
     locks = False
+    patience = 1.0
 
     def __init__(self, site: CalibrationSite, number: int) -> None:
         super().__init__(site, number)
@@ -120,10 +161,6 @@ class CameraPreview(CameraTask):
             self.rate = (self.count - before) / (now - since)
         if not 0.0 <= now - since <= RATE:
             self._counted = (now, self.count)
-
-    def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
-        if seconds > 1.0:
-            self.give_up(fault or NO_PICTURE)
 
 
 class DriftCheck(CameraTask):
@@ -184,10 +221,6 @@ class DriftCheck(CameraTask):
             if overexposed(frame.image, drift.seen):
                 blur = max(blur, before.blur_px)
             self.quality = replace(assessed(before.marker_px, blur, self.exposure), anyway=before.anyway)
-
-    def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
-        if seconds > BLIND:
-            self.give_up(fault or NO_PICTURE)
 
 
 def scaled_preview(image: Image) -> Image:

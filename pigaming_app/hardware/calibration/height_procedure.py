@@ -8,9 +8,8 @@ from math import inf
 
 import numpy as np
 
-from pigaming_app.hardware.calibration import camera_task as looking
 from pigaming_app.hardware.calibration.camera_position import height_by_robot
-from pigaming_app.hardware.calibration.camera_task import NO_PICTURE, CameraTask
+from pigaming_app.hardware.calibration.camera_task import CameraTask
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.calibration.procedure import LIT
 from pigaming_app.hardware.calibration.site import CalibrationSite
@@ -48,6 +47,10 @@ class HeightProcedure(CameraTask):
         return None if self.found or self.fault else len(self.seen)
 
     @property
+    def finished(self) -> bool:
+        return self.place is None
+
+    @property
     def steady(self) -> float:
         """Share of the required pictures in which the robot has stood still, 0..1."""
         return min(1.0, len(self._recent) / STILL)
@@ -73,10 +76,6 @@ class HeightProcedure(CameraTask):
         del self._recent[:-STILL]
         if len(self._recent) == STILL and _jitter(self._recent) < MAX_JITTER:
             self._note()
-
-    def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
-        if seconds > looking.BLIND and self.place is not None:
-            self.give_up(fault or NO_PICTURE)
 
     def _is_near(self, mark: DetectedMarker, place: int) -> bool:
         away = self.ground.on_mat(mark.corners).mean(axis=0) - np.array(PLACES[place])

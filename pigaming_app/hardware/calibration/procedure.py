@@ -8,10 +8,9 @@ from dataclasses import replace
 from enum import Enum, auto
 from math import inf
 
-from pigaming_app.hardware.calibration import camera_task as looking
 from pigaming_app.hardware.calibration.boards import BOARD, FRAMES, HELD_OUT, BoardSamples, CalibrationBoard
 from pigaming_app.hardware.calibration.camera_position import height_by_ruler
-from pigaming_app.hardware.calibration.camera_task import NO_PICTURE, CameraTask
+from pigaming_app.hardware.calibration.camera_task import CameraTask
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.calibration.quality import assessed
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
@@ -93,10 +92,6 @@ class Calibration(CameraTask):
                 self._solve(self._samples) if self.stage is CalibrationStage.LOOKING else self._verify(self._samples)
             except CalibrationError as error:
                 self.give_up(OperatorMessage("exposure_dark") if self.exposure.dark else error.message)
-
-    def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
-        if seconds > looking.BLIND and not self.finished:
-            self.give_up(fault or NO_PICTURE)
 
     def give_up(self, fault: OperatorMessage) -> None:
         super().give_up(fault)

@@ -4,15 +4,12 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
-from typing import Any, Protocol
+from typing import Protocol
 
 from pigaming_app.hardware.calibration.ground_plane import LID
-from pigaming_app.hardware.signals import CameraFrame, CameraSource, Clock, ExposureKept, ExposureState
+from pigaming_app.hardware.signals import CameraSource, Clock, ExposureKept
 from pigaming_app.hardware.vision.camera import SETTLE, Camera
 from pigaming_app.hardware.vision.discovery import CameraInfo, cameras
-from pigaming_app.hardware.vision.exposure import ExposureControl
-from pigaming_app.hardware.vision.markers import opencv
-from pigaming_app.storage.messages import OperatorMessage
 
 SETTLED = 2.6  # s after which a real camera has locked its exposure
 
@@ -58,42 +55,6 @@ class CalibrationSite(Protocol):
 
     def stand(self, x: float, y: float) -> None:
         """Request a robot at this point, arena px."""
-
-
-class ControlledCamera:
-    """A camera whose exposure is controlled by the reader's own thread, through the driver `capture`.
-
-    Real cameras do the same in their capture thread. Raises OpenCVMissing.
-    """
-
-    def __init__(
-        self,
-        camera: CameraSource,
-        capture: Any,
-        clock: Clock,
-        settle: float,
-        fresh: bool = False,
-        kept: ExposureKept | None = None,
-    ) -> None:
-        self.camera, self.clock = camera, clock
-        self._control = ExposureControl(opencv(), capture, clock(), settle, fresh, kept)
-
-    @property
-    def fault(self) -> OperatorMessage | None:
-        return self.camera.fault
-
-    @property
-    def exposure(self) -> ExposureState:
-        return self._control.state
-
-    def newest(self) -> CameraFrame | None:
-        frame = self.camera.newest()
-        if frame is not None:
-            self._control.observe(frame.image, frame.captured)
-        return frame
-
-    def close(self) -> None:
-        self.camera.close()
 
 
 class RealCalibrationSite:

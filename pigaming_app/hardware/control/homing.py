@@ -4,23 +4,16 @@ A robot that sets out reserves its path; another sets out only if its own path i
 standing robots. When no robot can move, a blocking one makes room first. All others stand still.
 """
 
-from collections.abc import Mapping, Sequence
-from math import atan2, cos, pi, sqrt
+from collections.abc import Collection, Mapping, Sequence
+from math import atan2, cos, dist, pi, sqrt
 from typing import Any, NamedTuple
 
-from pigaming_app.hardware.control.path_planner import (
-    Point,
-    distance,
-    find_path,
-    inflated_floor,
-    reachable_nodes,
-    with_obstacles,
-)
+from pigaming_app.hardware.control.path_planner import Point, find_path, inflated_floor, reachable_nodes, with_obstacles
 from pigaming_app.hardware.control.virtual_walls import GAMMA, speed_limits
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.plant import Pose, Twist
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import ROBOTS, World
+from pigaming_app.sim.world import HZ, ROBOTS, World
 
 POSITION_TOLERANCE, HEADING_TOLERANCE = 12.0, 0.10  # px and rad, tolerances of the goal pose
 SLOWEST, FASTEST = 45.0, 220.0  # px/s
@@ -35,6 +28,9 @@ PATIENCE = 10  # ticks without motion after which the slowest speeds grow, each 
 PUSH, MAX_PUSH = 0.05, 2.5
 EASE = 0.99  # decay of the push per tick of motion
 REST: Twist = (0.0, 0.0)
+RATE = 2.4  # rad/s, of the start pattern
+SLOT = round(0.7 * HZ)  # ticks of a turn
+PATTERNS = ((1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (-1.0, -1.0))  # by robot
 
 
 class HomingProgress(NamedTuple):
@@ -97,7 +93,7 @@ class Homing:
         if pose is None:
             self._forget(robot)
             return HomingProgress(robot, goal, 1e9, pi, False, False)
-        off, turn = distance(goal[:2], pose[:2]), abs(turn_to(goal[2] - pose[2]))
+        off, turn = dist(goal[:2], pose[:2]), abs(turn_to(goal[2] - pose[2]))
         slack = 2.0 if robot in self._home else 1.0
         arrived = off < POSITION_TOLERANCE * slack and turn < HEADING_TOLERANCE * slack
         if arrived:
@@ -136,7 +132,7 @@ class Homing:
             taken += [goal[:2] for goal in self.goals.values()]
             for spot in reachable_nodes(floor, poses[robot][:2]):
                 wide = 2.0 * (RADIUS + MARGIN + max(self._margins))
-                if all(distance(spot, point) > wide for point in taken):
+                if all(dist(spot, point) > wide for point in taken):
                     self._paths[robot] = find_path(floor, poses[robot][:2], spot) or [spot]
                     return
 
@@ -154,11 +150,11 @@ class Homing:
         """The twist along its path; at the end, the turn to the goal's heading."""
         path, goal, push = self._paths[robot], self.goals[robot], self._push[robot]
         x, y, heading = pose
-        while len(path) > 1 and distance((x, y), path[0]) < CORNER:
+        while len(path) > 1 and dist((x, y), path[0]) < CORNER:
             path.pop(0)
-        remaining = distance((x, y), path[-1]) if len(path) == 1 else 1e9
+        remaining = dist((x, y), path[-1]) if len(path) == 1 else 1e9
         if remaining < (POSITION_TOLERANCE if robot in self._arrived else POSITION_TOLERANCE - 4.0):
-            if distance(path[-1], goal[:2]) > POSITION_TOLERANCE:
+            if dist(path[-1], goal[:2]) > POSITION_TOLERANCE:
                 del self._paths[robot]  # it has made room; plan from here to its goal
                 return REST
             self._arrived.add(robot)
@@ -178,7 +174,7 @@ class Homing:
     def _adapt_push(self, robot: int, pose: Pose, twist: Twist) -> None:
         """Raise the slowest speeds until a robot with a wide deadband moves, then let them decay."""
         since, (x, y, heading) = self._last_motion.get(robot, (self._tick, pose))
-        moved = 0.1 * distance((x, y), pose[:2]) + abs(turn_to(pose[2] - heading))
+        moved = 0.1 * dist((x, y), pose[:2]) + abs(turn_to(pose[2] - heading))
         if moved >= MOVED or twist == REST or robot not in self._last_motion:
             self._last_motion[robot] = self._tick, pose
             self._push[robot] = max(1.0, EASE * self._push[robot])
@@ -207,3 +203,24 @@ def _slide(world: Any, at: Point, aim: Point, margin: float) -> Point:
     near = 1.0 - min(limit.speed for limit in held) / HELD
     off = near * sqrt(aim[0] * aim[0] + aim[1] * aim[1]) + (1.0 - near) * inward
     return (1.0 - near) * aim[0] + off * out_x, (1.0 - near) * aim[1] + off * out_y
+
+
+class StartPattern:
+    """Two turns of every robot, from when it is first seen, in a distinct pattern.
+
+    With a wrong lid, wiring or wheel they contradict the commands, so faults are detected before it drives; see
+    motion_check.
+    """
+
+    def __init__(self) -> None:
+        self._ticks: dict[int, int] = {}  # by robot, since its start
+
+    def twists(self, seen: Collection[int]) -> dict[int, Twist]:
+        """One tick: the twists (px/s, rad/s) of those robots that have not finished."""
+        twists: dict[int, Twist] = {}
+        for robot in seen:
+            ticks = self._ticks.setdefault(robot, 0)
+            if ticks < 2 * SLOT:
+                self._ticks[robot] = ticks + 1
+                twists[robot] = 0.0, RATE * PATTERNS[robot][ticks // SLOT]
+        return twists

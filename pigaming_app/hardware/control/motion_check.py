@@ -68,36 +68,6 @@ class PoseSample(NamedTuple):
     heading: float
 
 
-class MotionCheck:
-    """Checks all robots by their commands and observed poses."""
-
-    def __init__(self, drivetrains: Sequence[Drivetrain]) -> None:
-        self._checks = [RobotMotionCheck(drivetrain) for drivetrain in drivetrains]
-
-    def record_commands(self, now: float, twists: Sequence[Twist | None]) -> None:
-        """Note the commands in force from `now` on, as twists in px/s and rad/s; None: motors off."""
-        for check, twist in zip(self._checks, twists, strict=True):
-            check.record_command(now, twist or (0.0, 0.0))
-
-    def expect_lateness(self, robot: int, late: float) -> None:
-        """Tolerate a delay that was measured on top of a robot's dead time, s, e.g. of a slow network."""
-        self._checks[robot].expect_lateness(late)
-
-    def record_fixes(self, fixes: Sequence[Fix]) -> None:
-        """Note the observed poses and judge by them."""
-        for fix in fixes:
-            self._checks[fix.robot].record_fix(fix)
-
-    def forget(self, robot: int | None = None) -> None:
-        """Reset one robot, or all: the next commands come from elsewhere, or concern other robots."""
-        for check in self._checks if robot is None else [self._checks[robot]]:
-            check.forget()
-
-    def contradiction(self, robot: int) -> MotionMismatch:
-        """The present verdict on a robot."""
-        return self._checks[robot].contradiction
-
-
 class RobotMotionCheck:
     """The motion check of one robot."""
 
@@ -113,7 +83,7 @@ class RobotMotionCheck:
         self._ends: list[tuple[float, ...]] = []  # travel at the newest pose, px, for each delay
 
     def expect_lateness(self, late: float) -> None:
-        """See MotionCheck."""
+        """Tolerate a delay that was measured on top of the robot's dead time, s, e.g. of a slow network."""
         self._delays = self._tolerated(late)
 
     def _tolerated(self, late: float) -> list[float]:
@@ -121,9 +91,10 @@ class RobotMotionCheck:
         later = [late + more for more in LATENESS if late + more > LATENESS[-1]]
         return [self.drivetrain.dead_time + more for more in (*LATENESS, *later)]
 
-    def record_command(self, now: float, twist: Twist) -> None:
-        """Note a command (px/s, rad/s) in force from `now` on."""
+    def record_command(self, now: float, twist: Twist | None) -> None:
+        """Note a command (px/s, rad/s) in force from `now` on; None: motors off."""
         self._roll(now)
+        twist = twist or (0.0, 0.0)
         half = 0.5 * self.drivetrain.base * twist[1]
         self._command = twist[0] + half, twist[0] - half
 
@@ -145,7 +116,7 @@ class RobotMotionCheck:
             self._judge()
 
     def forget(self) -> None:
-        """Reset the history."""
+        """Reset the history: the next commands come from elsewhere, or concern other robots."""
         self.contradiction, self._command = MotionMismatch(), (0.0, 0.0)
         self._poses.clear()
         self._sent.clear()

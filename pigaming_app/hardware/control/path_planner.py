@@ -4,7 +4,7 @@ Standing robots and the paths of moving ones are walls to the others.
 """
 
 from collections.abc import Iterable, Sequence
-from math import sqrt
+from math import dist
 from typing import Any
 
 from pigaming_app.sim.flow_field import Route, expand, free_node, update_route
@@ -16,11 +16,6 @@ from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, WIDTH, Wall, Wo
 MAX_POINTS = 40  # of a path
 
 Point = tuple[float, float]
-
-
-def distance(one: Point, other: Point) -> float:
-    """Distance of two points, px."""
-    return sqrt((one[0] - other[0]) ** 2 + (one[1] - other[1]) ** 2)
 
 
 def inflated_floor(world: Any, berth: float, margin: float = 0.0) -> Any:
@@ -68,7 +63,7 @@ def find_path(floor: Any, start: Point, goal: Point) -> list[Point]:
 
 def _last_leg(floor: Any, path: list[Point], at: Point, goal: Point) -> list[Point]:
     """A goal next to a wall: straight from the nearest node."""
-    return [*path, goal] if distance(at, goal) < CELL and is_clear(floor, *at, *goal, RADIUS - 2.0) else []
+    return [*path, goal] if dist(at, goal) < CELL and is_clear(floor, *at, *goal, RADIUS - 2.0) else []
 
 
 def reachable_nodes(floor: Any, start: Point) -> list[Point]:

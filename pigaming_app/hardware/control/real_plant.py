@@ -8,11 +8,10 @@ from collections.abc import Collection, Iterable, Sequence
 from math import exp
 from typing import Any
 
-from pigaming_app.hardware.control.homing import Homing, HomingProgress
+from pigaming_app.hardware.control.homing import Homing, HomingProgress, StartPattern
 from pigaming_app.hardware.control.match_recording import MatchRecorder
 from pigaming_app.hardware.control.rig import Rig, RobotSnapshot
 from pigaming_app.hardware.control.safety import Fault, Response, Safety
-from pigaming_app.hardware.control.start_pattern import StartPattern
 from pigaming_app.hardware.control.virtual_walls import clip_twist, speed_limits, stopping_pose
 from pigaming_app.hardware.signals import WheelCommand
 from pigaming_app.sim.plant import Pose, Sighting, Twist

@@ -13,7 +13,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from pigaming_app.hardware.control.kinematics import Kinematics
-from pigaming_app.hardware.control.motion_check import MotionCheck
+from pigaming_app.hardware.control.motion_check import RobotMotionCheck
 from pigaming_app.hardware.control.motion_delay import DriveTrace, network_delay
 from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.safety import Health
@@ -152,7 +152,7 @@ class Rig:
         self._mm, self._kinds = mm, kinds
         self.camera, self.tracker, self.link, self.clock = camera, tracker, link, clock
         self.kinematics = [Kinematics(drivetrain) for drivetrain in drivetrains]
-        self.motion_check = MotionCheck(drivetrains)
+        self.motion_checks = [RobotMotionCheck(drivetrain) for drivetrain in drivetrains]
         self._channels: Sequence[int] = tuple(range(ROBOTS))
         self.drift = drift  # drift of the corner markers, mm
         self.remote = False  # True: poses and robots are those of a network
@@ -179,8 +179,7 @@ class Rig:
     @channels.setter
     def channels(self, channels: Sequence[int]) -> None:
         self._channels = channels
-        with self._lock:
-            self.motion_check.forget()
+        self.forget()
 
     def pump(self) -> None:
         """Process a new picture, if any, and run the link. No effect while a thread does."""
@@ -209,7 +208,8 @@ class Rig:
         now = self.clock()
         with self._lock:
             self.tracker.record_commands(now, twists)
-            self.motion_check.record_commands(now, twists)
+            for check, twist in zip(self.motion_checks, twists, strict=True):
+                check.record_command(now, twist)
             if self.recorder:
                 self.recorder.record_commands(now, wheels)
                 self.recorder.record_estimates(now, self.tracker.sense(now))
@@ -220,15 +220,15 @@ class Rig:
         """Command the robot on one radio channel, regardless of its marker; the others are off."""
         sent: list[WheelCommand | None] = [None] * ROBOTS
         sent[channel] = wheels
-        with self._lock:
-            self.motion_check.forget()
+        self.forget()
         self.link.send(sent)
         self.pump()
 
-    def forget(self, robot: int) -> None:
-        """Reset the motion check of a robot."""
+    def forget(self, robot: int | None = None) -> None:
+        """Reset the motion check of a robot, or of all."""
         with self._lock:
-            self.motion_check.forget(robot)
+            for check in self.motion_checks if robot is None else [self.motion_checks[robot]]:
+                check.forget()
 
     def kind(self, robot: int) -> RobotKind:
         """The kind of a robot."""
@@ -277,7 +277,7 @@ class Rig:
                 self.tracker.duplicates(),
                 self.tracker.rejections,
             )
-            contradictions = [self.motion_check.contradiction(robot) for robot in range(ROBOTS)]
+            contradictions = [check.contradiction for check in self.motion_checks]
         health = {}
         for robot, seconds in outside.items():
             report, age, kind = self.telemetry(robot), seen.now[robot].age, self.kind(robot)
@@ -361,10 +361,11 @@ class Rig:
             return  # a driver that repeats a picture: real ones differ by noise
         with self._lock:
             fixes = self.tracker.process(frame)
-            self.motion_check.record_fixes(fixes)
-            for robot, kinematics in enumerate(self.kinematics):
+            for fix in fixes:
+                self.motion_checks[fix.robot].record_fix(fix)
+            for robot, (kinematics, check) in enumerate(zip(self.kinematics, self.motion_checks, strict=True)):
                 kinematics.correction = self.tracker.wheel_correction(robot)
-                self.motion_check.expect_lateness(robot, _late(kinematics))
+                check.expect_lateness(_late(kinematics))
             if self.recorder:
                 self.recorder.record_fixes(self.clock(), frame.captured, fixes)
             motion = self.tracker.delay.due(self.clock()) if self.tracker.delay is not None else None

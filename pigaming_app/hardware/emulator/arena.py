@@ -104,6 +104,21 @@ class EmulatedArena:
                 due = self._pending.pop()[0]
             self._pending.append((due, image))
 
+    def project_window(self, pixels: Image) -> None:
+        """Show a window's pixels, (height, width, 4) BGRA, of any size.
+
+        The projector has the canvas's aspect ratio: of a window with another one it shows the centre, without the bars.
+        """
+        import cv2
+
+        height, width = pixels.shape[:2]
+        scale = min(width / CANVAS[0], height / CANVAS[1])
+        left, top = round(width - scale * CANVAS[0]) // 2, round(height - scale * CANVAS[1]) // 2
+        grey = cv2.cvtColor(pixels[top : height - top, left : width - left], cv2.COLOR_BGRA2GRAY)
+        if (grey.shape[1], grey.shape[0]) != CANVAS:
+            grey = cv2.resize(grey, CANVAS, interpolation=cv2.INTER_AREA)
+        self.project(np.asarray(grey, dtype=np.uint8))
+
     def poses(self) -> list[Pose]:
         """True poses of the robots, arena px and rad."""
         reach = np.array([(0.5 * cos(robot.heading), 0.5 * sin(robot.heading)) for robot in self.robots])

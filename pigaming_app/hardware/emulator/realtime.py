@@ -1,4 +1,4 @@
-"""The emulated arena in real time: a thread advances it, and a pseudo-terminal is its serial port.
+"""The emulated arena in real time or at the pace of its user: a thread advances it; a pseudo-terminal is its port.
 
 The port can be opened by name like that of a real radio, from any process. If the driving process is killed, the robots
 stop by their deadman.
@@ -7,15 +7,19 @@ stop by their deadman.
 import os
 import time
 from contextlib import suppress
+from math import inf
 from select import select
 from threading import Event, Lock, Thread
 from typing import Self
 
 from pigaming_app.hardware.emulator.arena import EmulatedArena
+from pigaming_app.hardware.emulator.robots import STEP
 
 LOOK_EVERY = 0.002  # s
 CHUNK = 4096  # bytes
 LATE = 0.5  # s; a longer lag is skipped
+OVERDUE = 0.02  # s for which a picture may wait to be read
+MAX_LAG = 0.1  # s that a paced arena catches up after a delay
 
 
 class PseudoTerminal:
@@ -47,30 +51,48 @@ class PseudoTerminal:
         os.close(self._slave)
 
 
-class RealtimeArena:
-    """Advances an arena in real time (`time.monotonic`) until `close`.
+class ArenaThread:
+    """A thread that advances an arena until `close`."""
 
-    With a terminal, that is the radio's port; without one, use `arena.radio` in this process.
-    """
-
-    def __init__(self, arena: EmulatedArena, terminal: PseudoTerminal | None = None) -> None:
-        self.arena, self.terminal = arena, terminal
-        self._plug = Lock()  # held during a transfer
+    def __init__(self, arena: EmulatedArena) -> None:
+        self.arena = arena
         self._ended = Event()
         self._thread = Thread(target=self._run, name="emulated arena", daemon=True)
 
     def start(self) -> Self:
-        """Start the thread; create the arena with `begin=time.monotonic()`."""
+        """Start the thread; create an arena for real time with `begin=time.monotonic()`."""
         self._thread.start()
         return self
 
     def close(self) -> None:
         """Stop time. Idempotent."""
-        if not self._ended.is_set():
-            self._ended.set()
-            self._thread.join(timeout=1.0)
-            if self.terminal is not None:
-                self.terminal.close()
+        self._ended.set()
+        self._thread.join(timeout=1.0)
+
+    def __enter__(self) -> Self:
+        return self.start()
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _run(self) -> None:
+        raise NotImplementedError
+
+
+class RealtimeArena(ArenaThread):
+    """Advances an arena in real time (`time.monotonic`).
+
+    With a terminal, that is the radio's port; without one, use `arena.radio` in this process.
+    """
+
+    def __init__(self, arena: EmulatedArena, terminal: PseudoTerminal | None = None) -> None:
+        super().__init__(arena)
+        self.terminal = terminal
+        self._plug = Lock()  # held during a transfer
+
+    def close(self) -> None:
+        super().close()
+        self.plug(None)
 
     def plug(self, terminal: PseudoTerminal | None) -> None:
         """Replace the terminal; the old one hangs up."""
@@ -78,12 +100,6 @@ class RealtimeArena:
             old, self.terminal = self.terminal, terminal
             if old is not None:
                 old.close()
-
-    def __enter__(self) -> Self:
-        return self.start()
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def _run(self) -> None:
         arena = self.arena
@@ -110,3 +126,29 @@ class RealtimeArena:
                 incoming = self.arena.radio.read(CHUNK)
                 if incoming:
                     self.terminal.write(incoming)
+
+
+class PacedArena(ArenaThread):
+    """Advances an arena up to `limit` (s of its clock), in real time, but no faster than its pictures are read.
+
+    On a busy computer it slows down instead of losing pictures or delaying commands. It waits while `watched`.
+    """
+
+    def __init__(self, arena: EmulatedArena) -> None:
+        super().__init__(arena)
+        self.limit = inf
+        self.watched = False
+
+    def _run(self) -> None:
+        last, owed = time.monotonic(), 0.0
+        while not self._ended.wait(LOOK_EVERY):
+            now = time.monotonic()
+            owed, last = min(MAX_LAG, owed + now - last), now
+            if self.watched and self.arena.camera.overdue > OVERDUE:
+                owed = 0.0
+            steps = int(min(owed, self.limit - self.arena.clock()) / STEP)
+            for _ in range(steps):
+                self.arena.advance(STEP)
+                owed -= STEP
+            if self.arena.clock() >= self.limit - STEP:
+                owed = 0.0

@@ -9,13 +9,14 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.calibration.site import ControlledCamera, Measurements
+from pigaming_app.hardware.calibration.site import Measurements
 from pigaming_app.hardware.emulator.arena import ARENA_AT, EmulatedArena
 from pigaming_app.hardware.emulator.camera import CameraDriver, CameraTraits, FrameTiming
-from pigaming_app.hardware.emulator.projector import Projector
 from pigaming_app.hardware.emulator.realtime import RealtimeArena
 from pigaming_app.hardware.signals import CameraFrame, ExposureKept, ExposureState
 from pigaming_app.hardware.vision.discovery import CameraInfo
+from pigaming_app.hardware.vision.exposure import ExposureControl
+from pigaming_app.hardware.vision.markers import opencv
 
 RULER = (1.5, 8.0)  # mm, errors of the measured width of the mat and height of the camera
 ASIDE = ((60.0, 60.0), (1540.0, 60.0), (1540.0, 840.0), (60.0, 840.0))  # arena px, parking positions
@@ -24,16 +25,27 @@ HEADING = -1.2  # rad, of a robot put down by hand
 
 
 class EmulatedCameraSource:
-    """The camera over the emulated mat; it can be closed and opened repeatedly."""
+    """The camera over the emulated mat, its exposure controlled by the reader's own thread.
+
+    It can be closed and opened repeatedly. Real cameras do the same in their capture thread. Raises OpenCVMissing.
+    """
 
     fault: None = None
-    exposure = ExposureState()
 
-    def __init__(self, arena: EmulatedArena) -> None:
-        self.arena = arena
+    def __init__(self, arena: EmulatedArena, settle: float, fresh: bool, kept: ExposureKept | None) -> None:
+        self.camera = arena.camera
+        driver = CameraDriver(arena.camera)
+        self._control = ExposureControl(opencv(), driver, arena.clock(), settle, fresh, kept)
+
+    @property
+    def exposure(self) -> ExposureState:
+        return self._control.state
 
     def newest(self) -> CameraFrame | None:
-        return self.arena.camera.newest()
+        frame = self.camera.newest()
+        if frame is not None:
+            self._control.observe(frame.image, frame.captured)
+        return frame
 
     def close(self) -> None:
         """No effect: the emulated camera stays."""
@@ -57,7 +69,6 @@ class EmulatedCalibrationSite:
         begin = time.monotonic() if live else 0.0
         self.arena = arena or EmulatedArena(seed, FrameTiming(30.0), begin=begin, traits=traits)
         self.clock = self.arena.clock
-        self.projector = Projector(self.arena)
         self._live = RealtimeArena(self.arena).start() if live and arena is None else None
         self._refresh = self.arena.camera.painter.refresh
         self.measures = _by_ruler(self.arena)
@@ -67,9 +78,8 @@ class EmulatedCalibrationSite:
 
     def open(
         self, number: int, locks: bool = True, fresh: bool = False, kept: ExposureKept | None = None
-    ) -> ControlledCamera:
-        source, driver = EmulatedCameraSource(self.arena), CameraDriver(self.arena.camera)
-        return ControlledCamera(source, driver, self.clock, LOCKED if locks else inf, fresh, kept)
+    ) -> EmulatedCameraSource:
+        return EmulatedCameraSource(self.arena, LOCKED if locks else inf, fresh, kept)
 
     def advance(self, seconds: float) -> None:
         if self.stepped:
@@ -77,7 +87,7 @@ class EmulatedCalibrationSite:
 
     def project(self, pixels: NDArray[np.uint8]) -> None:
         """Project the pixels of the window."""
-        self.projector.project(pixels)
+        self.arena.project_window(pixels)
 
     def clear(self, off: bool) -> None:
         """Take robots and things off the mat, or put the robots back. A cleared mat is rendered completely in every

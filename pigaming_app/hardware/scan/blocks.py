@@ -12,9 +12,11 @@ import numpy as np
 
 from pigaming_app.hardware.calibration.ground_plane import MARKER, SIZE_TOLERANCE, SKEW_TOLERANCE, GroundPlane
 from pigaming_app.hardware.calibration.marker_sheet import BLOCK_SIZES
+from pigaming_app.hardware.control.moving_things import MovingThings, Things
 from pigaming_app.hardware.scan.things import Outline, Thing, ThingKind
 from pigaming_app.hardware.signals import CameraFrame, DetectedMarker
 from pigaming_app.hardware.vision.markers import MarkerDetector, SearchWindow, mean_edge
+from pigaming_app.sim.things.spec import MOST
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 BLOCK_HEIGHT = 50.0  # mm, unless the caller gives another
@@ -24,6 +26,7 @@ LOST = 0.25  # s for which a block that is out of sight is searched near its las
 STILL, TURN = 4.0, 0.06  # px, rad: smaller changes are noise, and are smoothed; larger ones are followed at once
 SMOOTH = 0.15  # share of a small change that one picture contributes
 MARGIN = 3.0  # mm
+BEYOND = 100.0  # px from the arena, from which on blocks lie beside it
 
 
 @dataclass
@@ -121,3 +124,24 @@ class BlockTracker:
 def _apart(one: Block, other: Block) -> float:
     """Distance of two blocks, px."""
     return hypot(one.x - other.x, one.y - other.y)
+
+
+class BlockWalls:
+    """Blocks as walls of a running match: a viewer of the rig.
+
+    `things`: of the match; those it has already stay, and the blocks come and go.
+    """
+
+    def __init__(self, ground: GroundPlane, things: MovingThings) -> None:
+        self.tracker, self.things = BlockTracker(ground), things
+        self._fixed: Things = things.wanted
+
+    def process(self, frame: CameraFrame) -> None:
+        """Follow the blocks in one more picture."""
+        self.tracker.process(frame)
+        blocks = [thing.spec for thing in self.tracker.things if _is_near(*thing.middle)]
+        self.things.wanted = (*self._fixed, *blocks)[:MOST]
+
+
+def _is_near(x: float, y: float) -> bool:
+    return -BEYOND < x < WIDTH + BEYOND and -BEYOND < y < HEIGHT + BEYOND

@@ -1,8 +1,8 @@
 """Scan of the mat: project 14 pictures, observe each, compute the things; about 4 s and 1 s.
 
 `Scan` needs no camera of its own: a scene projects `pattern`, confirms every frame by `mark_shown` and passes camera
-frames to `process`, for instance as a viewer of the rig; a thread then calls `compute` until `finished`. `ScanTask`
-does the same with a camera of its own. Robots may stand on the mat, but must not move.
+frames to `process`, for instance as a viewer of the rig; a thread then calls `compute` until `finished`. Robots may
+stand on the mat, but must not move.
 """
 
 from collections.abc import Iterator, Sequence
@@ -11,11 +11,8 @@ from math import hypot, inf
 
 import numpy as np
 
-from pigaming_app.hardware.calibration import camera_task as looking
 from pigaming_app.hardware.calibration.boards import CANVAS
-from pigaming_app.hardware.calibration.camera_task import NO_PICTURE, CameraTask
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, size_mismatch
-from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.scan.expected import ExpectedLight
 from pigaming_app.hardware.scan.heights import Map, Rectified, Surface, surface
 from pigaming_app.hardware.scan.outlines import find_things, robot_shadows
@@ -181,40 +178,6 @@ class Scan:
             if self._projector is None:
                 raise
             return self._projector
-
-
-class ScanTask(CameraTask):
-    """A scan with a camera of its own, as in the wizard; `scan` is its state."""
-
-    def __init__(
-        self,
-        site: CalibrationSite,
-        number: int,
-        ground: GroundPlane,
-        before: ThingLayout | None = None,
-        known: Sequence[Place] = (),
-    ) -> None:
-        super().__init__(site, number)
-        self.scan = Scan(ground, site.clock, before, known)
-
-    def step(self) -> None:
-        if self.scan.computing:
-            self.scan.compute()
-        elif not self.scan.finished:
-            super().step()
-        self.fault = self.scan.fault or self.fault
-
-    def process(self, frame: CameraFrame) -> None:
-        if frame.captured >= self._since + self.site.settle:
-            self.scan.process(frame)
-
-    def idle(self, seconds: float, fault: OperatorMessage | None) -> None:
-        if seconds > looking.BLIND and not self.scan.finished:
-            self.give_up(fault or NO_PICTURE)
-
-    def give_up(self, fault: OperatorMessage) -> None:
-        super().give_up(fault)
-        self.scan.fault = fault
 
 
 def _difference(one: Map, other: Map) -> float:

@@ -3,7 +3,7 @@
 The file is kept beside the calibration. It also holds the projector's place, so that a later scan needs no robots.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Annotated
@@ -12,7 +12,7 @@ import numpy as np
 from msgspec import Meta
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.scan.hull import hull
+from pigaming_app.sim.things import convex
 from pigaming_app.sim.things.convex import contains, is_convex, signed_area
 from pigaming_app.sim.things.spec import CORNERS, MAX_MARGIN, MOST, ThingSpec, Use
 from pigaming_app.storage import schema
@@ -163,3 +163,26 @@ def largest(things: Sequence[Thing]) -> tuple[Thing, ...]:
     return tuple(
         sorted(things, key=lambda thing: (thing.kind != ThingKind.TALL, -abs(signed_area(thing.outline))))[:MOST]
     )
+
+
+def hull(points: Iterable[convex.Point]) -> convex.Outline:
+    """The corners of the convex hull, clockwise on screen; none on a straight side.
+
+    Rounded to 0.1 px, as an arena file holds them. Monotone chain (A. M. Andrew, Inf. Proc. Letters 9, 1979).
+    """
+    corners = sorted({(round(x, 1), round(y, 1)) for x, y in points})
+    return (*_half(corners)[:-1], *_half(corners[::-1])[:-1])
+
+
+def _half(corners: list[convex.Point]) -> list[convex.Point]:
+    """The part of the hull from the first corner to the last one."""
+    kept: list[convex.Point] = []
+    for x, y in corners:
+        while len(kept) > 1 and _turn(kept[-2], kept[-1], (x, y)) <= 0.0:
+            kept.pop()
+        kept.append((x, y))
+    return kept
+
+
+def _turn(a: convex.Point, b: convex.Point, c: convex.Point) -> float:
+    return (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])

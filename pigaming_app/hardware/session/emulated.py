@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.emulator.arena import EmulatedArena
     from pigaming_app.hardware.emulator.camera import CameraTraits, FrameTiming
-    from pigaming_app.hardware.emulator.paced import PacedArena
     from pigaming_app.hardware.emulator.radio import RadioChannel
+    from pigaming_app.hardware.emulator.realtime import PacedArena
     from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
     from pigaming_app.hardware.emulator.things.prism import Prism
     from pigaming_app.hardware.emulator.wifi.air import WifiChannel
@@ -99,7 +99,7 @@ class EmulatedSession:
                 raise RobotsUnavailable(error.message) from error
             self._arena = self._new_arena()
         if self.live and self._time is None:
-            from pigaming_app.hardware.emulator.paced import PacedArena
+            from pigaming_app.hardware.emulator.realtime import PacedArena
 
             self._time = PacedArena(self._arena).start()
         return self._arena
@@ -218,9 +218,7 @@ class EmulatedSession:
         """
         if self._arena is not None and self._arena.clock() - self._lit > DIM:
             self._lit = self._arena.clock()
-            from pigaming_app.hardware.emulator.projector import Projector
-
-            Projector(self._arena).project(pixels())
+            self._arena.project_window(pixels())
 
     def close(self) -> None:
         """Stop the robots and release camera and radio; the arena keeps running."""

@@ -1,12 +1,12 @@
 """Homing brings robots to their places round walls and other robots."""
 
 from itertools import combinations
-from math import hypot, pi
+from math import dist, hypot, pi
 
 import pytest
 
 from pigaming_app.games.arenas import load
-from pigaming_app.hardware.control.path_planner import distance, find_path, inflated_floor
+from pigaming_app.hardware.control.path_planner import find_path, inflated_floor
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import offset_from_wall
@@ -138,5 +138,5 @@ def test_a_path_keeps_clear_of_walls_and_ends_at_the_goal():
     world = floor(GATE)
     path = find_path(inflated_floor(world, 4.0), (300.0, 200.0), (900.0, 200.0))
     assert path[-1] == (900.0, 200.0)
-    assert any(distance(point, (600.0, 450.0)) < 60.0 for point in path)
+    assert any(dist(point, (600.0, 450.0)) < 60.0 for point in path)
     assert find_path(inflated_floor(world, 30.0), (300.0, 200.0), (900.0, 200.0)) == []

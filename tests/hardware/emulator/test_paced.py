@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 
 from pigaming_app.hardware.emulator.arena import EmulatedArena
-from pigaming_app.hardware.emulator.paced import OVERDUE, PacedArena
+from pigaming_app.hardware.emulator.realtime import OVERDUE, PacedArena
 from pigaming_app.hardware.emulator.robots import STEP
 
 pytest.importorskip("cv2")

@@ -6,7 +6,6 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.hardware.emulator.arena import EmulatedArena
-from pigaming_app.hardware.emulator.projector import Projector
 
 
 @pytest.mark.parametrize(("size", "bars"), [((1080, 1920), 0), ((540, 960), 0), ((1024, 1280), 152), ((2160, 3840), 0)])
@@ -15,7 +14,7 @@ def test_the_picture_fills_the_projector_and_the_bars_are_left_out(size: tuple[i
     window = np.zeros((*size, 4), np.uint8)
     window[bars : size[0] - bars] = 200
     window[bars : bars + 20, :40] = 90  # its upper left corner
-    Projector(arena).project(window)
+    arena.project_window(window)
     arena.advance(0.1)
     shown = arena._shown
     assert shown.shape == (1080, 1920)

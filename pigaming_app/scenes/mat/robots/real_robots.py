@@ -10,7 +10,7 @@ from pigaming_app.hardware.control.match_recording import MatchRecorder
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.moving_things import MovingThings
 from pigaming_app.hardware.control.safety import Fault, Response
-from pigaming_app.hardware.scan.block_walls import BlockWalls
+from pigaming_app.hardware.scan.blocks import BlockWalls
 from pigaming_app.hardware.session.robot_session import RobotSession, cause_of
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene

@@ -46,9 +46,7 @@ class ArenaPage(Page):
     idle = 600.0
     prompts_y, prompts_room = HINTS_Y, 1600
 
-    def __init__(
-        self, context: Context, devices: Callable[[], Sequence[Device | None]] = lambda: (), scan_now: bool = False
-    ) -> None:
+    def __init__(self, context: Context, devices: Callable[[], Sequence[Device | None]] = lambda: ()) -> None:
         self.session = session_of(context)
         self.access = Access(context, devices)
         super().__init__(context, gate=self.access)
@@ -56,7 +54,6 @@ class ArenaPage(Page):
         self.layout, self.changed = ThingLayout(), False
         self.fault: OperatorMessage | None = None
         self.arenas: PlayableArenas | None = None
-        self._scan_now = scan_now
 
     def on_enter(self) -> None:
         """Open the camera; also after a scan."""
@@ -107,8 +104,7 @@ class ArenaPage(Page):
     def advance(self, seconds: float) -> StackOperation:
         if self.rig is not None:
             self.session.advance(seconds)
-        now, self._scan_now = self._scan_now, False
-        return self._scan() if now else None
+        return None
 
     def show(self, screen: pygame.Surface) -> None:
         """Draw the arena on black, as it lies on the mat."""

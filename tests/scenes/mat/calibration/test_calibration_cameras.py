@@ -129,7 +129,7 @@ def test_a_camera_without_a_board_and_a_stalled_one_are_reported(
     until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
     assert arcade.shown(ResultPage).finding.trouble.key == "few"  # type: ignore[union-attr]
     driver.sends = False
-    monkeypatch.setattr(looking, "BLIND", 0.3)
+    monkeypatch.setattr(calibrating.Calibration, "patience", 0.3)
     arcade.press(Button.FIRE)
     until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
     assert isinstance(arcade.shown(ResultPage).finding.trouble, OperatorMessage)
