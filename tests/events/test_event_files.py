@@ -2,9 +2,6 @@
 
 import json
 import os
-import random
-import signal
-import time
 from dataclasses import replace
 
 import pytest
@@ -13,8 +10,6 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import delete, load, parse, path_of, save, saved_events, to_text, update
 from pigaming_app.events.spec import Advance, Entrant, EventSpec, Format
 from tests.events.examples import best_seed_wins, level, new_event, played
-
-KILLS = 200
 
 
 def test_an_event_is_read_as_it_was_written(tmp_path):
@@ -28,17 +23,6 @@ def test_an_event_is_read_as_it_was_written(tmp_path):
     save(tmp_path / "a.json", event)
     assert load(tmp_path / "a.json") == (event, [])
     assert saved_events(tmp_path)[0].event == event
-
-
-def test_the_backup_replaces_a_damaged_file(tmp_path):
-    file = tmp_path / "a.json"
-    event = new_event(Format.SWISS, 4)
-    save(file, event)
-    update(file, lambda event: event.record(best_seed_wins(event.open[0])))
-    file.write_text("{")
-    restored, problems = load(file)
-    assert restored == event
-    assert "the previous version was restored" in problems[0]
 
 
 @pytest.mark.parametrize(
@@ -134,62 +118,3 @@ def test_of_many_events_only_those_that_were_changed_last_are_read(tmp_path):
         save(tmp_path / f"{number}.json", new_event(Format.SWISS, 4))
         os.utime(tmp_path / f"{number}.json", (number, number))
     assert [listed.path.stem for listed in saved_events(tmp_path, 3)] == ["4", "3", "2"]
-
-
-@pytest.mark.again  # of a whole arcade: jobs/kiosk/test_running_event.py
-@pytest.mark.long
-@pytest.mark.skipif(os.name != "posix", reason="needs fork and SIGKILL")
-def test_a_kill_at_any_moment_loses_no_acknowledged_result(tmp_path):
-    """A process records one result after the other and names each in a pipe as soon as `update` returns."""
-    file = tmp_path / "a.json"
-    chance = random.Random(1)
-    save(file, new_event(Format.ROUND_ROBIN, 24))
-    acknowledged: list[tuple[int, ...]] = []
-    killed = counted = 0
-    while killed < KILLS:
-        reading, writing = os.pipe()
-        child = os.fork()
-        if not child:
-            os.close(reading)
-            _record_forever(file, writing)
-        os.close(writing)
-        told = b""
-        for _ in range(chance.randrange(4)):
-            told += os.read(reading, 100)
-        time.sleep(chance.uniform(0.0, 0.02))
-        os.kill(child, signal.SIGKILL)
-        os.waitpid(child, 0)
-        killed += 1
-        with open(reading, "rb") as pipe:
-            lines = (told + pipe.read()).splitlines()
-        acknowledged += [tuple(map(int, line.split())) for line in lines]
-        counted += len(lines)
-        event, problems = load(file)
-        assert event is not None
-        assert not problems
-        recorded = [(one.outcome.fixture, int(one.outcome.places[0][0][1:])) for one in event.journal]
-        assert len(recorded) == len({number for number, _ in recorded})
-        unacknowledged = [one for one in recorded if one not in acknowledged]
-        assert len(unacknowledged) <= 1  # the one whose acknowledgement the kill cut off
-        assert [one for one in recorded if one in acknowledged] == acknowledged
-        acknowledged = recorded
-        if event.over:
-            save(file, new_event(Format.ROUND_ROBIN, 24))
-            acknowledged = []
-    assert counted > KILLS
-    assert {path.name for path in tmp_path.iterdir()} >= {"a.json", "a.json.bak"}
-    assert not [path for path in tmp_path.iterdir() if "broken" in path.name]
-
-
-def _record_forever(file, writing):
-    """The child: never returns."""
-    try:
-        event, _ = load(file)
-        while event.open:
-            outcome = best_seed_wins(event.open[0])
-            event = update(file, lambda saved, new=outcome: saved.record(new), event)
-            os.write(writing, b"%d %s\n" % (outcome.fixture, outcome.places[0][0][1:].encode()))
-        os.close(writing)
-        time.sleep(10)
-    finally:
-        os._exit(0)

@@ -1,5 +1,6 @@
 """Parsing of arbitrary files terminates quickly, with a value that can be validated or an error of one short line."""
 
+import errno
 import os
 from math import inf
 
@@ -9,6 +10,7 @@ from pigaming_app.storage.parsing import (
     MAX_DEPTH,
     MESSAGE_LENGTH,
     ParseError,
+    describe_error,
     one_line,
     parse_json,
     parse_toml,
@@ -100,3 +102,11 @@ def test_a_message_is_one_line_whatever_it_quotes():
     assert quote("a" * 300).startswith("'aaaa")
     assert quote("a" * 300).endswith("aaaa'")
     assert quote([10**30] * 50).isprintable()
+
+
+@pytest.mark.parametrize(
+    ("number", "reason"),
+    [(errno.ENOSPC, "the disk is full"), (errno.EROFS, "no permission"), (errno.EIO, os.strerror(errno.EIO))],
+)
+def test_an_error_of_the_system_is_a_phrase(number, reason):
+    assert describe_error(OSError(number, os.strerror(number))) == reason

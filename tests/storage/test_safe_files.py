@@ -82,24 +82,19 @@ def test_whichever_call_fails_a_kept_file_and_its_backup_are_whole(tmp_path):
     assert len(made) > 8
 
 
-def test_a_draft_replaces_the_file_only_when_it_is_finished(tmp_path):
+def test_a_draft_replaces_the_file_only_when_it_is_finished_and_leaves_nothing_else(tmp_path):
     path = tmp_path / "file"
     path.write_text(OLD)
-    draft = AtomicFile(path)
-    draft.write(b"half")
-    assert path.read_text() == OLD
-    draft.write(b" and half")
+    dropped, draft = AtomicFile(path), AtomicFile(path)
+    for part in (b"half", b" and half"):
+        dropped.write(part)
+        draft.write(part)
+        assert path.read_text() == OLD
+    dropped.discard()
     draft.finish()
-    draft.discard()
+    for one in (draft, dropped):
+        one.discard()
     assert content(tmp_path) == {"file": b"half and half"}
-
-
-def test_a_discarded_draft_leaves_nothing(tmp_path):
-    draft = AtomicFile(tmp_path / "file")
-    draft.write(b"half")
-    draft.discard()
-    draft.discard()
-    assert content(tmp_path) == {}
 
 
 @POSIX

@@ -4,12 +4,11 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
 from hypothesis import given
 from hypothesis import settings as runs
 from hypothesis import strategies as st
 
-from pigaming_app.storage.settings import FILE, MAX_GAMES, MAX_MESSAGES, MAX_NAME, Choice, Settings
+from pigaming_app.storage.settings import Choice, Settings
 
 ROOT = Path(__file__).parents[2]
 MUSIC = """
@@ -95,61 +94,3 @@ def test_parallel_processes_keep_the_choices_of_all(tmp_path):
     assert {name: getattr(kept, name) for name in wanted} == wanted
     assert {name: kept.choice(name).minutes for name in wanted} == wanted
     assert kept.choice("race").goal == 7
-
-
-@pytest.mark.parametrize(
-    "line",
-    [
-        f"music = {'9' * 400}",
-        f"music = 0x{'f' * 5000}",
-        f"attract_seconds = {'9' * 400}",
-        "attract_seconds = inf",
-        "attract_seconds = -1e308",
-        "corners = [true, true, true, true, true, true, true, true]",
-        f"corners = [{','.join('1' * 5000)}]",
-        "real = [true]",
-        'port = "a\\u0000b"',
-        'port = "a\\nb"',
-        f'port = "{"x" * 5000}"',
-        '"" = 1',
-        '"a.b\\nc" = 1',
-        f'"{"k" * 5000}" = 1',
-        "music = 0001-01-01T00:00:00Z",
-        'games = ""',
-        f'[games."{"g" * (MAX_NAME + 1)}"]\ngoal = 3',
-        '[games."a\\nb"]\nvolume = 3',
-        "[music]\na = 1",
-        "[[games.race]]\ngoal = 3",
-    ],
-)
-def test_an_odd_line_is_reported_in_one_line_and_affects_no_other(tmp_path, line):
-    (tmp_path / FILE).write_text(f"sounds = 1\n{line}\n")
-    settings, problems = Settings.load(tmp_path)
-    assert settings.sounds == 1
-    assert len(problems) == 1
-    assert "\n" not in problems[0]
-    assert len(problems[0]) < 400
-    settings.save(tmp_path)
-    assert Settings.load(tmp_path) == (settings, [])
-
-
-@pytest.mark.parametrize(
-    "text",
-    ["x = " + "[" * 2000 + "]" * 2000, "x = " + "{a=" * 2000 + "1" + "}" * 2000, f"music = {'9' * 5000}", "\x00"],
-)
-def test_an_unreadable_file_is_put_aside(tmp_path, text):
-    (tmp_path / FILE).write_text(text)
-    settings, problems = Settings.load(tmp_path)
-    assert settings == Settings()
-    assert len(problems) == 1
-    assert list(tmp_path.glob(f"{FILE}.broken-*"))
-
-
-def test_thousands_of_odd_lines_are_summed_up(tmp_path):
-    lines = [f"key{i} = {i}" for i in range(3000)] + [f"[games.game{i}]\ngoal = 3" for i in range(3000)]
-    (tmp_path / FILE).write_text("sounds = 1\n" + "\n".join(lines))
-    settings, problems = Settings.load(tmp_path)
-    assert settings.sounds == 1
-    assert len(settings.games) == MAX_GAMES
-    assert len(problems) == MAX_MESSAGES + 1
-    assert problems[-1].endswith(f"{6000 - MAX_GAMES - MAX_MESSAGES} more lines are wrong; they are ignored.")

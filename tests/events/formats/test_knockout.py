@@ -98,8 +98,9 @@ def test_a_correction_draws_later_rounds_anew_until_they_have_begun():
     event = event.correct(Result(1, (("P4",), ("P1",)), note="wrong button"))
     assert stages(event, 2) == [("w", 2, 4), ("l", 1, 3)]
     event = event.record(best_seed_wins(event.open[0]))
-    with pytest.raises(ValueError, match=r"^match 1 decides who goes on, and match 3 has been played since$"):
-        event.correct(Result(1, (("P1",), ("P4",)), note="right after all"))
+    for places in ((("P1",), ("P4",)), (("P1", "P4"),)):
+        with pytest.raises(ValueError, match=r"^match 1 decides who goes on, and match 3 has been played since$"):
+            event.correct(Result(1, places, note="right after all"))
     event = event.correct(Result(1, (("P4",), ("P1",)), {"P4": 3.0}, note="score"))
     assert event.outcomes[1].scores == {"P4": 3.0}
 

@@ -130,13 +130,6 @@ def test_a_correction_in_the_middle_replaces_the_match_and_its_extra_matches():
     assert (again.open[0].number, again.open[0].extra) == (1, 1)
 
 
-def test_a_tie_cannot_be_stated_once_a_match_that_depends_on_it_has_been_played():
-    event = played(new_event(Format.KNOCKOUT, 4), rounds=1)
-    event = event.record(best_seed_wins(event.open[0]))
-    with pytest.raises(ValueError, match=r"^match 1 decides who goes on, and match 3 has been played since$"):
-        event.correct(Result(1, (("P1", "P4"),), note="level"))
-
-
 def test_whoever_is_there_wins_the_extra_match_of_someone_who_leaves():
     event = of_four(("P1", "P4", "P5"), ("P8",)).withdraw("P4")
     assert event.outcomes[1].places == (("P1", "P5"), ("P4",), ("P8",))

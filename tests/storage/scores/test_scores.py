@@ -6,8 +6,7 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
-from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.storage.scores import DAYS, FILE, LENGTH, Scores, ScoreTable
+from pigaming_app.storage.scores import DAYS, LENGTH, Scores, ScoreTable
 
 NOON = datetime(2026, 11, 21, 12, 0, tzinfo=UTC)
 DAY = timedelta(days=1)
@@ -110,24 +109,6 @@ def test_after_a_reset_every_table_is_empty(tmp_path):
     scores.reset()
     scores.save(tmp_path)
     assert Scores.load(tmp_path)[0].tables() == []
-
-
-def test_a_broken_file_gives_back_the_tables_before_it(tmp_path):
-    scores = filled(3)
-    scores.save(tmp_path)
-    scores.add(TANKS, "ABC", 4, NOON)
-    scores.save(tmp_path)
-    (tmp_path / FILE).write_text('[[table]]\nrows = [ { initials = "AB')
-    scores, messages = Scores.load(tmp_path)
-    assert points(scores) == [3]
-    assert len(messages) == 1
-    assert list(tmp_path.glob(f"{FILE}.broken-*"))
-
-
-def test_a_folder_that_cannot_be_written_is_reported(tmp_path):
-    (tmp_path / "file").write_text("")
-    with pytest.raises(NotSaved, match=r"scores\.toml was not saved"):
-        filled(1).save(tmp_path / "file")
 
 
 def test_rows_of_a_wrong_clock_displace_none_of_today(tmp_path):
