@@ -39,7 +39,7 @@ from pigaming_app.scenes.views.race import ghost_files as ghosts
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import NOMINAL, DrivetrainError, parse, to_toml
 from pigaming_app.storage.parsing import MESSAGE_LENGTH
-from tests.hardware.grounds import nominal
+from tests.hardware.mat import nominal
 from tests.hostile import HUGE, mutated, toml
 
 BYTES = (

@@ -1,4 +1,4 @@
-"""A simulated mat with ideal tracker and link, for tests of the code between them.
+"""A synthetic calibration, and a simulated mat with ideal tracker and link, for tests of the code between them.
 
 The emulated arena covers the same with pictures and packets.
 """
@@ -8,6 +8,8 @@ from math import cos, exp, sin
 
 import numpy as np
 
+from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.control.kinematics import IDEAL
 from pigaming_app.hardware.control.rig import UNMEASURED, Rig
 from pigaming_app.hardware.radio.protocol import LinkQuality
@@ -20,6 +22,13 @@ LATE = 0.06  # s
 TRUE = Drivetrain(Wheel(740.0, 0.04), Wheel(780.0, 0.03), 63.0, 0.09, 0.03)
 EVEN = Drivetrain(Wheel(760.0, 0.03), Wheel(760.0, 0.03), 63.0, 0.09, 0.03)
 STARTS = ((200.0, 200.0, 0.8), (1400.0, 200.0, 2.4), (1400.0, 700.0, 3.9), (200.0, 700.0, 5.5))
+
+
+def nominal(camera: tuple[int, int] = (1920, 1080), width_mm: float = 2112.0, height: float = 2500.0) -> GroundPlane:
+    """A camera above the centre, without distortion, with the whole 1920 x 1080 canvas in view."""
+    scale = 1920.0 / camera[0]
+    plane = (scale, 0.0, -160.0, 0.0, scale, -140.0, 0.0, 0.0, 1.0)
+    return GroundPlane("", Lens(camera), plane, width_mm, (800.0, 400.0), height)
 
 
 class Robot:

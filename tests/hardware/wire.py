@@ -1,4 +1,4 @@
-"""A fake serial port, a settable clock and a fake XBee, for tests of the link."""
+"""A fake serial port, a settable clock and a fake XBee, for tests of the link; and byte streams in chunks."""
 
 from pigaming_app.hardware.radio import xbee_frames
 from pigaming_app.hardware.radio.packets import PacketDecoder
@@ -84,3 +84,12 @@ def run(link, time, seconds, each=lambda: None):
         each()
         link.pump()
     time.now = begun + seconds
+
+
+def heard(decoder, data, sizes=()):
+    """What a decoder finds in data that arrive in chunks of these sizes, then the rest."""
+    found = []
+    for size in (*sizes, len(data)):
+        found += decoder.feed(data[:size])
+        data = data[size:]
+    return found

@@ -1,15 +1,14 @@
 """The drift monitor detects a moved camera by the four markers in the margins."""
 
+import cv2
 import numpy as np
 import pytest
 
-cv2 = pytest.importorskip("cv2")
-
-from pigaming_app.hardware.calibration.drift import PAUSE, WARN, DriftMonitor, corner_markers  # noqa: E402
-from pigaming_app.hardware.signals import CameraFrame  # noqa: E402
-from pigaming_app.hardware.vision.markers import CORNER_IDS  # noqa: E402
-from tests.hardware.grounds import nominal  # noqa: E402
-from tests.hardware.pictures import SIZE, speckled  # noqa: E402
+from pigaming_app.hardware.calibration.drift import PAUSE, WARN, DriftMonitor, corner_markers
+from pigaming_app.hardware.signals import CameraFrame
+from pigaming_app.hardware.vision.markers import CORNER_IDS
+from tests.hardware.mat import nominal
+from tests.hardware.pictures import SIZE, speckled
 
 GROUND = nominal(SIZE)
 

@@ -5,11 +5,9 @@ import re
 import numpy as np
 import pytest
 
-cv2 = pytest.importorskip("cv2")
-
-from pigaming_app.hardware.calibration.marker_sheet import BLOCK_SIZES, CELLS, MarkerSheetError, cells, sheet  # noqa: E402
-from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector  # noqa: E402
-from tests.hardware.sentences import refused  # noqa: E402
+from pigaming_app.hardware.calibration.marker_sheet import BLOCK_SIZES, CELLS, MarkerSheetError, cells, sheet
+from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector
+from tests.hardware.sentences import refused
 
 MM = 72.0 / 25.4  # PDF points
 

@@ -3,15 +3,13 @@
 import numpy as np
 import pytest
 
-cv2 = pytest.importorskip("cv2")
-
-from pigaming_app.hardware.calibration.boards import ARENA_AT, BOARD, BOARD_IDS, CANVAS, HELD_OUT, BoardSamples  # noqa: E402
-from pigaming_app.hardware.calibration.camera_position import height_by_robot, height_by_ruler  # noqa: E402
-from pigaming_app.hardware.calibration.ground_plane import CalibrationError  # noqa: E402
-from pigaming_app.hardware.calibration.solver import homography, least_squares, solve, verify, with_verification  # noqa: E402
-from pigaming_app.hardware.signals import CameraFrame  # noqa: E402
-from tests.hardware.pictures import MM, SIZE, Pinhole, speckled  # noqa: E402
-from tests.hardware.sentences import refused  # noqa: E402
+from pigaming_app.hardware.calibration.boards import ARENA_AT, BOARD, BOARD_IDS, CANVAS, HELD_OUT, BoardSamples
+from pigaming_app.hardware.calibration.camera_position import height_by_robot, height_by_ruler
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError
+from pigaming_app.hardware.calibration.solver import homography, least_squares, solve, verify, with_verification
+from pigaming_app.hardware.signals import CameraFrame
+from tests.hardware.pictures import MM, SIZE, Pinhole, speckled
+from tests.hardware.sentences import refused
 
 CAMERA = Pinhole()
 WIDTH_MM = 1600.0 * MM

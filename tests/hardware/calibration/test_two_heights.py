@@ -2,20 +2,19 @@
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 import pytest
 
-cv2 = pytest.importorskip("cv2")
-
-from pigaming_app.hardware.calibration.camera_position import TwoHeights  # noqa: E402
-from pigaming_app.hardware.calibration.camera_task import SPOT  # noqa: E402
-from pigaming_app.hardware.calibration.ground_plane import MARKER  # noqa: E402
-from pigaming_app.hardware.emulator.arena import ARENA_AT, EmulatedArena  # noqa: E402
-from pigaming_app.hardware.emulator.objects import LID_HEIGHT, FlatObject, lid  # noqa: E402
-from pigaming_app.hardware.emulator.renderer import ExposureSetup  # noqa: E402
-from pigaming_app.hardware.session.emulated import calibrated  # noqa: E402
-from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector  # noqa: E402
-from tests.hardware.tracking.blind_bed import TRUTH, BlindBed  # noqa: E402
+from pigaming_app.hardware.calibration.camera_position import TwoHeights
+from pigaming_app.hardware.calibration.camera_task import SPOT
+from pigaming_app.hardware.calibration.ground_plane import MARKER
+from pigaming_app.hardware.emulator.arena import ARENA_AT, EmulatedArena
+from pigaming_app.hardware.emulator.objects import LID_HEIGHT, FlatObject, lid
+from pigaming_app.hardware.emulator.renderer import ExposureSetup
+from pigaming_app.hardware.session.emulated import calibrated
+from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector
+from tests.hardware.tracking.blind_bed import TRUTH, BlindBed
 
 
 @pytest.fixture(scope="module")

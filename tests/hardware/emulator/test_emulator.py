@@ -3,9 +3,13 @@
 from math import cos, hypot, pi, sin
 from random import Random
 
+import cv2
 import numpy as np
 import pytest
 
+from pigaming_app.hardware.emulator.arena import EmulatedArena
+from pigaming_app.hardware.emulator.camera import CameraTraits, FrameTiming
+from pigaming_app.hardware.emulator.objects import SHEET
 from pigaming_app.hardware.emulator.optics import CANVAS, SENSOR, Optics
 from pigaming_app.hardware.emulator.robots import (
     FULL_SPEED,
@@ -15,12 +19,6 @@ from pigaming_app.hardware.emulator.robots import (
     push_apart,
     random_parameters,
 )
-
-cv2 = pytest.importorskip("cv2")
-
-from pigaming_app.hardware.emulator.arena import EmulatedArena  # noqa: E402
-from pigaming_app.hardware.emulator.camera import CameraTraits, FrameTiming  # noqa: E402
-from pigaming_app.hardware.emulator.objects import SHEET  # noqa: E402
 
 IDEAL = RobotParameters(left_gain=1, right_gain=1, deadband=0.05, lag=0.08, base=82, slip=0, battery=5.2, drain=0)
 

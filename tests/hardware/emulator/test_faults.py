@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-pytest.importorskip("cv2")
-
 from pigaming_app.hardware.emulator.arena import EmulatedArena
 from pigaming_app.hardware.emulator.faults import FAULTS
 from tests.cases import one_in

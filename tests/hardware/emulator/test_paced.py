@@ -3,13 +3,9 @@
 import time
 from collections.abc import Callable
 
-import pytest
-
 from pigaming_app.hardware.emulator.arena import EmulatedArena
 from pigaming_app.hardware.emulator.realtime import OVERDUE, PacedArena
 from pigaming_app.hardware.emulator.robots import STEP
-
-pytest.importorskip("cv2")
 
 
 def eventually(true: Callable[[], bool]) -> bool:

@@ -2,8 +2,6 @@
 
 import pytest
 
-pytest.importorskip("cv2")
-
 from pigaming_app.hardware.emulator.arena import ARENA_ID, EmulatedArena
 from pigaming_app.hardware.emulator.firmware import Firmware
 from pigaming_app.hardware.emulator.radio import TRANSPARENT, RadioChannel

@@ -1,15 +1,19 @@
-"""Real things on the emulated mat: they hide, they shade, and light lands on them where it does on a mat."""
+"""Real things on the emulated mat: they hide and shade, are lit as on a mat, and stop robots."""
+
+from math import hypot
+from random import Random
 
 import numpy as np
 import pytest
 
-cv2 = pytest.importorskip("cv2")
-
-from pigaming_app.hardware.emulator.arena import EmulatedArena  # noqa: E402
-from pigaming_app.hardware.emulator.optics import LAMP, Optics  # noqa: E402
-from pigaming_app.hardware.emulator.things.overlay import patches, shaded  # noqa: E402
-from pigaming_app.hardware.emulator.things.prism import box, cylinder  # noqa: E402
-from tests.hardware.emulator.test_emulator import found, newest  # noqa: E402
+from pigaming_app.hardware.emulator.arena import STARTS, EmulatedArena
+from pigaming_app.hardware.emulator.optics import LAMP, Optics
+from pigaming_app.hardware.emulator.robots import RADIUS, STEP, EmulatedRobot, random_parameters
+from pigaming_app.hardware.emulator.things.contact import distance, obstacles, push_off
+from pigaming_app.hardware.emulator.things.overlay import patches, shaded
+from pigaming_app.hardware.emulator.things.prism import TAPE, box, cylinder
+from pigaming_app.hardware.emulator.things.random_scene import AWAY, some_things
+from tests.hardware.emulator.test_emulator import found, newest
 
 MAT = np.full((1080, 1920), 0.85, np.float32)
 WHITE = np.full((1080, 1920), 255, np.uint8)
@@ -69,3 +73,49 @@ def test_a_tower_hides_the_robot_behind_it_from_the_camera():
     assert sorted(number for number, _ in found(newest(arena).image)) == [0, 1, 3]
     arena.furnish([])
     assert sorted(number for number, _ in found(newest(arena).image)) == [0, 1, 2, 3]
+
+
+def driven_at(thing, heading, seconds=1.5):
+    """A robot that drives ahead from x = -300 mm, and its least distance from the thing, mm."""
+    robot = EmulatedRobot(random_parameters(Random(1)), -300.0, 0.0, heading, Random(2))
+    robot.left = robot.right = 1.0
+    tall, nearest = obstacles([thing]), 1e9
+    for _ in range(round(seconds / STEP)):
+        robot.roll()
+        push_off([robot], tall)
+        nearest = min([nearest, *(distance(one, robot.x, robot.y)[0] for one in tall)])
+    return robot, nearest
+
+
+@pytest.mark.parametrize("thing", [box(0, 0, 150, 400, 60, 0.1), cylinder(0, 0, 45, 100), box(0, 0, 150, 400, 20)])
+@pytest.mark.parametrize("heading", [-0.1, 0.0, 0.15])
+def test_a_robot_that_runs_into_a_thing_never_enters_it(thing, heading):
+    robot, nearest = driven_at(thing, heading)
+    assert nearest == pytest.approx(RADIUS, abs=1e-6)
+    assert robot.left_speed > 500.0  # its wheels slip
+
+
+def test_a_robot_drives_over_tape_and_is_carried_over_anything():
+    assert obstacles([box(0, 0, 25, 300, TAPE)]) == []
+    robot, _ = driven_at(box(0, 0, 25, 300, TAPE), 0.0)
+    assert robot.x > 200.0
+    robot.x, robot.y, robot.height = 0.0, 0.0, 100.0
+    push_off([robot], obstacles([box(0, 0, 100, 100, 80)]))
+    assert (robot.x, robot.y) == (0.0, 0.0)
+
+
+def test_a_robot_set_down_on_a_thing_is_pushed_off_by_the_shortest_way():
+    robot = EmulatedRobot(random_parameters(Random(1)), 10.0, 3.0, 0.0, Random(2))
+    push_off([robot], obstacles([box(0, 0, 100, 300, 80)]))
+    assert robot.x == pytest.approx(50.0 + RADIUS)
+    assert robot.y == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize("count", [0, 3, 8])
+def test_things_of_a_seed_are_the_same_and_away_from_the_robots(count):
+    optics = Optics()
+    things, again = (some_things(4, count, optics, STARTS) for _ in range(2))
+    assert things == again
+    assert len(things) == count
+    robots = optics.mat(np.array([(x + 160.0, y + 140.0) for x, y, _ in STARTS]))
+    assert all(hypot(*(at - thing.middle)) > thing.reach + AWAY for thing in things for at in robots)

@@ -15,7 +15,6 @@ from pigaming_app.hardware.signals import WheelCommand
 from tests.hardware.firmware.board import AHEAD, BYTE, DRIVE_BYTES, REPORT_BYTES, Board, build, missing
 from tests.hardware.robot_packets import ARENA, drive_from, report_packet
 
-pytest.importorskip("serial")
 pytestmark = pytest.mark.skipif(
     bool(missing()),
     reason=f"no {', '.join(missing())}: apt-get install gcc-avr avr-libc libsimavr-dev libelf-dev gcc make",

@@ -5,8 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-pytest.importorskip("cv2")
-
 from pigaming_app.hardware.emulator import renderer
 from pigaming_app.hardware.emulator.things.prism import TAPE, box
 from pigaming_app.hardware.proof.things import ThingsBed, compare, distances, trial

@@ -1,14 +1,16 @@
-"""Short acceptance trials of the robot loop; `bench robots` runs longer ones."""
+"""Short acceptance trials of the robot loop (`bench robots` runs longer ones); camera frames through a file."""
 
+import numpy as np
 import pytest
-
-pytest.importorskip("cv2")
 
 from pigaming_app.hardware.emulator.wifi.air import WifiChannel
 from pigaming_app.hardware.emulator.wifi.radio import WifiRadio
 from pigaming_app.hardware.proof import testbed
 from pigaming_app.hardware.proof.emergencies import EMERGENCIES, hang, leave, settle, stop
+from pigaming_app.hardware.proof.frame_feed import FrameFeed, FrameWriter
 from pigaming_app.hardware.proof.trials import FigureEight, entered, follow
+from pigaming_app.hardware.signals import CameraFrame
+from pigaming_app.hardware.vision.markers import opencv
 from pigaming_app.jobs.bench.robots import TARGETS
 from pigaming_app.sim.world import HZ, ROBOTS, World
 from tests.cases import one_in
@@ -114,3 +116,21 @@ def test_a_robot_that_was_carried_is_followed_where_it_was_put_down(trail):
 
 def test_when_the_program_ends_the_robots_are_told_so(trail):
     assert leave(trail) < 0.1
+
+
+def test_a_reader_gets_each_frame_once_with_its_time_and_the_newest_of_several(tmp_path, monkeypatch):
+    monkeypatch.setattr("pigaming_app.hardware.proof.frame_feed.PATIENCE", 0.0)
+    writer, page = FrameWriter(tmp_path / "frames"), np.zeros((1080, 1920), np.uint8)
+    writer.write(CameraFrame(page, 1.0, 1))
+    feed = FrameFeed(tmp_path / "frames")
+    assert feed.read() == (False, None), "it was there before"
+    monkeypatch.setattr("pigaming_app.hardware.proof.frame_feed.PATIENCE", 5.0)
+    for number in (2, 3, 4):
+        page[:] = number
+        writer.write(CameraFrame(page, float(number), number))
+    good, image = feed.read()
+    assert good
+    assert image.min() == image.max() == 4
+    assert feed.get(opencv().CAP_PROP_POS_MSEC) == 4000.0
+    monkeypatch.setattr("pigaming_app.hardware.proof.frame_feed.PATIENCE", 0.0)
+    assert feed.read() == (False, None)

@@ -2,8 +2,6 @@
 
 import pytest
 
-pytest.importorskip("cv2")
-
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.proof.wifi import faults
 from pigaming_app.jobs.bench import robots_arcade

@@ -237,7 +237,6 @@ def test_a_fault_of_the_program_stops_the_robots_and_is_told():
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
 @pytest.mark.parametrize("end", ["", "sys.exit(3)", "raise RuntimeError"])
 def test_a_program_that_ends_without_closing_says_stop_five_times(end):
-    pytest.importorskip("serial")
     program = f"""
 import sys, time
 from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol

@@ -10,8 +10,8 @@ from pigaming_app.hardware.radio import packets
 from pigaming_app.hardware.radio.packets import LAST_ARENA, VERSION, PacketDecoder, RobotReport
 from pigaming_app.hardware.signals import WheelCommand
 from tests.hardware.corruption import GOOD, corrupt_packets, corrupted
-from tests.hardware.radio.chunks import heard
 from tests.hardware.robot_packets import ARENA, Drive, drive_from, old_report, report_packet
+from tests.hardware.wire import heard
 
 AHEAD = WheelCommand(1.0, 1.0)
 speeds = st.integers(-63, 63).map(lambda step: step / 63)

@@ -7,6 +7,7 @@ import sys
 from contextlib import suppress
 
 import pytest
+import serial
 
 from pigaming_app.hardware.radio.serial_line import (
     FAILURES,
@@ -58,7 +59,6 @@ def test_why_a_port_does_not_open_is_one_sentence(error, reason):
     ],
 )
 def test_ports_that_are_none(device, told):
-    pytest.importorskip("serial")
     line = SerialLine(serial_port(device), Time(), device)
     assert not line.open()
     assert sentence(line.fault) == told
@@ -67,7 +67,6 @@ def test_ports_that_are_none(device, told):
 @POSIX
 @pytest.mark.parametrize("stop_bits", [1, 2])
 def test_bytes_go_both_ways_over_a_terminal_and_its_end_is_noticed(stop_bits):
-    pytest.importorskip("serial")
     far, near = os.openpty()
     device, time = os.ttyname(near), Time()
     line = SerialLine(serial_port(device, stop_bits=stop_bits), time, device)
@@ -91,7 +90,6 @@ def test_bytes_go_both_ways_over_a_terminal_and_its_end_is_noticed(stop_bits):
 
 @POSIX
 def test_a_port_that_another_program_holds_is_busy():
-    pytest.importorskip("serial")
     far, near = os.openpty()
     device = os.ttyname(near)
     first, second = (SerialLine(serial_port(device), Time(), device) for _ in range(2))
@@ -113,7 +111,6 @@ def test_without_pyserial_the_sentence_says_so(monkeypatch):
 
 
 def test_the_ports_of_the_computer_are_listed():
-    pytest.importorskip("serial")
     assert all(port.device and port.description for port in ports())
 
 
@@ -155,7 +152,6 @@ def test_a_write_that_fails_loses_the_port(kind):
 
 
 def test_a_port_that_takes_no_bytes_is_reported_as_stuck_after_a_second_and_stays_open():
-    serial = pytest.importorskip("serial")
     wire = Wire(Time())
     line = SerialLine(lambda: wire, wire.time, "COM3")
     line.open()
@@ -175,7 +171,6 @@ def test_a_port_that_takes_no_bytes_is_reported_as_stuck_after_a_second_and_stay
 
 def test_writes_that_time_out_now_and_then_are_no_trouble():
     """A starved process: pyserial raises although all bytes were taken."""
-    serial = pytest.importorskip("serial")
     wire = Wire(Time())
     line = SerialLine(lambda: wire, wire.time, "COM3")
     line.open()
@@ -189,7 +184,6 @@ def test_writes_that_time_out_now_and_then_are_no_trouble():
 
 @POSIX
 def test_a_reader_that_pauses_is_not_taken_for_an_unplugged_radio():
-    pytest.importorskip("serial")
     far, near = os.openpty()
     os.set_blocking(far, False)
     device, time = os.ttyname(near), Time()
@@ -212,7 +206,6 @@ def test_a_reader_that_pauses_is_not_taken_for_an_unplugged_radio():
 @POSIX
 def test_stale_commands_in_a_full_buffer_are_dropped():
     """Queued commands must not reach a robot late: only bytes already at the far end get through."""
-    pytest.importorskip("serial")
     far, near = os.openpty()
     os.set_blocking(far, False)
     device, time = os.ttyname(near), Time()

@@ -17,7 +17,7 @@ from pigaming_app.hardware.radio.xbee_frames import (
     encode,
     frame,
 )
-from tests.hardware.radio.chunks import heard
+from tests.hardware.wire import heard
 
 SENT = TransmitRequest(1, 0x0001, bytes.fromhex("5007117E"))
 GOLDEN = {  # reference frames

@@ -9,7 +9,7 @@ from pigaming_app.hardware.calibration.ground_plane import to_toml
 from pigaming_app.hardware.calibration.quality import CameraQuality
 from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.storage.settings import Settings, folders
-from tests.hardware.grounds import nominal
+from tests.hardware.mat import nominal
 
 HERE = "1: 1920 × 1080"
 UNMEASURED = CameraQuality()

@@ -1,22 +1,28 @@
 """Sessions: opening, closing, and the operator message for each missing part."""
 
 import sys
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
+from pigaming_app.hardware.calibration.drift import PAUSE, WARN
 from pigaming_app.hardware.calibration.quality import assessed
+from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.hardware.session.lighting import Lighting
 from pigaming_app.hardware.session.real import SizedCamera
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable, camera_warning
-from pigaming_app.hardware.signals import ExposureKept, ExposureState
+from pigaming_app.hardware.signals import CameraFrame, ExposureKept, ExposureState
+from pigaming_app.sim.world import DT, HZ, ROBOTS, World
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings, folders
+from tests.hardware.mat import nominal
 from tests.hardware.sentences import sentence
 from tests.hardware.session.opened import HERE, calibrate, real_mat, soon, threads
-
-pytest.importorskip("cv2")
 
 
 def test_the_emulated_arena_lives_in_real_time_and_ends_its_threads() -> None:
@@ -90,3 +96,109 @@ def test_without_pyserial_or_camera_it_says_so_and_what_the_calibration_kept_is_
     finally:
         mat.end()
     assert soon(lambda: not threads())
+
+
+@pytest.fixture(scope="module")
+def session() -> Iterator[EmulatedSession]:
+    session = EmulatedSession(1, live=False, lighting=Lighting(1))
+    session.find()
+    yield session
+    session.end()
+
+
+@pytest.mark.long
+def test_who_drives_and_does_nothing_about_drift_is_stopped_when_the_camera_has_moved(session: EmulatedSession) -> None:
+    world: Any = World()
+    for robot in world.robots:
+        robot.present = 1
+    rig = session.open()
+    plant = RealPlant(world, rig)
+
+    def drive(seconds: float) -> None:
+        for _ in range(round(seconds * HZ)):
+            plant.sense()
+            plant.drive([(0.0, 0.5)] * ROBOTS, DT)
+            session.tick()
+
+    session.arena.camera.painter.refresh = 1  # the margins too, in every picture
+    drive(1.5)
+    assert 0.0 < rig.drift() < WARN
+    assert "drift" not in {fault.name for fault in plant.faults}
+    session.arena.faults.switch("camera_bumped", True)
+    drive(2.5)
+    assert rig.drift() > PAUSE
+    assert "drift" in {fault.name for fault in plant.faults if fault.pauses}
+    session.arena.advance(0.3)
+    assert not any(robot.left or robot.right for robot in session.arena.robots)
+    session.arena.faults.switch("camera_bumped", False)
+    drive(2.5)
+    assert rig.drift() < WARN
+
+
+def test_camera_and_radio_are_closed_once_and_opened_anew(
+    session: EmulatedSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rig = session.open()
+    assert session.open() is rig
+    closed: list[str] = []
+    monkeypatch.setattr(rig.link, "close", lambda: closed.append("link"))
+    monkeypatch.setattr(rig.camera, "close", lambda: closed.append("camera"))
+    session.close()
+    session.close()
+    assert closed == ["link", "camera"]
+    assert session.fault is None
+    assert session.open() is not rig
+
+
+def test_the_window_s_picture_is_asked_for_only_when_the_projector_is_due(session: EmulatedSession) -> None:
+    import numpy as np
+
+    asked: list[float] = []
+
+    def pixels() -> Any:
+        asked.append(session.arena.clock())
+        return np.zeros((1080, 1920, 4), np.uint8)
+
+    for _ in range(10):
+        session.show(pixels)
+        session.arena.advance(0.01)
+    assert 4 <= len(asked) <= 6
+
+
+class Eye:
+    """A fake camera with one frame of each of these sizes."""
+
+    fault: OperatorMessage | None = None
+
+    def __init__(self, *sizes: tuple[int, int]) -> None:
+        self.frames = [CameraFrame(np.zeros((h, w), np.uint8), 0.1 * i, i) for i, (w, h) in enumerate(sizes)]
+
+    def newest(self) -> CameraFrame | None:
+        return self.frames.pop(0) if self.frames else None
+
+    def close(self) -> None:
+        self.frames.clear()
+
+
+def test_pictures_of_another_size_are_withheld_with_a_sentence_until_the_right_ones_come():
+    eye = SizedCamera(Eye((640, 480), (1280, 720), (640, 480)), nominal((1280, 720)))
+    assert eye.newest() is None
+    assert sentence(eye.fault) == (
+        "The calibration is for camera images of 1280 x 720 px, not 640 x 480: calibrate again."
+    )
+    frame = eye.newest()
+    assert frame is not None
+    assert frame.number == 1
+    assert eye.fault is None
+    eye.newest()
+    assert "640 x 480" in sentence(eye.fault)
+
+
+def test_what_the_camera_itself_says_comes_first():
+    camera = Eye((640, 480))
+    eye = SizedCamera(camera, nominal((1280, 720)))
+    eye.newest()
+    camera.fault = OperatorMessage("stopped", number=0)
+    assert eye.fault == camera.fault
+    eye.close()
+    assert not camera.frames

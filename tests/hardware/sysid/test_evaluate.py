@@ -2,6 +2,7 @@
 
 import gzip
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from pigaming_app.hardware.signals import Fix, WheelCommand
 from pigaming_app.hardware.sysid.evaluate import RecordingTooShort, errors, measure, predictions, replay
 from pigaming_app.hardware.sysid.excitation import ExcitationPattern
 from pigaming_app.hardware.sysid.identify import fit_pieces, identify, move_pieces, track
+from pigaming_app.hardware.sysid.plots import PlotsUnavailable, draw
 from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, to_toml
 from tests.floor import floor
 from tests.hardware.mat import TRUE, Mat
@@ -208,3 +210,18 @@ def test_a_run_in_memory_ends_before_it_is_too_long_to_be_read_and_fixes_keep_th
         (999.8, 2),
         (999.9, 1),
     ]
+
+
+@pytest.mark.long
+def test_two_pictures_are_drawn(run, tmp_path):
+    pytest.importorskip("matplotlib")
+    run = Recording(MM, {1: run.courses[1].between(0.0, 24.0)})
+    made = draw(run, measure(run), tmp_path / "plots")
+    assert [path.name for path in made] == ["horizon.png", "paths.png"]
+    assert all(path.read_bytes()[:4] == b"\x89PNG" for path in made)
+
+
+def test_without_matplotlib_there_is_one_sentence(run, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    with refused(PlotsUnavailable, "matplotlib"):
+        draw(run, [], tmp_path)

@@ -12,7 +12,7 @@ from pigaming_app.hardware.signals import DetectedMarker
 from pigaming_app.hardware.tracking.tracker import Tracker
 from pigaming_app.hardware.vision.markers import ROBOT_IDS
 from pigaming_app.sim.world import HZ, ROBOTS
-from tests.hardware.grounds import nominal
+from tests.hardware.mat import nominal
 from tests.hardware.pictures import square
 
 TRUTH = nominal()

@@ -6,8 +6,6 @@ from random import Random
 import numpy as np
 import pytest
 
-pytest.importorskip("cv2")
-
 from pigaming_app.hardware.commissioning.pairing import Pairing
 from pigaming_app.hardware.control.motion_delay import SURE, common_delay, motion_delay, network_delay
 from pigaming_app.hardware.signals import Fix

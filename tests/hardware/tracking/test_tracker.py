@@ -5,13 +5,11 @@ from math import hypot, pi, tau
 import numpy as np
 import pytest
 
-cv2 = pytest.importorskip("cv2")
-
-from pigaming_app.hardware.signals import CameraFrame, DetectedMarker  # noqa: E402
-from pigaming_app.hardware.tracking.tracker import Tracker  # noqa: E402
-from pigaming_app.hardware.vision.markers import ROBOT_IDS  # noqa: E402
-from tests.hardware.grounds import nominal  # noqa: E402
-from tests.hardware.pictures import SIZE, lids, speckled, square  # noqa: E402
+from pigaming_app.hardware.signals import CameraFrame, DetectedMarker
+from pigaming_app.hardware.tracking.tracker import Tracker
+from pigaming_app.hardware.vision.markers import ROBOT_IDS
+from tests.hardware.mat import nominal
+from tests.hardware.pictures import SIZE, lids, speckled, square
 
 GROUND = nominal(SIZE)
 EDGE = 50.0 / GROUND.mm

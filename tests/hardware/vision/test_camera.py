@@ -4,17 +4,16 @@ import os
 import threading
 import time
 
+import cv2
 import numpy as np
 import pytest
 
-cv2 = pytest.importorskip("cv2")
-
-from pigaming_app.hardware.vision import camera as reader  # noqa: E402
-from pigaming_app.hardware.vision import discovery as cameras  # noqa: E402
-from pigaming_app.hardware.vision.camera import Camera  # noqa: E402
-from pigaming_app.hardware.vision.exposure import lock_exposure  # noqa: E402
-from pigaming_app.hardware.vision.markers import OpenCVMissing  # noqa: E402
-from tests.hardware.sentences import refused, sentence  # noqa: E402
+from pigaming_app.hardware.vision import camera as reader
+from pigaming_app.hardware.vision import discovery as cameras
+from pigaming_app.hardware.vision.camera import Camera
+from pigaming_app.hardware.vision.exposure import lock_exposure
+from pigaming_app.hardware.vision.markers import OpenCVMissing
+from tests.hardware.sentences import refused, sentence
 
 LONG = 60.0  # s after which a test gives up waiting: the machine may be busy
 

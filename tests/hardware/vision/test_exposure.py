@@ -3,24 +3,23 @@
 from dataclasses import replace
 from math import inf, nan
 
+import cv2
 import numpy as np
 import pytest
 
-cv2 = pytest.importorskip("cv2")
-
-from pigaming_app.hardware.calibration.ground_plane import read, to_toml  # noqa: E402
-from pigaming_app.hardware.calibration.quality import assessed  # noqa: E402
-from pigaming_app.hardware.emulator.camera import (  # noqa: E402
+from pigaming_app.hardware.calibration.ground_plane import read, to_toml
+from pigaming_app.hardware.calibration.quality import assessed
+from pigaming_app.hardware.emulator.camera import (
     TRAITS,
     CameraDriver,
     CameraTraits,
     EmulatedCamera,
     FrameTiming,
 )
-from pigaming_app.hardware.signals import ExposureKept  # noqa: E402
-from pigaming_app.hardware.vision.exposure import LONGEST, ExposureControl, warning_of  # noqa: E402
-from tests.hardware.grounds import nominal  # noqa: E402
-from tests.hardware.sentences import sentence  # noqa: E402
+from pigaming_app.hardware.signals import ExposureKept
+from pigaming_app.hardware.vision.exposure import LONGEST, ExposureControl, warning_of
+from tests.hardware.mat import nominal
+from tests.hardware.sentences import sentence
 
 SETTLE = 0.5  # s
 WHITE = 157.0  # grey level of a board in normal light

@@ -13,7 +13,7 @@ from pigaming_app.hardware.signals import ExposureState
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.mat.calibration.result_page import CalibrationResult, ResultPage
 from pigaming_app.storage.messages import OperatorMessage
-from tests.hardware.grounds import nominal
+from tests.hardware.mat import nominal
 from tests.scenes.arcade import Arcade
 
 KNOWN = ExposureState(1 / 60, 1 / 30, 120.0, False, True)
