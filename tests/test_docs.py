@@ -19,8 +19,8 @@ import pytest
 from pigaming_app.ai.brain import driving
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.networks.registry import ENCODINGS
+from pigaming_app.ai.pitanks.brains import HANDICAPS
 from pigaming_app.ai.pitanks.classic import Parameters
-from pigaming_app.ai.pitanks.levels import HANDICAPS
 from pigaming_app.ai.ppo import pitanks as fights
 from pigaming_app.ai.ppo import race as races
 from pigaming_app.ai.ppo.registry import TASKS

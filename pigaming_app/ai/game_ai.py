@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from pigaming_app.ai.brain import baselines
+from pigaming_app.ai.brain import kind
 from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_drive
 from pigaming_app.ai.brain.kind import BrainKind
 
@@ -39,7 +39,7 @@ class GameAI:
     @property
     def brains(self) -> dict[str, BrainKind]:
         """All brains by name."""
-        return {"idle": baselines.IDLE, "random": baselines.RANDOM, **self.kinds}
+        return {"idle": kind.IDLE, "random": kind.RANDOM, **self.kinds}
 
 
 def levels(*kinds: BrainKind) -> dict[str, BrainKind]:
@@ -48,5 +48,5 @@ def levels(*kinds: BrainKind) -> dict[str, BrainKind]:
     return {name: replace(kind, name=name) for name, kind in zip(LEVELS, every, strict=True)}
 
 
-RANDOM_ONLY = GameAI(levels(baselines.RANDOM))
+RANDOM_ONLY = GameAI(levels(kind.RANDOM))
 """Of a game without brains."""

@@ -6,9 +6,8 @@ import gymnasium
 import numpy as np
 
 from pigaming_app.gym.matches import Matches
-from pigaming_app.gym.options import task_of
+from pigaming_app.gym.options import action_space, observation_space, task_of
 from pigaming_app.gym.picture import MatchCamera, checked_mode
-from pigaming_app.gym.spaces import action_space, observation_space
 
 SEEDS = 2**63  # seeds that are drawn lie below
 

@@ -5,6 +5,9 @@ from dataclasses import dataclass, replace
 from math import inf, isfinite
 from typing import Any
 
+import numpy as np
+from gymnasium.spaces import Box, MultiDiscrete
+
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.encoding import PERIOD
 from pigaming_app.ai.networks.registry import ENCODINGS
@@ -153,3 +156,15 @@ def number(name: str, value: Any, kinds: Any = int, least: float = -inf) -> None
     if isinstance(value, bool) or not isinstance(value, kinds) or not isfinite(value) or value < least:
         noun = "whole number" if kinds is int else "number"
         raise OptionError(f"{name}: a {noun}{f' from {least:g}' if least > -inf else ''} is needed, not {value!r}")
+
+
+def observation_space(task: EnvironmentTask) -> Box:
+    """The inputs of the game's networks, in units of 1."""
+    return Box(-1.0, 1.0, (ENCODINGS[task.game].size,), np.float32)
+
+
+def action_space(task: EnvironmentTask) -> Any:
+    """A choice for each of the game's heads; or, continuous, linear and angular stick, fire and turbo."""
+    if task.continuous:
+        return Box(np.array([-1.0, -1.0, 0.0, 0.0]), np.ones(4), dtype=np.float64)
+    return MultiDiscrete([choices for _, choices in ENCODINGS[task.game].heads])

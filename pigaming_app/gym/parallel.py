@@ -7,9 +7,8 @@ from pettingzoo import ParallelEnv
 
 from pigaming_app.gym.environment import SEEDS
 from pigaming_app.gym.matches import Matches
-from pigaming_app.gym.options import number, task_of
+from pigaming_app.gym.options import action_space, number, observation_space, task_of
 from pigaming_app.gym.picture import MatchCamera, checked_mode
-from pigaming_app.gym.spaces import action_space, observation_space
 
 
 class MatchEnv(ParallelEnv[str, Any, Any]):

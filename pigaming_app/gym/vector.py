@@ -9,9 +9,8 @@ from gymnasium.vector.utils import batch_space
 
 from pigaming_app.gym.environment import SEEDS
 from pigaming_app.gym.matches import Matches
-from pigaming_app.gym.options import OptionError, number, task_of
+from pigaming_app.gym.options import OptionError, action_space, number, observation_space, task_of
 from pigaming_app.gym.picture import MatchCamera, checked_mode
-from pigaming_app.gym.spaces import action_space, observation_space
 
 
 class SeatVectorEnv(VectorEnv[Any, Any, Any]):

@@ -24,7 +24,7 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.factory.levels import LEVELS
+from pigaming_app.ai.factory.brains import LEVELS
 from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas, load

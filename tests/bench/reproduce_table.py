@@ -24,10 +24,10 @@ from typing import Any, NamedTuple
 
 from pigaming_app import ASSETS
 from pigaming_app.ai.learning.league import wilson
-from pigaming_app.ai.learning.settings import changed
 from pigaming_app.ai.learning.training import TableTraining, contest
 from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe
 from pigaming_app.ai.registry import BRAINS
+from pigaming_app.jobs.learning.train.options import changed
 from pigaming_app.scenes.files import save_table
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ

@@ -3,8 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from pigaming_app.ai.brain.baselines import SimpleMind, act_randomly, stand_still
-from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer, NoWeights
+from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer, NoWeights, SimpleMind, act_randomly, stand_still
 from pigaming_app.ai.brain.thoughts import Thoughts
 from pigaming_app.ai.explanations import classic, foreman, fsm, gunner, racer, tables
 from pigaming_app.ai.explanations.networks import make_explain
@@ -16,7 +15,7 @@ from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.pitanks.classic import think as classic_think
 from pigaming_app.ai.pitanks.fsm import think as fsm_think
 from pigaming_app.ai.pitanks.gunner import think as gunner_think
-from pigaming_app.ai.qlearning.player import think as table_think
+from pigaming_app.ai.qlearning.table import think as table_think
 from pigaming_app.ai.race.racer import think as racer_think
 from pigaming_app.games.match import Match
 from pigaming_app.games.simple import MatchState

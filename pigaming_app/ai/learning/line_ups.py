@@ -5,8 +5,7 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from pigaming_app.ai.brain.baselines import IDLE
-from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain.kind import IDLE, BrainKind
 from pigaming_app.ai.learning.batch import initial_states
 from pigaming_app.ai.learning.rollout import cast_with_baselines, compiled_rollout, plain_rollout, rehearse
 from pigaming_app.ai.plugin_faults import bound, check

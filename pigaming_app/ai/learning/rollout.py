@@ -8,8 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from typing import Any
 
-from pigaming_app.ai.brain.baselines import IDLE, RANDOM
-from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain.kind import IDLE, RANDOM, BrainKind
 from pigaming_app.ai.learning.batch import initial_states
 from pigaming_app.ai.learning.cast import Cast, Family, Think, dispatcher
 from pigaming_app.ai.plugin_faults import bound, check

@@ -13,9 +13,8 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.learning.batch import initial_states
 from pigaming_app.ai.learning.q_learner import learn, learn_last, temperature
 from pigaming_app.ai.learning.rollout import Batch
-from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe, RecipeRecord
-from pigaming_app.ai.qlearning.table import LearnerMind, QTable
+from pigaming_app.ai.qlearning.table import Learned, LearnerMind, QTable, player
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.engine_hash import engine_hash

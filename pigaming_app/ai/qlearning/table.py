@@ -1,15 +1,18 @@
 """A Q-table, and moves by it, drawn from the Boltzmann distribution exp(Q / T) as in training."""
 
+from collections.abc import Callable
 from math import exp
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
-from pigaming_app.ai.brain.unstick import Reflex
-from pigaming_app.ai.qlearning.features import STATES
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain.unstick import Reflex, act_on_reflex
+from pigaming_app.ai.qlearning.features import STATES, nearest_opponent, situation
 from pigaming_app.ai.qlearning.recipe import RecipeRecord
+from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import Rng, uniform
+from pigaming_app.sim.record import packed, record, unpack
+from pigaming_app.sim.rng import Rng, seeded, uniform
 from pigaming_app.sim.world import Action
 
 ACTIONS = 18
@@ -92,3 +95,47 @@ def move_probabilities(table: QTable, state: int, heat: float) -> list[float]:
     odds = [exp((q - highest) / heat) for q in values]
     total = sum(odds)
     return [weight / total for weight in odds]
+
+
+@kernel
+def think(match: PiTanks, seat: int, mind: LearnerMind, weights: QTable) -> None:
+    """At every decision draw a move at the final temperature, unless the reflex overrides it."""
+    if match.tick % weights.knobs.period:
+        return
+    opponent = nearest_opponent(match, seat)
+    if opponent >= 0 and not act_on_reflex(match, seat, opponent, mind, weights.knobs.period):
+        mind.state = situation(match, seat, opponent, weights.knobs.incoming)
+        mind.move = sample_move(weights, mind.state, weights.knobs.cold, mind)
+        apply_move(match.actions[seat], mind.move)
+
+
+def reset(mind: LearnerMind, seed: int) -> None:
+    """Initialise a mind that follows the table alone."""
+    mind.random = seeded(seed)
+
+
+def reset_with_reflex(mind: LearnerMind, seed: int) -> None:
+    """Initialise a mind whose reflex frees the robot when it is stuck."""
+    reset(mind, seed)
+    mind.reflex.on = 1
+
+
+class Learned:
+    """A trained table as the `weights` of a brain. The NumPy or plain copy is made on first use and cached."""
+
+    def __init__(self, table: QTable) -> None:
+        """`table`: a plain record, or a row of one NumPy record."""
+        plain = isinstance(table, QTable)
+        self.bodies: dict[bool, Any] = {not plain: [table] if plain else table}
+
+    def __call__(self, fast: bool) -> Any:
+        """A row of one table, a NumPy record (`fast`) or a plain one."""
+        if fast not in self.bodies:
+            other = self.bodies[not fast]
+            self.bodies[fast] = packed(other) if fast else [unpack(QTable, other[0])]
+        return self.bodies[fast]
+
+
+def player(name: str, weights: Callable[[bool], Any], reflex: bool = False) -> BrainKind:
+    """A brain that plays by a table; `reflex`: it also frees itself when stuck, as in matches against people."""
+    return BrainKind(name, LearnerMind, think, reset_with_reflex if reflex else reset, weights)

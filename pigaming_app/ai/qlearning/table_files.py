@@ -12,9 +12,8 @@ from pigaming_app import ASSETS
 from pigaming_app.ai.brain.archive import BrainFileError, pack, unpack, verify
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.qlearning.features import STATES
-from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.recipe import Recipe
-from pigaming_app.ai.qlearning.table import ACTIONS, PAIRS, QTable
+from pigaming_app.ai.qlearning.table import ACTIONS, PAIRS, Learned, QTable, player
 from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES
 from pigaming_app.sim.record import dtype

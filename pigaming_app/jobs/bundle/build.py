@@ -4,16 +4,20 @@ import contextlib
 import errno
 import os
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from pigaming_app import ROOT, __version__
-from pigaming_app.jobs.bundle import icons
 from pigaming_app.storage.parsing import describe_error, one_line
+
+ICO = (16, 24, 32, 48, 64, 128, 256)  # px
+ICNS = {b"icp4": 16, b"icp5": 32, b"ic07": 128, b"ic08": 256, b"ic09": 512, b"ic10": 1024}  # px by type
 
 SPEC = Path(__file__).with_name("pigaming.spec")
 NAME = "pigaming"
@@ -41,6 +45,33 @@ X-PiGaming-Version={__version__}
 """
 
 
+@cache
+def png(size: int) -> bytes:
+    """The icon of `size` x `size` px as a PNG file."""
+    from pigaming_app.scenes.title.icon import icon
+    from pigaming_app.ui.png import png_of
+
+    return png_of(icon(size))
+
+
+def ico() -> bytes:
+    """The icon of Windows: a header, 16 bytes for each picture, the pictures."""
+    directory, pictures = b"", b""
+    begin = 6 + 16 * len(ICO)
+    for size in ICO:
+        picture = png(size)
+        edge = size % 256  # 0 means 256
+        directory += struct.pack("<BBBBHHII", edge, edge, 0, 0, 1, 32, len(picture), begin + len(pictures))
+        pictures += picture
+    return struct.pack("<HHH", 0, 1, len(ICO)) + directory + pictures
+
+
+def icns() -> bytes:
+    """The icon of macOS: a header, then each picture with its type and length."""
+    pictures = b"".join(kind + struct.pack(">I", 8 + len(png(size))) + png(size) for kind, size in ICNS.items())
+    return b"icns" + struct.pack(">I", 8 + len(pictures)) + pictures
+
+
 class BuildFailed(Exception):
     """The bundle could not be built; the text is one line."""
 
@@ -62,7 +93,7 @@ def build(out: Path) -> Built:
         _run_pyinstaller(scratch)
         made = scratch / "dist"
         folder = made / NAME
-        (folder / "pigaming.png").write_bytes(icons.png(256))
+        (folder / "pigaming.png").write_bytes(png(256))
         if sys.platform.startswith("linux"):
             entry = folder / "pigaming.desktop"
             entry.write_text(DESKTOP, encoding="utf-8")
@@ -99,7 +130,7 @@ def _scratch(out: Path) -> Iterator[Path]:
 def _run_pyinstaller(scratch: Path) -> None:
     """Run PyInstaller; the bundle is in `scratch`/dist. Raises OSError, as for a full disk, or BuildFailed."""
     environment = dict(os.environ)
-    if picture := {"win32": icons.ico, "darwin": icons.icns}.get(sys.platform):
+    if picture := {"win32": ico, "darwin": icns}.get(sys.platform):
         environment["PIGAMING_ICON"] = str(scratch / f"pigaming.{picture.__name__}")
         Path(environment["PIGAMING_ICON"]).write_bytes(picture())
     command = [sys.executable, "-m", "PyInstaller", "--noconfirm", "--log-level", "WARN"]

@@ -7,8 +7,7 @@ import pytest
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.brain.unstick import PUSHING, Reflex
 from pigaming_app.ai.learning import training
-from pigaming_app.ai.qlearning.player import Learned, player
-from pigaming_app.ai.qlearning.table import MOVES, LearnerMind, Move
+from pigaming_app.ai.qlearning.table import MOVES, Learned, LearnerMind, Move, player
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup

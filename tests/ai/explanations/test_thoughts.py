@@ -10,9 +10,8 @@ from pigaming_app.ai.explanations.registry import explain_of, thoughts_of
 from pigaming_app.ai.factory import foreman
 from pigaming_app.ai.pitanks import fsm, gunner
 from pigaming_app.ai.qlearning.features import NONE, SECTORS, state
-from pigaming_app.ai.qlearning.player import Learned, player
 from pigaming_app.ai.qlearning.recipe import Recipe
-from pigaming_app.ai.qlearning.table import ACTIONS, MOVES, QTable
+from pigaming_app.ai.qlearning.table import ACTIONS, MOVES, Learned, QTable, player
 from pigaming_app.ai.race import racer
 from pigaming_app.ai.registry import BRAINS, make_brain
 from pigaming_app.games.factory.state import INPUT, RAW, A

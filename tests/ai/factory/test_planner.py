@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from pigaming_app.ai.explanations.foreman import explain
-from pigaming_app.ai.factory.levels import LEVELS
+from pigaming_app.ai.factory.brains import LEVELS
 from pigaming_app.ai.factory.navigation import FAR
 from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import make_brain

@@ -26,7 +26,6 @@ from pigaming_app.ai.qlearning.features import (
     state,
     wall_of,
 )
-from pigaming_app.ai.qlearning.player import reset, think
 from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe, RecipeRecord
 from pigaming_app.ai.qlearning.table import (
     ACTIONS,
@@ -35,7 +34,9 @@ from pigaming_app.ai.qlearning.table import (
     LearnerMind,
     QTable,
     move_probabilities,
+    reset,
     sample_move,
+    think,
 )
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match

@@ -17,8 +17,8 @@ from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.learning import training
 from pigaming_app.ai.learning.training import TableTraining
 from pigaming_app.ai.qlearning import table_files as tables
-from pigaming_app.ai.qlearning.player import player
 from pigaming_app.ai.qlearning.recipe import RECIPES
+from pigaming_app.ai.qlearning.table import player
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.match import Match

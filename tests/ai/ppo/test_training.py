@@ -9,7 +9,7 @@ import pytest
 from pigaming_app.ai.brain.archive import BrainFileError
 from pigaming_app.ai.networks.files import brain_of, decode, encode
 from pigaming_app.ai.networks.policy import packed_layers
-from pigaming_app.ai.ppo import checkpoint
+from pigaming_app.ai.ppo import product
 from pigaming_app.ai.ppo import training as training_module
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.training import Training, in_threads, whole_layers
@@ -40,9 +40,9 @@ def halfway():
 
 def test_it_goes_on_from_a_checkpoint_as_if_nothing_had_happened(halfway, tmp_path):
     path = tmp_path / "a.checkpoint.npz"
-    path.write_bytes(checkpoint.encode(halfway))
+    path.write_bytes(product.encode(halfway))
     other = Training(TASK, 5, 4, TINY)
-    checkpoint.restore(other, path)
+    product.restore(other, path)
     assert same(other, halfway)
     whole = trained(4, threads=2)
     assert same(trained(2, training=other), whole)
@@ -65,7 +65,7 @@ def test_the_exploiter_learns_from_duels_with_the_learner_alone_and_is_pooled(ha
 
 
 def test_a_damaged_or_foreign_checkpoint_is_refused_in_one_line(halfway, tmp_path):
-    raw, path = checkpoint.encode(halfway), tmp_path / "a.checkpoint.npz"
+    raw, path = product.encode(halfway), tmp_path / "a.checkpoint.npz"
     damaged = bytearray(raw)
     damaged[len(raw) // 2] ^= 1
     for content, reason in (
@@ -76,11 +76,11 @@ def test_a_damaged_or_foreign_checkpoint_is_refused_in_one_line(halfway, tmp_pat
     ):
         path.write_bytes(content)
         with pytest.raises(BrainFileError, match=f"^a.checkpoint.npz: .*{reason}"):
-            checkpoint.restore(Training(TASK, 5, 4, TINY), path)
+            product.restore(Training(TASK, 5, 4, TINY), path)
     path.write_bytes(raw)
     for other, reason in ((Training(TASK, 6, 4, TINY), "seed"), (Training(TASK, 5, 5, TINY), "planned updates")):
         with pytest.raises(BrainFileError, match=f"another {reason}$"):
-            checkpoint.restore(other, path)
+            product.restore(other, path)
 
 
 def test_the_file_of_the_network_names_its_recipe(halfway):

@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from functools import cache
 
 from pigaming_app import ASSETS
-from pigaming_app.ai.learning.settings import changed
 from pigaming_app.ai.learning.training import MINUTES, contest, resumed
 from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.ai.qlearning.table_files import decode
 from pigaming_app.ai.registry import BRAINS
+from pigaming_app.jobs.learning.train.options import changed
 from pigaming_app.sim.kernel import can_compile
 from tests.bench import reproduce_table
 from tests.bench.figures.duels import LEAST

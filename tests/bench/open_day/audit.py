@@ -18,7 +18,7 @@ from pigaming_app.storage.log import FILE as LOG
 from pigaming_app.storage.restarts import restarts
 from pigaming_app.storage.scores import FILE as SCORES
 from pigaming_app.storage.scores import LENGTH
-from pigaming_app.storage.scores.file_format import parse as parse_scores
+from pigaming_app.storage.scores.book import parse as parse_scores
 from tests.bench.open_day.clock import OPENING
 from tests.bench.open_day.ledger import Ledger, SeenMatch
 from tests.bench.open_day.plan import Day

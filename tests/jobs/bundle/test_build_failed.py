@@ -84,7 +84,7 @@ def test_a_disk_that_refuses_is_one_line_and_the_older_bundle_stays(
     if at == "begin":
         monkeypatch.setattr(build.tempfile, "TemporaryDirectory", refuse)
     elif at == "picture":
-        monkeypatch.setattr(build.icons, "png", lambda size: refuse())
+        monkeypatch.setattr(build, "png", lambda size: refuse())
     else:
         rename = os.rename
         monkeypatch.setattr(os, "rename", lambda a, b: refuse() if Path(a).parent.name == "dist" else rename(a, b))

@@ -12,7 +12,7 @@ import pytest
 from pigaming_app import ROOT
 from pigaming_app.boot import bundled
 from pigaming_app.jobs import cli
-from pigaming_app.jobs.bundle import build, contents, icons
+from pigaming_app.jobs.bundle import build, contents
 from pigaming_app.jobs.terminal import command, refusal
 
 
@@ -21,30 +21,30 @@ def size_of(png: bytes) -> tuple[int, int]:
 
 
 def test_the_icon_fills_its_square_and_leaves_its_corners_open() -> None:
-    icon = pygame.image.load(io.BytesIO(icons.png(64)))
+    icon = pygame.image.load(io.BytesIO(build.png(64)))
     assert icon.get_at((0, 0))[3] == 0
     assert icon.get_at((32, 5))[3] == 255
     assert max(icon.get_at((x, 30))[0] for x in range(64)) > 200
 
 
 def test_the_icon_of_windows_lists_pictures_at_their_places() -> None:
-    data = icons.ico()
-    assert struct.unpack_from("<HHH", data) == (0, 1, len(icons.ICO))
-    for index, size in enumerate(icons.ICO):
+    data = build.ico()
+    assert struct.unpack_from("<HHH", data) == (0, 1, len(build.ICO))
+    for index, size in enumerate(build.ICO):
         w, h, _, _, _, depth, length, begin = struct.unpack_from("<BBBBHHII", data, 6 + 16 * index)
         assert (w or 256, h or 256, depth) == (size, size, 32)
         assert size_of(data[begin : begin + length]) == (size, size)
 
 
 def test_the_icon_of_macos_is_a_chain_of_pictures() -> None:
-    data = icons.icns()
+    data = build.icns()
     assert struct.unpack_from(">4sI", data) == (b"icns", len(data))
     at, found = 8, []
     while at < len(data):
         kind, length = struct.unpack_from(">4sI", data, at)
         found.append((kind, size_of(data[at + 8 : at + length])[0]))
         at += length
-    assert dict(found) == icons.ICNS
+    assert dict(found) == build.ICNS
 
 
 def test_modules_files_and_assets_are_in_it() -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.jobs.cli import main
-from pigaming_app.jobs.kiosk.autostart import entries
+from pigaming_app.jobs.kiosk import autostart
 from pigaming_app.jobs.terminal import command
 
 COMMAND = ["/opt/my 100%/py", '/home/a b/$HOME/`x`/q"uote\\/main.py', "--kiosk"]
@@ -26,30 +26,30 @@ def exec_words(text: str) -> list[str]:
 
 
 def test_linux_has_a_desktop_entry_whose_words_are_escaped(tmp_path: Path) -> None:
-    entry = entries.start_entry("linux", tmp_path, {}, COMMAND)
+    entry = autostart.start_entry("linux", tmp_path, {}, COMMAND)
     assert entry.path == tmp_path / ".config" / "autostart" / "pigaming.desktop"
     assert exec_words(entry.content.decode()) == COMMAND
     parser = configparser.RawConfigParser()
     parser.read_string(entry.content.decode())
     assert parser["Desktop Entry"]["type"] == "Application"
-    elsewhere = entries.start_entry("linux", tmp_path, {"XDG_CONFIG_HOME": "/x"}, COMMAND)
+    elsewhere = autostart.start_entry("linux", tmp_path, {"XDG_CONFIG_HOME": "/x"}, COMMAND)
     assert elsewhere.path == Path("/x/autostart/pigaming.desktop")
     for invalid in ("", "relative"):  # XDG Base Directory Specification: to be ignored
-        assert entries.start_entry("linux", tmp_path, {"XDG_CONFIG_HOME": invalid}, COMMAND).path == entry.path
+        assert autostart.start_entry("linux", tmp_path, {"XDG_CONFIG_HOME": invalid}, COMMAND).path == entry.path
 
 
 def test_windows_has_a_batch_file_in_the_start_up_folder(tmp_path: Path) -> None:
     words = ["C:\\Útil 100%\\python.exe", "C:\\a b\\main.py", "--kiosk"]
-    entry = entries.start_entry("win32", tmp_path, {"APPDATA": str(tmp_path / "Roaming")}, words)
+    entry = autostart.start_entry("win32", tmp_path, {"APPDATA": str(tmp_path / "Roaming")}, words)
     assert entry.path == tmp_path / "Roaming/Microsoft/Windows/Start Menu/Programs/Startup/PiGaming.bat"
     first, codepage, start, end = entry.content.decode().split("\r\n")
     assert (first, codepage, end) == ("@echo off", "chcp 65001 >nul", "")
     assert start == 'start "PiGaming" /min "C:\\Útil 100%%\\python.exe" "C:\\a b\\main.py" "--kiosk"'
-    assert entries.start_entry("win32", tmp_path, {}, words).path.is_relative_to(tmp_path / "AppData" / "Roaming")
+    assert autostart.start_entry("win32", tmp_path, {}, words).path.is_relative_to(tmp_path / "AppData" / "Roaming")
 
 
 def test_macos_has_a_launch_agent(tmp_path: Path) -> None:
-    entry = entries.start_entry("darwin", tmp_path, {}, COMMAND)
+    entry = autostart.start_entry("darwin", tmp_path, {}, COMMAND)
     assert entry.path.parent == tmp_path / "Library" / "LaunchAgents"
     agent = plistlib.loads(entry.content)
     assert (agent["ProgramArguments"], agent["RunAtLoad"]) == (COMMAND, True)
@@ -61,21 +61,21 @@ HOME = "/data/my 100% $HOME `x`"
 
 def test_every_system_sets_the_folder_of_the_users_files(tmp_path: Path) -> None:
     variables = {"PIGAMING_HOME": HOME}
-    linux = entries.start_entry("linux", tmp_path, variables, COMMAND).content.decode()
+    linux = autostart.start_entry("linux", tmp_path, variables, COMMAND).content.decode()
     assert exec_words(linux) == ["/usr/bin/env", f"PIGAMING_HOME={HOME}", *COMMAND]
-    agent = plistlib.loads(entries.start_entry("darwin", tmp_path, variables, COMMAND).content)
+    agent = plistlib.loads(autostart.start_entry("darwin", tmp_path, variables, COMMAND).content)
     assert agent["EnvironmentVariables"] == variables
-    batch = entries.start_entry("win32", tmp_path, variables, ["py.exe"]).content.decode().split("\r\n")
+    batch = autostart.start_entry("win32", tmp_path, variables, ["py.exe"]).content.decode().split("\r\n")
     assert batch[2:4] == ['set "PIGAMING_HOME=/data/my 100%% $HOME `x`"', 'start "PiGaming" /min "py.exe"']
 
 
 @pytest.mark.parametrize("platform", ["linux", "darwin", "win32"])
 def test_a_relative_folder_is_made_absolute_and_an_empty_one_is_none(tmp_path: Path, platform: str) -> None:
-    relative = entries.start_entry(platform, tmp_path, {"PIGAMING_HOME": "here"}, COMMAND).content.decode()
+    relative = autostart.start_entry(platform, tmp_path, {"PIGAMING_HOME": "here"}, COMMAND).content.decode()
     assert str(Path.cwd() / "here") in relative
-    assert b"PIGAMING_HOME" not in entries.start_entry(platform, tmp_path, {"PIGAMING_HOME": ""}, COMMAND).content
+    assert b"PIGAMING_HOME" not in autostart.start_entry(platform, tmp_path, {"PIGAMING_HOME": ""}, COMMAND).content
     with pytest.raises(ValueError, match="PIGAMING_HOME"):
-        entries.start_entry(platform, tmp_path, {"PIGAMING_HOME": "/a\nb"}, COMMAND)
+        autostart.start_entry(platform, tmp_path, {"PIGAMING_HOME": "/a\nb"}, COMMAND)
 
 
 @pytest.mark.long
@@ -94,7 +94,7 @@ def test_the_started_arcade_uses_that_folder(
 
 def test_a_folder_with_a_line_end_in_its_name_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="unprintable"):
-        entries.start_entry("linux", tmp_path, {}, ["/a\nb/main.py"])
+        autostart.start_entry("linux", tmp_path, {}, ["/a\nb/main.py"])
 
 
 @pytest.fixture

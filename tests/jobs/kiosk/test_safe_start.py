@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.jobs.kiosk.safe_start import SafeStart
-from pigaming_app.jobs.kiosk.start import supervise
+from pigaming_app.jobs.kiosk.start import SafeStart, supervise
 from pigaming_app.jobs.kiosk.supervisor import Limits
 from pigaming_app.scenes.kiosk import safe_start
 from pigaming_app.storage.plugins import consent

@@ -1,10 +1,10 @@
 """Options of trainings, checked before they begin."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, fields, replace
 from os.path import realpath
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar, TypeVar
 
 from pigaming_app.jobs.terminal.options import (
     ONE_OF,
@@ -22,7 +22,24 @@ from pigaming_app.jobs.terminal.options import (
 from pigaming_app.jobs.terminal.refusal import Refusal, require
 from pigaming_app.storage.safe_files import require_writable
 
+T = TypeVar("T")
+
 DEFAULT_MINUTES, DEFAULT_WORKERS = 10.0, 2
+
+
+def changed(recipe: T, settings: Iterable[str]) -> T:
+    """A dataclass of numbers with changes of the form NAME=NUMBER. Raises ValueError."""
+    kinds: dict[str, Any] = {field.name: field.type for field in fields(recipe)}  # type: ignore[arg-type]
+    changes: dict[str, Any] = {}
+    for text in settings:
+        name, equals, value = text.partition("=")
+        if name not in kinds or not equals:
+            raise ValueError(f"{text!r}; NAME=NUMBER is needed, with one of {', '.join(kinds)}")
+        try:
+            changes[name] = kinds[name](value)
+        except ValueError:
+            raise ValueError(f"{text!r}; {value!r} is not such a number") from None
+    return replace(recipe, **changes)  # type: ignore[type-var]
 
 
 @dataclass(frozen=True, kw_only=True)

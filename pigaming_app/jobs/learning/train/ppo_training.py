@@ -12,10 +12,8 @@ from time import monotonic
 from pigaming_app.ai.brain.archive import BrainFileError
 from pigaming_app.ai.learning.league import wilson
 from pigaming_app.ai.learning.rollout import rehearse
-from pigaming_app.ai.learning.settings import changed
 from pigaming_app.ai.networks.files import encode as encode_network
-from pigaming_app.ai.ppo.checkpoint import encode, restore
-from pigaming_app.ai.ppo.product import trained_network
+from pigaming_app.ai.ppo.product import encode, restore, trained_network
 from pigaming_app.ai.ppo.ray_workers import NoCluster, RayShards
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import is_compiled
@@ -26,7 +24,7 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game
-from pigaming_app.jobs.learning.train.options import DEFAULT_WORKERS, PpoOptions
+from pigaming_app.jobs.learning.train.options import DEFAULT_WORKERS, PpoOptions, changed
 from pigaming_app.jobs.learning.train.outputs import csv_of, png_of, two_plots
 from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
 from pigaming_app.jobs.terminal.refusal import Refusal, refused

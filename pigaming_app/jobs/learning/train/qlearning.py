@@ -9,12 +9,11 @@ from time import perf_counter
 from typing import NamedTuple
 
 from pigaming_app.ai.learning import training
-from pigaming_app.ai.learning.settings import changed
 from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.games.arenas import load as load_arena
 from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES, ChoiceError, require_game
-from pigaming_app.jobs.learning.train.options import OutputOptions, check_outputs
+from pigaming_app.jobs.learning.train.options import OutputOptions, changed, check_outputs
 from pigaming_app.jobs.learning.train.outputs import csv_of, png_of, two_plots
 from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
 from pigaming_app.jobs.terminal.options import GameOption, JsonOption, SeedOption, decimal, flag, integer, option
