@@ -8,7 +8,7 @@ import numpy as np
 from pigaming_app.games.game import ALLIES
 from pigaming_app.games.registry import games
 from pigaming_app.sim.world import DT
-from tests.bench.trial import StandingStill, Trial, by_arena, live, of_robots, played
+from tests.bench.trial import StandingStill, Trial, by_arena, live, of_parts, of_robots, played
 
 
 def measure(trial: Trial) -> Mapping[str, Any]:
@@ -17,9 +17,9 @@ def measure(trial: Trial) -> Mapping[str, Any]:
     standing = StandingStill(batch)
     present = of_robots(batch, "present") == 1
     for _ in played(trial, batch):
-        standing.sample(batch, live(batch)[:, None] & present & (_loads(batch, "frozen") == 0))
+        standing.sample(batch, live(batch)[:, None] & present & (of_parts(batch, "loads", "frozen") == 0))
     ends = batch.ended()
-    shares = np.where(present, standing.still / np.maximum(1, standing.free), np.nan)
+    shares = standing.shares(present)
     figures = _stars if trial.rules.team_mode == ALLIES else _contest
     return {
         "equal teams": {
@@ -60,10 +60,3 @@ def _stars(ends: list[Any]) -> Mapping[str, float]:
 def _seat(end: Any, team: int) -> int:
     """The first seat of a team."""
     return next(i for i, robot in enumerate(end.robots) if robot.present and robot.team == team)
-
-
-def _loads(batch: Any, name: str) -> Any:
-    """A number of every robot's load, (n, ROBOTS)."""
-    if batch.fast:
-        return batch.matches["loads"][name]
-    return np.array([[getattr(load, name) for load in match.loads] for match in batch.matches])

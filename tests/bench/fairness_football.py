@@ -36,7 +36,7 @@ def company(trial: Trial) -> Mapping[str, Mapping[str, float]]:
     )
     golden = np.array([end.golden_goal for end in ends])
     goals = column(batch, "goals")
-    shares = np.where(present, standing.still / np.maximum(1, standing.free), np.nan)
+    shares = standing.shares(present)
     ahead, more = points[:, 0] - points[:, 1], scored[:, 0] - scored[:, 1]
     return {
         name: {

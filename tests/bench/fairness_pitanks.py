@@ -15,7 +15,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.sim.kernel import compiled
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import ROBOTS
-from tests.bench.trial import StandingStill, Trial, by_arena, column, live, of_robots, played
+from tests.bench.trial import StandingStill, Trial, by_arena, column, live, of_parts, of_robots, played
 
 
 def measure(trial: Trial) -> Mapping[str, Any]:
@@ -30,12 +30,11 @@ def company(trial: Trial) -> Mapping[str, Mapping[str, float]]:
     standing, camping, grudges = StandingStill(batch), StandingStill(batch), Grudges(trial.matches)
     present = of_robots(batch, "present") == 1
     for _ in played(trial, batch):
-        standing.sample(batch, live(batch)[:, None] & present & (of_tanks(batch, "knocked_out") == 0))
+        standing.sample(batch, live(batch)[:, None] & present & (of_parts(batch, "tanks", "knocked_out") == 0))
         camping.sample(batch, unseen(batch, standing.since > 0))
         grudges.sample(batch)
     ends = batch.ended()
-    shares = np.where(present, standing.still / np.maximum(1, standing.free), np.nan)
-    camped = np.where(present, camping.still / np.maximum(1, standing.free), np.nan)
+    shares, camped = standing.shares(present), camping.shares(present, standing.free)
     winners = [standings(games()[trial.game], end)[1] for end in ends]
     return {
         name: {
@@ -103,13 +102,6 @@ def search(matches: Any, hidden: Any) -> None:
 @cache
 def _compiled_search() -> Any:
     return compiled(search)
-
-
-def of_tanks(batch: Any, name: str) -> Any:
-    """A number, or the powers, of every tank, (n, ROBOTS, ...)."""
-    if batch.fast:
-        return batch.matches["tanks"][name]
-    return np.array([[getattr(tank, name) for tank in match.tanks] for match in batch.matches])
 
 
 def _most_hits_win(end: Any, winners: Sequence[int]) -> bool | None:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from pigaming_app.games.race.start import ranking_key
-from tests.bench.trial import StandingStill, Trial, by_arena, column, live, of_robots, played
+from tests.bench.trial import StandingStill, Trial, by_arena, column, live, of_parts, of_robots, played
 
 
 def measure(trial: Trial) -> Mapping[str, Any]:
@@ -14,18 +14,22 @@ def measure(trial: Trial) -> Mapping[str, Any]:
     batch = trial.batch()
     standing, leads = StandingStill(batch), LeadChanges(len(batch.matches))
     present = of_robots(batch, "present") == 1
-    lines = np.array(_racers(batch, "line"))
+    lines = np.array(of_parts(batch, "racers", "line"))
     common = bool(batch.ended()[0].rules.party)
-    starts = np.argsort(np.argsort(-_racers(batch, "progress"), axis=1, kind="stable"), axis=1) if common else lines
+    starts = (
+        np.argsort(np.argsort(-of_parts(batch, "racers", "progress"), axis=1, kind="stable"), axis=1)
+        if common
+        else lines
+    )
     for _ in played(trial, batch):
-        standing.sample(batch, live(batch)[:, None] & present & (_racers(batch, "finished") == 0))
-        leads.sample(np.where(present, _racers(batch, "passed"), 0), _racers(batch, "rank"))
+        standing.sample(batch, live(batch)[:, None] & present & (of_parts(batch, "racers", "finished") == 0))
+        leads.sample(np.where(present, of_parts(batch, "racers", "passed"), 0), of_parts(batch, "racers", "rank"))
     keys = np.array([[ranking_key(match, seat) for seat in range(present.shape[1])] for match in batch.ended()])
     keys[~present] = -np.inf
     best = np.sort(keys, axis=1)
     ties, winners = best[:, -1] == best[:, -2], keys.argmax(axis=1)
     won = np.arange(present.shape[1]) == winners[:, None]
-    shares = np.where(present, standing.still / np.maximum(1, standing.free), np.nan)
+    shares = standing.shares(present)
     place = "place on the grid" if common else "line"
     seconds = column(batch, "tick") / 50.0
     return {
@@ -66,10 +70,3 @@ class LeadChanges:
         first = np.where(passed == most[:, None], rank, np.inf).argmin(axis=1)
         self.changes += ahead & (self._leader >= 0) & (self._leader != first)
         self._leader, self._crossed = np.where(ahead, first, self._leader), np.maximum(most, self._crossed)
-
-
-def _racers(batch: Any, name: str) -> Any:
-    """A number of every racer, (n, ROBOTS)."""
-    if batch.fast:
-        return batch.matches["racers"][name]
-    return np.array([[getattr(racer, name) for racer in match.racers] for match in batch.matches])

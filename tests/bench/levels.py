@@ -21,8 +21,8 @@ from pigaming_app.games.pitanks.state import RICOCHET
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.sim.world import ROBOTS
-from tests.bench.fairness_pitanks import of_tanks, unseen
-from tests.bench.trial import StandingStill, Trial, live, of_robots, played
+from tests.bench.fairness_pitanks import unseen
+from tests.bench.trial import StandingStill, Trial, live, of_parts, of_robots, played
 
 STEP, MOST_TIES, LEAST_WINS = (120.0, 220.0), 0.10, 0.95
 MOST_CAMPING, MOST_SHOTS, MOST_BLIND = 0.03, 60.0, 0.05  # of every level, of level 1, of level 5
@@ -60,13 +60,13 @@ def manners(trial: Trial) -> dict[str, float]:
     shots, blind, fired = np.zeros(trial.matches, int), 0, 0
     hidden = np.zeros(trial.matches, bool)
     for _ in played(trial, batch):
-        free = live(batch)[:, None] & present & (of_tanks(batch, "knocked_out") == 0)
+        free = live(batch)[:, None] & present & (of_parts(batch, "tanks", "knocked_out") == 0)
         standing.sample(batch, free)
         camping.sample(batch, unseen(batch, standing.since > 0))
         before, hidden = hidden, unseen(batch, first)[:, 0]
-        new = np.array(of_tanks(batch, "shots")[:, 0]) - shots
+        new = np.array(of_parts(batch, "tanks", "shots")[:, 0]) - shots
         shots += new
-        bounces = of_tanks(batch, "powers")[:, 0, RICOCHET] > 0
+        bounces = of_parts(batch, "tanks", "powers")[:, 0, RICOCHET] > 0
         fired += int(new[~bounces].sum())
         blind += int(new[hidden & before & ~bounces].sum())
     return {

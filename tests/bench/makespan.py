@@ -8,18 +8,13 @@ code 1 where a target is missed.
 A deadlock is a minute without progress (no machine finishes, nothing is delivered) while pallets remain, or a match of
 `level5` without a winner at the end of the time.
 
-The makespan of a team alone is compared with two lower bounds: the proven one of `makespan_bound`, and the relaxed one
-of earlier versions, in which robots are points that lift and set down instantly on the slot, never turn and never
-collide, and machines and people are always free. What remains of it is driving from slot to slot, also through walls,
-at full speed with as much turbo as the meter allows: loaded by the shortest route for each pallet, and empty from each
-drop to the next pick-up, shared out evenly; and at least the first pallet's route to a machine A, the work of the two
-machines A on half of the pallets each, and the last pallet's route through a machine B to the exit.
+The makespan of a team alone is compared with the lower bound of `makespan_bound`.
 """
 
 import argparse
 import sys
 from collections.abc import Iterator
-from itertools import pairwise, product
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -27,12 +22,11 @@ import numpy as np
 from pigaming_app.ai.factory.brains import LEVELS
 from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS
-from pigaming_app.games.arenas import arenas, load
-from pigaming_app.games.factory.start import PALLETS, set_rules
-from pigaming_app.games.factory.state import ENTRY, EXIT, INPUT, OUTPUT, A, B, FactoryRules
+from pigaming_app.games.arenas import arenas
+from pigaming_app.games.factory.start import PALLETS
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.sim.world import DT, HZ, ROBOTS
-from tests.bench.makespan_bound import bound, nearest
+from tests.bench.makespan_bound import bound
 
 TEAMS = (0, 1, 0, 1)
 MINUTES = 5.0
@@ -41,7 +35,6 @@ MOST_HITS, LEAST_WINS = 0.3, 0.5
 MOST = 1.5  # makespan of two alone, as a multiple of the proven bound
 ALONE = 40  # matches of two alone
 BEST = "level5"
-Point = tuple[float, float]
 
 
 def setup(floor: str, strengths: tuple[str, ...], seed: int) -> Setup:
@@ -100,43 +93,6 @@ def wins(better: str, worse: str, each: int) -> tuple[int, int, int]:
     return won, tied, lost
 
 
-# ----------------------------------------------------------------------------------------------------------- reference
-
-
-def reference(floor: str, robots: int, pallets: int) -> float:
-    """The relaxed lower bound of the makespan for a number of robots and pallets, s."""
-    plan, starts = load("factory", floor).plan, load("factory", floor).starts
-    nobody = Seat("off", 0)
-    rules = FactoryRules()
-    set_rules(rules, Setup("factory", floor, (nobody,) * 4, MINUTES, 1, "standard", pallets))
-    resting = rules.turbo_refill / (rules.turbo_refill + rules.turbo_drain)
-    speed = rules.speed * (1.0 + (rules.turbo_factor - 1.0) * resting)
-    best = 0.0
-    for team in (0, 1):
-        entry, leave = ([(s.x, s.y) for s in plan.slots if s.team == team and s.kind == kind] for kind in (ENTRY, EXIT))
-        first = [(start.x, start.y) for start in starts[team::2]][:robots]
-        loaded, ends, begins = [], [], []
-        for a, b in product(range(4), repeat=2):
-            if plan.machines[a].kind != A or plan.machines[b].kind != B:
-                continue
-            in_a, out_a, in_b, out_b = (slot_of(plan, m, kind) for m, kind in product((a, b), (INPUT, OUTPUT)))
-            loaded.append(nearest(entry, [in_a]) + nearest([out_a], [in_b]) + nearest([out_b], leave))
-            ends += [in_a, in_b]
-            begins += [out_a, out_b]
-        route = min(loaded)
-        empty = sum(nearest(kind, [*entry, *begins]) for kind in (ends[0::2], ends[1::2], leave))
-        work = pallets * (route + empty) + robots * nearest(first, entry) - robots * empty
-        rounds = -(-pallets // 2) + 1
-        chain = (nearest(first, entry) + route) / speed + rounds * rules.process * DT
-        best = max(best, chain, work / robots / speed)
-    return best
-
-
-def slot_of(plan: Any, m: int, kind: int) -> Point:
-    """Position of a slot of machine m, px."""
-    return next((slot.x, slot.y) for slot in plan.slots if slot.machine == m and slot.kind == kind)
-
-
 # ------------------------------------------------------------------------------------------------------------- reports
 
 
@@ -169,13 +125,12 @@ def reports(matches: int) -> Iterator[bool]:
 
 def makespans(floor: str, against_others: float) -> bool:
     """Print makespans on a floor; True if those of two alone meet the target."""
-    proven, relaxed = bound(floor, 2, PALLETS), reference(floor, 2, PALLETS)
+    proven = bound(floor, 2, PALLETS)
     took = {}
     for brain in ("hand3", BEST):
         alone, _ = play(floor, (brain, "off", brain, "off"), range(1, ALONE + 1))
         took[brain] = float(np.median(alone["tick"])) * DT
-        ratios = f"{took[brain] / proven:.2f} x, {took[brain] / relaxed:.2f} x"
-        print(f"  two {brain} alone {took[brain]:.1f} s: {ratios} the bounds of {proven:.1f} and {relaxed:.1f} s")
+        print(f"  two {brain} alone {took[brain]:.1f} s: {took[brain] / proven:.2f} x the bound of {proven:.1f} s")
     print(f"  the winners against two others {against_others:.1f} s: {against_others / proven:.2f} x", flush=True)
     return took[BEST] <= MOST * proven
 

@@ -86,11 +86,16 @@ def column(batch: Batch, name: str) -> Any:
     return batch.matches[name] if batch.fast else np.array([getattr(match, name) for match in batch.matches])
 
 
+def of_parts(batch: Batch, parts: str, name: str) -> Any:
+    """A number, or several, of each part of every match: of its `robots`, `tanks`, ..., (n, parts, ...)."""
+    if batch.fast:
+        return batch.matches[parts][name]
+    return np.array([[getattr(part, name) for part in getattr(match, parts)] for match in batch.matches])
+
+
 def of_robots(batch: Batch, name: str) -> Any:
     """A number of every robot, (n, ROBOTS)."""
-    if batch.fast:
-        return batch.matches["robots"][name]
-    return np.array([[getattr(robot, name) for robot in match.robots] for match in batch.matches])
+    return of_parts(batch, "robots", name)
 
 
 class StandingStill:
@@ -110,11 +115,9 @@ class StandingStill:
         self.still += np.where(self.since == needed + 1, needed + 1, self.since > needed)
         self.free += free
 
-    @property
-    def shares(self) -> Any:
-        """The share of each robot that was ever free to move, (robots,)."""
-        moved = self.free > 0
-        return self.still[moved] / self.free[moved]
+    def shares(self, present: Any, free: Any = None) -> Any:
+        """The share of each robot, (n, ROBOTS); nan where it is not `present`. `free`: other samples than the own."""
+        return np.where(present, self.still / np.maximum(1, self.free if free is None else free), np.nan)
 
 
 def by_arena(setups: Sequence[Setup]) -> Iterator[tuple[str, list[int]]]:
