@@ -2,10 +2,10 @@
 
 from math import atan2, tau
 
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.race.course import point_at
 from pigaming_app.sim.plant import Sighting
+from tests.matches import setup_of
 
 IN_ORDER = 3  # a seed that deals line i, in driving order, to seat i
 
@@ -30,10 +30,9 @@ class Ride:
     """A race on rails, with helpers to move its robots."""
 
     def __init__(self, arena="classic", present=(0, 1, 2, 3), laps=3, minutes=10.0):
-        one, two, three, four = (Seat("idle" if i in present else "off", i) for i in range(4))
+        seats = ["idle" if i in present else "off" for i in range(4)]
         self.rails = Rails()
-        setup = Setup("race", arena, (one, two, three, four), minutes, IN_ORDER, "standard", laps)
-        self.match = Match(setup, self.rails)
+        self.match = Match(setup_of("race", seats, arena, minutes, IN_ORDER, "standard", laps), self.rails)
         self.state = self.match.state
         self.course, self.lines, self.racers = self.state.course, self.state.lines, self.state.racers
 

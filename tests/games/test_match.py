@@ -4,26 +4,13 @@ from itertools import pairwise
 
 import pytest
 
-from pigaming_app.ai.registry import make_brain
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import IdlePlayer, Match
-from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import digest
+from tests.matches import Stick, finished, match_of, run, setup_of
 
 
-def setup(teams=(0, 1, 2, 3), brains=("random",) * 4, minutes=0.1, seed=1):
-    one, two, three, four = (Seat(brain, team) for brain, team in zip(brains, teams, strict=True))
-    return Setup("pitanks", "classic", (one, two, three, four), minutes, seed, "plain")
-
-
-class Steady:
-    """A brain with a constant stick."""
-
-    def __init__(self, linear, angular=0.0):
-        self.linear, self.angular = linear, angular
-
-    def think(self, state, seat):
-        set_action(state.actions[seat], self.linear, self.angular, 0, 0)
+def setup(teams=(0, 1, 2, 3), brains=("random",) * 4):
+    return setup_of("pitanks", brains, minutes=0.1, variant="plain", teams=teams)
 
 
 def with_scores(scores, teams=(0, 1, 2, 3), brains=("random",) * 4):
@@ -35,27 +22,24 @@ def with_scores(scores, teams=(0, 1, 2, 3), brains=("random",) * 4):
 
 def test_a_seat_is_handed_over_in_the_middle_of_a_match():
     match = Match(setup())
-    match.sit(0, Steady(1.0))
-    for _ in range(25):
-        match.tick()
+    match.sit(0, Stick(1.0))
+    run(match, 25)
     x = match.state.robots[0].x
     assert x > 150.0
-    match.sit(0, Steady(-1.0))
-    for _ in range(50):
-        match.tick()
+    match.sit(0, Stick(-1.0))
+    run(match, 50)
     assert match.state.robots[0].x < x - 100.0
     match.sit(0, IdlePlayer())
-    for _ in range(40):
-        match.tick()
+    run(match, 40)
     assert abs(match.state.robots[0].linear) < 1.0
 
 
 def test_handing_over_to_the_like_changes_nothing():
     one, other = Match(setup()), Match(setup())
-    one.sit(2, Steady(0.5, 0.5))
+    one.sit(2, Stick(0.5, 0.5))
     for tick in range(100):
         if tick % 7 == 0:
-            other.sit(2, Steady(0.5, 0.5))
+            other.sit(2, Stick(0.5, 0.5))
         one.tick()
         other.tick()
     assert digest(one.state) == digest(other.state)
@@ -121,11 +105,7 @@ def test_the_table_counts_what_the_game_counts():
 
 
 def test_the_series_tells_every_change_and_ends_at_the_score():
-    match = Match(setup(minutes=0.5))
-    for seat in range(4):
-        match.sit(seat, make_brain("pitanks", "hand3", seat))
-    while not match.over:
-        match.tick()
+    match = finished(match_of("pitanks", ["hand3"] * 4, minutes=0.5, variant="plain"))
     outcome = match.outcome()
     for seat, line in enumerate(outcome.series):
         times, scores = zip(*line, strict=True)

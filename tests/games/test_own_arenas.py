@@ -15,9 +15,8 @@ from pigaming_app.games.arenas import (
     score_name,
     shipped_arenas,
 )
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.sim.arena import ArenaError
+from tests.matches import match_of, run
 
 
 @pytest.fixture(autouse=True)
@@ -38,9 +37,7 @@ def test_they_come_after_ours_and_can_be_played() -> None:
     assert arenas("pitanks") == [*shipped_arenas("pitanks"), "alpha"]
     assert arenas("race") == shipped_arenas("race")
     assert load("pitanks", "alpha").walls == load("pitanks", "labyrinth").walls
-    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(("random", "random", "off", "off")))
-    match = Match(Setup("pitanks", "alpha", (one, two, three, four), 1.0, 1, "standard"))
-    match.tick()
+    match = run(match_of("pitanks", "random random", "alpha"), 1)
     assert match.state.wall_count == len(load("pitanks", "labyrinth").walls)
 
 

@@ -8,24 +8,16 @@ from dataclasses import replace
 
 import pytest
 
-from pigaming_app.ai.registry import make_brain
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.replay import ReplayError, decode, encode, to_match, verify
 from pigaming_app.sim.record import digest
+from tests.matches import finished, match_of, run
 
 BRAINS = ("hand3", "random", "fsm", "random")
 
 
-def played(minutes, brains=BRAINS, arena="classic"):
-    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(brains))
-    match = Match(Setup("pitanks", arena, (one, two, three, four), minutes, 42, "pickups"))
-    for seat, brain in enumerate(brains):
-        if brain != "off":
-            match.sit(seat, make_brain("pitanks", brain, seat))
-    while not match.over:
-        match.tick()
-    return match
+def played(minutes, brains=BRAINS):
+    return finished(match_of("pitanks", brains, "classic", minutes, 42, "pickups"))
 
 
 def read(path):
@@ -70,17 +62,13 @@ def test_what_is_saved_comes_back_and_plays_out_to_the_last_bit(match, path):
     assert replay.setup == match.setup
     assert replay.ticks == bytes(match.log.ticks)
     assert verify(replay)
-    again = to_match(replay)
-    while not again.over:
-        again.tick()
+    again = finished(to_match(replay))
     assert digest(again.state) == digest(match.state)
     assert again.outcome() == match.outcome()
 
 
 def test_a_replay_of_a_replay_is_the_same_file(path, tmp_path):
-    again = to_match(read(path))
-    while not again.over:
-        again.tick()
+    again = finished(to_match(read(path)))
     (tmp_path / "again").write_bytes(encode(again))
     assert (tmp_path / "again").read_bytes() == path.read_bytes()
 
@@ -89,8 +77,7 @@ def test_a_match_is_saved_as_far_as_it_has_been_played(tmp_path):
     match = Match(played(0.05).setup)
     (tmp_path / "none").write_bytes(encode(match))
     assert verify(read(tmp_path / "none"))
-    for _ in range(10):
-        match.tick()
+    run(match, 10)
     (tmp_path / "ten").write_bytes(encode(match))
     assert len(read(tmp_path / "ten").ticks) == 120
     assert verify(read(tmp_path / "ten"))

@@ -5,10 +5,7 @@ from random import Random
 
 import pytest
 
-from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas, load, parse
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.games.race.course import point_at
 from pigaming_app.games.race.passages import passages
 from pigaming_app.games.race.racing_line import fastest_line
@@ -21,6 +18,7 @@ from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.things.convex import contains, distance
 from pigaming_app.sim.things.cover import from_capsule
 from pigaming_app.sim.things.spec import ThingSpec, Use, wall_capsules, written
+from tests.matches import finished, match_of, run
 
 
 def box(x, y, w, h, angle=0.0, use=Use.WALL, margin=4.0):
@@ -31,20 +29,6 @@ def box(x, y, w, h, angle=0.0, use=Use.WALL, margin=4.0):
 
 def arena_with(game, name, *things):
     return parse(game, load(game, name).source + written(things), f"{name}.toml")
-
-
-def setup_of(game, name, brain, seed=1, minutes=1.0, variant=None, goal=None):
-    rules = games()[game]
-    chosen = rules.variants[variant] if variant else rules.default
-    seats = tuple(Seat(brain, team) for team in chosen.teams)
-    return Setup(game, name, seats, minutes, seed, chosen.name, chosen.default_goal if goal is None else goal)
-
-
-def match_of(game, arena, brain, **options):
-    match = Match(setup_of(game, arena.name, brain, **options), arena=arena)
-    for seat in range(4):
-        match.sit(seat, make_brain(game, brain, seat))
-    return match
 
 
 def random_boxes(seed, count):
@@ -81,7 +65,7 @@ def playable(game, name, seeds, count):
 @pytest.mark.parametrize("game", games())
 def test_no_robot_is_ever_in_a_thing(game):
     arena = next(playable(game, arenas(game)[0], range(20), 4))
-    match = match_of(game, arena, "random")
+    match = match_of(game, ["random"] * 4, arena)
     for _ in range(600):
         match.tick()
         for robot in match.state.robots:
@@ -92,7 +76,7 @@ def test_no_robot_is_ever_in_a_thing(game):
 
 def test_bullets_stop_at_things_and_things_stand():
     arena = arena_with("pitanks", "classic", box(330, 180, 60, 60))
-    match = Match(setup_of("pitanks", "classic", "idle"), arena=arena)
+    match = match_of("pitanks", ["idle"] * 4, arena)
     match.state.robots[0].x, match.state.robots[0].y, match.state.robots[0].heading = 200.0, 180.0, 0.0
     seen = 0
     for _ in range(100):
@@ -112,7 +96,7 @@ def test_tape_that_is_mud_slows_robots_down(game):
         base = load(game, arenas(game)[0])
         start = base.starts[0]
         arena = arena_with(game, base.name, box(start.x, start.y, 50, 50, use=use))
-        match = Match(setup_of(game, base.name, "idle", seed=1), arena=arena)
+        match = match_of(game, ["idle"] * 4, arena)
         robot = match.state.robots[0]
         robot.x, robot.y = start.x, start.y
         set_action(match.state.actions[0], 1.0, 0.0, 0, 0)
@@ -133,7 +117,7 @@ def test_starts_move_out_of_the_way_of_things(game, name):
         moved = arena.starts[i]
         assert not contains(arena.things[0].outline, moved.x, moved.y)
         assert dist((moved.x, moved.y), (start.x, start.y)) > RADIUS
-        match = Match(setup_of(game, name, "idle"), arena=arena)
+        match = match_of(game, ["idle"] * 4, arena)
         for robot in match.state.robots:
             assert not in_wall(match.state, robot.x, robot.y)
 
@@ -141,9 +125,7 @@ def test_starts_move_out_of_the_way_of_things(game, name):
 def test_a_race_is_driven_round_things_in_nearly_the_same_time():
     times = []
     for things in ((), (box(800, 130, 70, 60, 0.3), box(300, 170, 60, 60), box(1490, 450, 46, 80))):
-        match = match_of("race", arena_with("race", "classic", *things), "hand3", goal=2, minutes=3.0)
-        while not match.over:
-            match.tick()
+        match = finished(match_of("race", ["hand3"] * 4, arena_with("race", "classic", *things), goal=2))
         assert [robot.score for robot in match.state.robots] == [2] * 4
         times.append(match.seconds)
     assert times[1] < 1.3 * times[0]
@@ -155,9 +137,7 @@ def test_a_race_is_driven_round_things_in_nearly_the_same_time():
 def test_every_driver_finishes_among_random_things(brain, name):
     played = 0
     for arena in playable("race", name, range(3), 6):
-        match = match_of("race", arena, brain, goal=2, minutes=4.0, variant="party")
-        while not match.over:
-            match.tick()
+        match = finished(match_of("race", [brain] * 4, arena, 4.0, variant="party", goal=2))
         assert [racer.finished for racer in match.state.racers] == [1] * 4
         played += 1
     assert played
@@ -167,8 +147,7 @@ def test_every_driver_finishes_among_random_things(brain, name):
 def test_the_racing_line_keeps_clear_of_things(name):
     played = 0
     for arena in playable("race", name, range(2), 5):
-        match = Match(setup_of("race", name, "idle"), arena=arena)
-        state, parts = match.state, wall_capsules(arena.things, 63)
+        state, parts = match_of("race", ["idle"] * 4, arena).state, wall_capsules(arena.things, 63)
         for k in range(state.course.count):
             x, y = point_at(state.course, k * state.course.step, state.ideal[k])
             assert min(from_capsule(one, x, y) for one in parts) > RADIUS
@@ -211,9 +190,7 @@ def test_a_worker_stands_on_the_other_side_of_a_machine_where_a_thing_covers_its
 @pytest.mark.parametrize("game", games())
 def test_a_match_with_things_is_replayed_bit_by_bit(game):
     arena = next(playable(game, arenas(game)[0], range(20), 3))
-    match = match_of(game, arena, "level2")
-    for _ in range(300):
-        match.tick()
+    match = run(match_of(game, ["level2"] * 4, arena), 300)
     replay = decode(encode(match), "match.replay")
     assert verify(replay)
     again = to_match(replay)
@@ -222,9 +199,7 @@ def test_a_match_with_things_is_replayed_bit_by_bit(game):
 
 def test_drivers_go_round_a_thing_that_was_put_on_their_line_during_the_race():
     base = load("race", "classic")
-    match = match_of("race", base, "hand3", goal=3, minutes=3.0)
-    for _ in range(400):
-        match.tick()
+    match = run(match_of("race", ["hand3"] * 4, base, goal=3), 400)
     things = (box(800, 130, 70, 60, 0.3),)
     apply = games()["race"].reroute(base, match.state.rules, things)
     replace_things(match.state, things, len(base.walls))

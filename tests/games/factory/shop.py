@@ -2,11 +2,10 @@
 
 from math import cos, sin
 
-from pigaming_app.games.factory import FACTORY
 from pigaming_app.games.factory.state import IN_SLOT, INPUT, MAX_PALLETS, OUTPUT
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from tests.games.rails import Rails
+from tests.matches import setup_of
 
 OUT_OF_THE_WAY = (800.0, 450.0)
 
@@ -15,11 +14,9 @@ class Shop:
     """A match of Robot Factory on rails. Seats 0 and 2 are ICE's, 1 and 3 FIRE's; among allies all are ICE's."""
 
     def __init__(self, arena="hall", pallets=4, present=(0, 1, 2, 3), minutes=5.0, seed=1, variant="standard"):
-        teams = FACTORY.variants[variant].teams
-        one, two, three, four = (Seat("idle" if i in present else "off", teams[i]) for i in range(4))
+        seats = ["idle" if i in present else "off" for i in range(4)]
         self.rails = Rails()
-        setup = Setup("factory", arena, (one, two, three, four), minutes, seed, variant, pallets)
-        self.match = Match(setup, self.rails)
+        self.match = Match(setup_of("factory", seats, arena, minutes, seed, variant, pallets), self.rails)
         for seat in range(4):
             self.match.sit(seat, Fire())
         self.state = self.match.state

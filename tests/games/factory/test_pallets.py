@@ -4,7 +4,6 @@ from random import Random
 
 import pytest
 
-from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.rules import may_lift
 from pigaming_app.games.factory.state import (
@@ -26,11 +25,10 @@ from pigaming_app.games.factory.state import (
     A,
     B,
 )
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.sim.world import HZ
 from tests.cases import one_in
 from tests.games.factory.shop import Shop
+from tests.matches import match_of
 
 FLOORS = arenas("factory")
 STEPS = {
@@ -42,7 +40,7 @@ STEPS = {
     (DONE, DAMAGED),
     (DAMAGED, RAW),
 }
-PAIRS, TWO = ("hand3", "random", "hand2", "hand1"), ("hand3", "hand1", "off", "off")
+PAIRS, TWO = "hand3 random hand2 hand1", "hand3 hand1"
 
 
 class Watch:
@@ -116,11 +114,7 @@ class Watch:
 @pytest.mark.parametrize("pallets", one_in(3, [5, 2, 8]))
 @pytest.mark.parametrize("floor", FLOORS)
 def test_invariants_hold_while_drivers_of_all_kinds_play(floor, pallets, brains):
-    one, two, three, four = (Seat(brain, i % 2) for i, brain in enumerate(brains))
-    match = Match(Setup("factory", floor, (one, two, three, four), 5.0, pallets, "standard", pallets))
-    for seat, brain in enumerate(brains):
-        if brain != "off":
-            match.sit(seat, make_brain("factory", brain, seat + 10 * pallets))
+    match = match_of("factory", brains, floor, 5.0, pallets, "standard", pallets)
     watch = Watch(match.state)
     assert len(watch.there) == 2 * pallets
     while not match.over and match.seconds < 75.0:

@@ -4,7 +4,6 @@ from random import Random
 
 import pytest
 
-from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory import FACTORY
 from pigaming_app.games.factory.rules import may_lift
@@ -30,12 +29,11 @@ from pigaming_app.games.factory.state import (
     A,
     B,
 )
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.sim.world import HZ
 from tests.cases import one_in
 from tests.games.factory.shop import Shop
 from tests.games.factory.test_pallets import Watch, likely
+from tests.matches import finished, match_of
 
 FLOORS = arenas("factory")
 
@@ -396,11 +394,7 @@ class PartyWatch(Watch):
 @pytest.mark.parametrize("brains", one_in(2, ["level5 level3 level1 random", "level5 level5 level5 level5"]))
 @pytest.mark.parametrize("floor", one_in(3, FLOORS))
 def test_no_pallet_is_lost_or_doubled_while_drivers_play(floor, brains):
-    brains = brains.split()
-    one, two, three, four = (Seat(brain, i % 2) for i, brain in enumerate(brains))
-    match = Match(Setup("factory", floor, (one, two, three, four), 3.0, 7, "party"))
-    for seat, brain in enumerate(brains):
-        match.sit(seat, make_brain("factory", brain, seat))
+    match = match_of("factory", brains, floor, 3.0, 7, "party")
     watch = PartyWatch(match.state)
     assert len(watch.there) == 11
     while not match.over and match.seconds < 60.0:
@@ -433,13 +427,8 @@ def test_a_floor_without_shared_slots_has_no_loose_pallets_on_it():
 
     source = (ASSETS / "arenas" / "factory" / "hall.toml").read_text(encoding="utf-8")
     arena = parse("factory", source.split("[[shared]]", maxsplit=1)[0], "bare.toml")
-    one, two, three, four = (Seat("hand3", i % 2) for i in range(4))
-    match = Match(Setup("factory", "bare", (one, two, three, four), 1.0, 1, "party"), arena=arena)
+    match = finished(match_of("factory", ["hand3"] * 4, arena, variant="party"), 30.0)
     assert match.state.slot_count == SHARED_SLOTS
-    for seat in range(4):
-        match.sit(seat, make_brain("factory", "hand3", seat))
-    while not match.over and match.seconds < 30.0:
-        match.tick()
     assert sum(match.state.delivered) > 0
     assert all(pallet.place not in (IN_SLOT, ON_ROBOT) for pallet in match.state.pallets if pallet.loose)
     assert all(slot.kind in (ENTRY, EXIT, INPUT, INPUT + 1) for slot in match.state.slots[:SHARED_SLOTS])

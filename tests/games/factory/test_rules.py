@@ -32,11 +32,10 @@ from pigaming_app.games.factory.state import (
     A,
     B,
 )
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import HZ
 from tests.games.factory.shop import Shop
+from tests.matches import Stick, finished, match_of
 
 FLOORS = arenas("factory")
 
@@ -483,7 +482,7 @@ def bump(shop, seat=0, w=1, speed=200.0, gap=0.0):
 @pytest.mark.parametrize("speed", [200.0, -200.0])
 def test_driving_over_a_person_freezes_for_three_seconds(speed):
     shop = Shop()
-    shop.match.brains[0] = Stick()
+    shop.match.brains[0] = Stick(angular=0.5)
     worker = shop.state.workers[1]
     before = worker.x, worker.y
     bump(shop, speed=speed, gap=RADIUS + 19.0)
@@ -549,20 +548,10 @@ def test_a_worker_who_is_driven_over_continues_working():
     assert shop.until(lambda: shop.pallets[p].state == HALF) < 6 * HZ
 
 
-class Stick:
-    """A brain at full speed ahead."""
-
-    def think(self, state, seat):
-        action = state.actions[seat]
-        action.linear, action.angular, action.fire, action.turbo = 1.0, 0.5, 0, self.turbo
-
-    turbo = 0
-
-
 def test_stick_and_turbo_ask_for_the_speeds_of_the_rules():
     shop = Shop()
     robot = shop.state.robots[0]
-    shop.match.brains[0] = Stick()
+    shop.match.brains[0] = Stick(angular=0.5)
     shop.tick()
     assert (robot.requested_linear, robot.requested_angular) == (260.0, 1.5)
     shop.match.brains[0].turbo = 1
@@ -676,7 +665,7 @@ def test_when_it_is_over_everything_stands_still():
     deliver(shop, 0)
     deliver(shop, 0, 1)
     assert shop.match.over
-    shop.match.brains[1] = Stick()
+    shop.match.brains[1] = Stick(angular=0.5)
     tick = shop.state.tick
     assert not shop.press(1, entry(shop, FIRE))
     assert (shop.state.robots[1].requested_linear, shop.state.tick) == (0.0, tick)
@@ -747,8 +736,7 @@ def test_one_against_one(seats):
 @pytest.mark.parametrize("teams", [(0, 1, 0, 1), (1, 0, 1, 0), (0, 0, 1, 1), (1, 0, 0, 1)])
 @pytest.mark.parametrize("floor", FLOORS)
 def test_a_teams_robots_take_its_starts_in_the_order_of_seats(floor, teams):
-    one, two, three, four = (Seat("idle", team) for team in teams)
-    match = Match(Setup("factory", floor, (one, two, three, four), 5.0, 1, "standard", 4))
+    match = match_of("factory", ["idle"] * 4, floor, teams=teams)
     starts = [(start.x, start.y) for start in match.arena.starts]
     for team in (ICE, FIRE):
         robots = [robot for robot in match.state.robots if robot.team == team]
@@ -757,8 +745,5 @@ def test_a_teams_robots_take_its_starts_in_the_order_of_seats(floor, teams):
 
 @pytest.mark.parametrize("off", range(4))
 def test_two_against_one(off):
-    one, two, three, four = (Seat("off" if i == off else "idle", i % 2) for i in range(4))
-    match = Match(Setup("factory", "hall", (one, two, three, four), 0.1, 1, "standard", 4))
-    while not match.over:
-        match.tick()
+    match = finished(match_of("factory", ["off" if i == off else "idle" for i in range(4)], minutes=0.1))
     assert {row.seat for row in match.outcome().rows} == {0, 1, 2, 3} - {off}

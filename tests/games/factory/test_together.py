@@ -2,19 +2,17 @@
 
 import pytest
 
-from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.factory import FACTORY
 from pigaming_app.games.factory.stars import THREE_STARS, TWO_STARS, expected_time, way
 from pigaming_app.games.factory.state import DELIVERED, DONE, ENTRY, EXIT, ICE, IN_SLOT, SHIPPED, WAITING
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.games.replay import decode, encode, verify
 from pigaming_app.games.setup import ChoiceError, make_setup
 from pigaming_app.sim.world import HZ
 from tests.cases import one_in
 from tests.games.factory.shop import Shop
 from tests.games.factory.test_pallets import Watch
+from tests.matches import finished, match_of
 
 FLOORS = arenas("factory")
 
@@ -134,11 +132,7 @@ def test_limits_follow_the_number_of_robots_and_pallets(floor):
 @pytest.mark.parametrize("floor", one_in(3, FLOORS))
 @pytest.mark.parametrize("brains", one_in(3, ["hand3 hand3 hand3 hand3", "hand3 off off off", "hand3 hand1 hand2 off"]))
 def test_ais_deliver_everything_and_nothing_is_lost(floor, brains):
-    one, two, three, four = (Seat(brain, 0) for brain in brains.split())
-    match = Match(Setup("factory", floor, (one, two, three, four), 5.0, 5, "together", 6))
-    for seat, brain in enumerate(brains.split()):
-        if brain != "off":
-            match.sit(seat, make_brain("factory", brain, seat))
+    match = match_of("factory", brains, floor, 5.0, 5, "together", 6)
     watch = AlliesWatch(match.state)
     while not match.over:
         match.tick()
@@ -164,13 +158,7 @@ class AlliesWatch(Watch):
 @pytest.mark.long
 def test_four_easy_ones_get_a_star_on_every_floor():
     for floor in FLOORS:
-        one, two, three, four = (Seat("hand1", 0) for _ in range(4))
-        match = Match(Setup("factory", floor, (one, two, three, four), 5.0, 5, "together", 8))
-        for seat in range(4):
-            match.sit(seat, make_brain("factory", "hand1", seat))
-        while not match.over:
-            match.tick()
-        assert 1 <= match.state.stars <= 2
+        assert 1 <= finished(match_of("factory", ["hand1"] * 4, floor, 5.0, 5, "together", 8)).state.stars <= 2
 
 
 # --------------------------------------------------------------------------------------------------------- who may play
@@ -203,11 +191,7 @@ def test_one_robot_alone_cannot_play_standard():
 
 @pytest.mark.parametrize("variant", ["party", "together"])
 def test_a_replay_of_a_variant_can_be_verified(variant):
-    match = Match(make_setup("factory", ["hand3"] * 4, "yard", 0.2, 3, variant, None, ["hand3"]))
-    for seat in range(4):
-        match.sit(seat, make_brain("factory", "hand3", seat))
-    while not match.over and match.seconds < 15.0:
-        match.tick()
+    match = finished(match_of("factory", ["hand3"] * 4, "yard", 0.2, 3, variant), 15.0)
     assert verify(decode(encode(match), "match.replay"))
 
 

@@ -5,10 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks.observation import PiTanksObservation, PiTanksSenses, observe
 from pigaming_app.games.pitanks.rules import judge
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, OWN_MINES, SHIELD
@@ -18,6 +15,7 @@ from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
 from tests.floor import pitanks
+from tests.matches import finished, match_of, run
 
 LENGTH = 2 * RADIUS
 KNOCKOUT, PROTECTION = 40, 100  # ticks
@@ -296,15 +294,13 @@ def test_a_mutual_hit_of_two_leaders_leaves_the_third_behind():
 
 
 def test_a_match_tells_overtime_and_its_time():
-    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(("idle", "idle", "off", "off")))
-    match = Match(Setup("pitanks", "classic", (one, two, three, four), 0.05, 1, "party"))
+    match = match_of("pitanks", "idle idle", minutes=0.05, variant="party")
     while not match.overtime:
         assert match.seconds_left == pytest.approx(3.0 - match.seconds)
         match.tick()
     assert match.seconds == pytest.approx(3.0)
     assert match.seconds_left == pytest.approx(15.0)
-    while not match.over:
-        match.tick()
+    finished(match)
     assert match.seconds == pytest.approx(18.0)
     assert match.seconds_left == 0.0
     assert match.outcome().winners == ()
@@ -312,10 +308,7 @@ def test_a_match_tells_overtime_and_its_time():
 
 
 def test_a_hit_that_ends_the_match_leaves_time():
-    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(("idle", "idle", "off", "off")))
-    match = Match(Setup("pitanks", "classic", (one, two, three, four), 0.05, 1, "party"))
-    for _ in range(200):
-        match.tick()
+    match = run(match_of("pitanks", "idle idle", minutes=0.05, variant="party"), 200)
     hit(match.state, 0, 1)
     match.tick()
     assert match.over
@@ -345,10 +338,7 @@ def test_brains_see_light_knock_out_bounty_finale_and_overtime():
 
 @pytest.mark.parametrize("arena", arenas("pitanks"))
 def test_points_are_those_of_the_hits_and_robots_keep_out_of_walls(arena):
-    one, two, three, four = (Seat("random", i) for i in range(4))
-    match = Match(Setup("pitanks", arena, (one, two, three, four), 0.5, 2, "party"))
-    for seat in range(4):
-        match.sit(seat, make_brain("pitanks", "random", seat))
+    match = match_of("pitanks", ["random"] * 4, arena, 0.5, 2, "party")
     total = hits = 0
     while not match.over:
         protected = [tank.protected for tank in match.state.tanks]

@@ -12,11 +12,10 @@ import pytest
 
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.games.race.course import point_at
 from tests.cases import one_in
 from tests.games.rails import Ride
+from tests.matches import match_of, run
 
 TRACKS = arenas("race")
 
@@ -132,8 +131,7 @@ class Wild:
 @pytest.mark.parametrize("track", TRACKS)
 @pytest.mark.parametrize("seed", one_in(2, [1, 2]))
 def test_wild_robots_that_push_each_other(track, seed):
-    one, two, three, four = (Seat("idle", seat) for seat in range(4))
-    match = Match(Setup("race", track, (one, two, three, four), 3.0, seed, "standard", 2))
+    match = match_of("race", ["idle"] * 4, track, 3.0, seed, "standard", 2)
     for seat in range(4):
         match.sit(seat, Wild(seat, seed))
     paths = [[] for _ in range(4)]
@@ -346,8 +344,7 @@ def test_parking_on_the_line_is_one_crossing():
     ride.along(0, line.along - 40.0, line.along - 1.0)
     x, y = (line.ax + line.bx) / 2, (line.ay + line.by) / 2
     ride.to(0, x, y)
-    for _ in range(100):
-        ride.match.tick()
+    run(ride.match, 100)
     assert ride.racers[0].passed <= 1
     ride.along(0, line.along - 1.0, line.along + 1.0)
     ride.along(0, line.along + 1.0, line.along - 1.0)

@@ -6,7 +6,6 @@ from math import atan2, cos, hypot, sin, tau
 import pytest
 
 from pigaming_app.games.arenas import arenas, parse
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.race.course import point_at
 from pigaming_app.games.race.furniture import BEHIND, SPACE, grid
@@ -15,26 +14,15 @@ from pigaming_app.games.race.state import NO_ITEM, OIL, SHIELD, TURBO
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import HZ
 from tests.games.rails import Rails
+from tests.matches import Stick, match_of, run, setup_of
 
 TRACKS = arenas("race")
 
 
 def race(track="classic", seed=1, brains=("idle",) * 4, laps=5, arena=None, plant=None):
     """A party race of robots that stand still."""
-    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(brains))
-    setup = Setup("race", track, (one, two, three, four), 10.0, seed, "party", laps)
+    setup = setup_of("race", brains, track, 10.0, seed, "party", laps)
     return Match(setup, plant, arena) if plant else Match(setup, arena=arena)
-
-
-class Stick:
-    """A driver with a constant stick and buttons."""
-
-    def __init__(self, linear=1.0, angular=0.0, turbo=0, fire=0):
-        self.linear, self.angular, self.turbo, self.fire = linear, angular, turbo, fire
-
-    def think(self, state, seat):
-        action = state.actions[seat]
-        action.linear, action.angular, action.fire, action.turbo = self.linear, self.angular, self.fire, self.turbo
 
 
 def put(match, seat, along, aside=0.0):
@@ -103,8 +91,7 @@ def test_pads_and_boxes_lie_on_the_course_away_from_the_lines(track):
 
 
 def test_standard_has_nothing_of_it():
-    match = Match(Setup("race", "classic", tuple(Seat("idle", i) for i in range(4)), 10.0, 1, "standard", 3))
-    state = match.state
+    state = match_of("race", ["idle"] * 4, variant="standard").state
     assert not state.rules.party
     assert state.rules.mud == pytest.approx(1 / 3)
     assert all(pad.along == 0.0 for pad in state.pads)
@@ -200,8 +187,7 @@ def test_a_box_gives_one_item_and_comes_back():
     item = racer.item
     assert item in (TURBO, SHIELD, OIL)
     assert box.pause == state.rules.box_pause
-    for _ in range(state.rules.box_pause):
-        match.tick()
+    run(match, state.rules.box_pause)
     assert box.pause == 0
     match.tick()
     assert (racer.item, box.pause) == (item, 0), "a robot with an item leaves the box alone"
@@ -291,8 +277,7 @@ def test_a_third_slick_replaces_the_oldest():
     match = race()
     for along in (2600.0, 3000.0, 3300.0):
         newest = slick(match, along=along)
-        for _ in range(5):
-            match.tick()
+        run(match, 5)
     alive = [oil for oil in match.state.oils if oil.alive]
     assert len(alive) == 2
     assert newest in alive
@@ -301,8 +286,7 @@ def test_a_third_slick_replaces_the_oldest():
 def test_oil_dries():
     match = race()
     oil = slick(match)
-    for _ in range(match.state.rules.oil_life):
-        match.tick()
+    run(match, match.state.rules.oil_life)
     assert not oil.alive
 
 

@@ -5,22 +5,21 @@ from math import hypot, pi
 import pytest
 
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.race.course import CoursePosition, locate, point_at
 from pigaming_app.games.race.recovery import BACK, BACKWARD_TICKS, STILL_TICKS
 from pigaming_app.games.race.state import MISSED_LINE, OFF_COURSE, STUCK, WRONG_WAY
 from pigaming_app.sim.contact import BERTH
 from pigaming_app.sim.world import HZ
-from tests.games.race.test_party import Stick, put
+from tests.games.race.test_party import put
 from tests.games.rails import IN_ORDER, Rails, Ride
+from tests.matches import Stick, run, setup_of
 
 TRACKS = arenas("race")
 
 
 def race(variant="standard", track="classic", plant=None):
-    one, two, three, four = (Seat("idle", i) for i in range(4))
-    setup = Setup("race", track, (one, two, three, four), 10.0, IN_ORDER, variant, 3)
+    setup = setup_of("race", ["idle"] * 4, track, 10.0, IN_ORDER, variant, 3)
     return Match(setup, plant) if plant else Match(setup)
 
 
@@ -128,8 +127,7 @@ def test_it_is_never_put_before_the_last_line_that_counts():
     own = match.state.lines[racer.line].along
     assert own < along_of(match).along < own + 40.0
     match.sit(0, Stick(1.0))
-    for _ in range(HZ):
-        match.tick()
+    run(match, HZ)
     assert (racer.passed, racer.missed) == (1, 0)
 
 

@@ -4,37 +4,19 @@ from math import pi
 
 import pytest
 
-from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.games.race.course import point_at
 from pigaming_app.games.registry import games
 from pigaming_app.sim.world import DT, HZ
 from tests.games.rails import IN_ORDER, Ride
+from tests.matches import Stick, finished, match_of, run
 
 TRACKS = arenas("race")
 
 
 def race(brains=("idle",) * 4, arena="classic", laps=3, minutes=10.0, seed=IN_ORDER):
     """A race on wheels."""
-    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(brains))
-    match = Match(Setup("race", arena, (one, two, three, four), minutes, seed, "standard", laps))
-    for i, brain in enumerate(brains):
-        if brain != "off":
-            match.sit(i, make_brain("race", brain, seed * 4 + i))
-    return match
-
-
-class Stick:
-    """A driver with a constant stick."""
-
-    def __init__(self, linear=1.0, angular=0.0, turbo=0):
-        self.linear, self.angular, self.turbo = linear, angular, turbo
-
-    def think(self, state, seat):
-        action = state.actions[seat]
-        action.linear, action.angular, action.fire, action.turbo = self.linear, self.angular, 0, self.turbo
+    return match_of("race", brains, arena, minutes, seed, "standard", laps)
 
 
 # -------------------------------------------------------------------------------------------------------------- ground
@@ -45,8 +27,7 @@ def test_robots_drive_1_25_times_as_fast_as_elsewhere():
     match.sit(0, Stick())
     robot = match.state.robots[0]
     robot.x, robot.y, robot.heading = 600.0, 116.0, 0.0  # the straight at the top
-    for _ in range(HZ):
-        match.tick()
+    run(match, HZ)
     assert robot.linear == pytest.approx(1.25 * 260.0, rel=1e-4)
 
 
@@ -83,8 +64,7 @@ def test_turbo_is_a_meter_of_two_seconds():
         burnt += robot.boosting
     assert burnt == pytest.approx(2 * HZ, abs=1)
     match.sit(0, Stick(0.0, 0.0, 0))
-    for _ in range(4 * HZ):
-        match.tick()
+    run(match, 4 * HZ)
     assert robot.turbo == pytest.approx(1.0)
 
 
@@ -174,8 +154,7 @@ def test_times_are_interpolated_within_the_tick():
 
 def test_the_time_of_the_race_counts_from_go_not_from_the_line():
     ride = Ride(present=(0,), laps=1)
-    for _ in range(100):
-        ride.match.tick()
+    run(ride.match, 100)
     ride.lap(0)
     racer = ride.racers[0]
     assert racer.finish > 100 + racer.laps[0]
@@ -194,8 +173,7 @@ def test_splits_are_timed_at_every_line_and_compared_with_the_best_lap():
     assert racer.best_splits[1:3] == pytest.approx([(two - one) / 8.0, (three - one) / 8.0], rel=0.03)
     assert racer.splits == [0, 0, 0, 0]
     first = racer.best_lap
-    for _ in range(50):
-        ride.match.tick()
+    run(ride.match, 50)
     ride.along(1, one + 30.0, two + 30.0)
     assert racer.delta == pytest.approx(50, abs=2)
     assert racer.delta_at == pytest.approx(ride.state.tick, abs=6)
@@ -284,12 +262,10 @@ def test_driving_against_the_way_counts_until_it_ends():
     match = race(("idle", "off", "off", "off"))
     match.sit(0, Stick(-1.0))
     racer = match.state.racers[0]
-    for _ in range(40):
-        match.tick()
+    run(match, 40)
     assert 25 < racer.wrong <= 40
     match.sit(0, Stick(1.0))
-    for _ in range(20):
-        match.tick()
+    run(match, 20)
     assert racer.wrong == 0
 
 
@@ -317,8 +293,7 @@ def test_the_others_race_on_for_thirty_seconds_after_the_first():
     ride.lap(1)
     first = ride.state.first
     assert first == pytest.approx(ride.racers[1].finish, abs=1)
-    while not ride.match.over:
-        ride.match.tick()
+    finished(ride.match)
     assert ride.state.tick - first == pytest.approx(30 * HZ, abs=1)
 
 
@@ -334,9 +309,7 @@ def test_when_all_have_finished_it_is_over_at_once():
 
 
 def test_the_clock_ends_a_race_in_which_nobody_finishes():
-    match = race(minutes=0.1)
-    while not match.over:
-        match.tick()
+    match = finished(race(minutes=0.1))
     assert match.state.tick == 6 * HZ
     assert match.outcome().winners == (), "nobody got anywhere: all are level"
 
@@ -380,9 +353,7 @@ def test_the_default_is_three_laps():
 
 @pytest.mark.parametrize("seats", [("hand3", "off", "off", "off"), ("off", "hand2", "hand1", "off")])
 def test_empty_seats_leave_their_lines_but_nothing_else(seats):
-    match = race(seats, laps=1)
-    while not match.over:
-        match.tick()
+    match = finished(race(seats, laps=1))
     assert len(match.state.lines) == 4
     assert {row.seat for row in match.outcome().rows} == {i for i, brain in enumerate(seats) if brain != "off"}
     assert all(row.stats["total"] > 0 for row in match.outcome().rows)

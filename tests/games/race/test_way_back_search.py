@@ -12,11 +12,10 @@ import pytest
 
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from tests.cases import one_in
 from tests.games.race.test_laps import judged
 from tests.games.rails import IN_ORDER
+from tests.matches import match_of
 
 JUMP = 40.0  # px in a tick, more than any robot drives
 BESIDE = 90.0  # px from the edge, in the mud along the course
@@ -112,8 +111,7 @@ class Referee:
 
 def distance(track: str, variant: str, drive: list[Leg], seed: int) -> float:
     """The distance, px, that a drive covers by the match's own progress; the referee checks it on the way."""
-    one, two, three, four = (Seat("idle" if i == 0 else "off", i) for i in range(4))
-    match = Match(Setup("race", track, (one, two, three, four), 10.0, IN_ORDER, variant, 9))
+    match = match_of("race", "idle", track, 10.0, IN_ORDER, variant, 9)
     state, robot, racer = match.state, match.state.robots[0], match.state.racers[0]
     referee = Referee(state)
     driver = Driver([*drive, Leg(TICKS)], make_brain("race", "hand3", seed))
