@@ -17,8 +17,21 @@ BLOCK = 1 << 16  # bytes of lines that are compressed together
 LONGEST = 7000.0  # s of a run in memory, less than recordings.MAX_DURATION: a match may wait for hours
 
 
-class RunWriter:
-    """Writes a run line by line through `write`; see `Recorder`."""
+class Recorder:
+    """Receives all commands, fixes and estimates of a rig."""
+
+    def record_commands(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
+        """Record the commands of all robots, sent at `time` (s)."""
+
+    def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
+        """Record the fixes of a picture taken at `captured` and processed at `now` (s); those of ROS have own times."""
+
+    def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None:
+        """Record the tracker's estimates."""
+
+
+class RunWriter(Recorder):
+    """Writes a run line by line through `write`."""
 
     def __init__(self, write: Callable[[bytes], object], mm: float, emulated: bool = False) -> None:
         self._append = write
@@ -26,19 +39,16 @@ class RunWriter:
         self._write({"kind": "head", "format": FORMAT, "mm": mm, "emulated": emulated})
 
     def record_commands(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
-        """Record the commands of all robots, sent at `time` (s)."""
         self._seq += 1
         pairs = [pair and list(pair) for pair in wheels]
         self._write({"kind": "sent", "time": time, "seq": self._seq, "wheels": pairs})
 
     def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
-        """Record the fixes of a picture taken at `captured` and processed at `now` (s); those of ROS have own times."""
         for time in sorted({fix.captured for fix in fixes}) or [captured]:
             raw = [[fix.robot, fix.x, fix.y, fix.heading] for fix in fixes if fix.captured == time]
             self._write({"kind": "seen", "captured": time, "time": now, "fixes": raw})
 
     def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None:
-        """Record the tracker's estimates."""
         self._write({"kind": "pose", "time": now, "poses": [list(sighting[:3]) for sighting in sightings]})
 
     def _write(self, line: dict[str, Any]) -> None:

@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pigaming_app.hardware.control.motion_delay import ANY_LAG, motion_delay
 from pigaming_app.hardware.control.rig import Rig
+from pigaming_app.hardware.run_writer import Recorder
 from pigaming_app.hardware.signals import Fix, WheelCommand
-from pigaming_app.sim.plant import Sighting
+from pigaming_app.hardware.tracking.motion_delay import ANY_LAG, motion_delay
 from pigaming_app.sim.world import DT, ROBOTS
 
 SHAKES = (0.4, 0.5, 0.3, 0.6, 0.4, 0.45, 0.35, 0.55)  # s, left and right in turn; unequal, so the match is unique
@@ -32,7 +32,7 @@ class Latency(NamedTuple):
         return self.acts + self.picture
 
 
-class LatencyTest:
+class LatencyTest(Recorder):
     """Wiggles one robot. Call `tick` every 1/50 s until it returns True, then `result`."""
 
     def __init__(self, rig: Rig, robot: int) -> None:
@@ -71,15 +71,10 @@ class LatencyTest:
         return Latency(fit.seconds, float(np.mean(self._pictures)), fit.lag)
 
     def record_commands(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
-        """Recorder: commands were sent."""
         command = wheels[self.robot]
         self._sent.append((time, *(command or (0.0, 0.0))))
 
     def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
-        """Recorder: a frame was processed."""
         mine = [fix for fix in fixes if fix.robot == self.robot]
         self._seen += mine
         self._pictures += [now - fix.captured for fix in mine]
-
-    def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None:
-        """Recorder: predictions are not used."""

@@ -10,11 +10,11 @@ from enum import StrEnum
 from math import hypot, inf
 from typing import NamedTuple
 
-from pigaming_app.hardware.control.motion_delay import motion_delay, network_delay
 from pigaming_app.hardware.control.rig import Rig
+from pigaming_app.hardware.run_writer import Recorder
 from pigaming_app.hardware.signals import Fix, WheelCommand
+from pigaming_app.hardware.tracking.motion_delay import motion_delay, network_delay
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import DT, ROBOTS
 
 REST, SPIN, BRAKE = 0.6, 1.3, 0.5  # s
@@ -45,7 +45,7 @@ class PairingFinding(NamedTuple):
     case: PairingCase
 
 
-class Pairing:
+class Pairing(Recorder):
     """Spins the robots of these radios; by default of all that send telemetry."""
 
     def __init__(self, rig: Rig, channels: Sequence[int] | None = None) -> None:
@@ -104,15 +104,8 @@ class Pairing:
                 self.rig.measure_camera_delay(self._delays)
         return not self._todo
 
-    def record_commands(self, time: float, wheels: Sequence[WheelCommand | None]) -> None:
-        """Recorder: a spin is commanded by radio."""
-
     def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
-        """Recorder: a frame was processed."""
         self._seen += fixes
-
-    def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None:
-        """Recorder: predictions are not used."""
 
     def _measure(self, channel: int, robot: int) -> None:
         """Note how much later than commanded a robot moved."""

@@ -7,8 +7,8 @@ command, so the mean speed is exact.
 
 from math import copysign
 
-from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.signals import WheelCommand
+from pigaming_app.hardware.tracking.motion_model import WheelCorrection
 from pigaming_app.sim.drivetrain import Drivetrain, twist, wheel_shares
 from pigaming_app.sim.plant import Twist
 

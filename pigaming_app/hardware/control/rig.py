@@ -8,24 +8,24 @@ import logging
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
 from pigaming_app.hardware.control.kinematics import Kinematics
 from pigaming_app.hardware.control.motion_check import RobotMotionCheck
-from pigaming_app.hardware.control.motion_delay import DriveTrace, network_delay
-from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.safety import Health
+from pigaming_app.hardware.radio.link import CommandLink
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED
-from pigaming_app.hardware.radio.protocol import LinkQuality, Misfit
 from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
-from pigaming_app.hardware.signals import CameraFrame, CameraSource, Clock, Fix, Image, Telemetry, WheelCommand
+from pigaming_app.hardware.run_writer import Recorder
+from pigaming_app.hardware.signals import CameraFrame, CameraSource, Clock, Image, Telemetry, WheelCommand
+from pigaming_app.hardware.tracking.motion_delay import DriveTrace, network_delay
+from pigaming_app.hardware.tracking.pose_filters import PoseFilters
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
-from pigaming_app.sim.plant import Sighting, Twist
+from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, ROBOTS
-from pigaming_app.storage.messages import OperatorMessage
 
 # A 3pi that was not measured: a typical deadband, and dead time (s) of tick, serial line and air.
 UNMEASURED = replace(
@@ -42,76 +42,6 @@ GREETING = 0.5  # s after which every robot in range has received a command and 
 log = logging.getLogger("pigaming")
 
 
-class DelayPort(Protocol):
-    """The camera's delay, as a tracker estimates it."""
-
-    seconds: float
-
-    def due(self, now: float) -> DriveTrace | None: ...
-
-    def learn(self, robot: int, delay: float, network: float, now: float) -> None: ...
-
-    def measured(self, late: Mapping[int, float], now: float) -> None: ...
-
-    def begin(self, seconds: float) -> None: ...
-
-
-class TrackerPort(Protocol):
-    """The subset of a tracker that a rig uses."""
-
-    last_captured: float  # s, exposure of the newest processed picture
-
-    @property
-    def rejections(self) -> Mapping[int, str]: ...
-
-    @property
-    def wrong_size(self) -> float | None: ...
-
-    @property
-    def delay(self) -> DelayPort | None: ...
-
-    expected: set[int]  # robots worth searching for
-
-    def record_commands(self, time: float, twists: Sequence[Twist | None]) -> None: ...
-
-    def process(self, frame: CameraFrame) -> Sequence[Fix]: ...
-
-    def sense(self, now: float) -> list[Sighting]: ...
-
-    def predict(self, now: float, ahead: Sequence[float]) -> tuple[list[Sighting], list[Sighting]]: ...
-
-    def duplicates(self) -> set[int]: ...
-
-    def wheel_correction(self, robot: int) -> WheelCorrection: ...
-
-
-class LinkPort(Protocol):
-    """The subset of a link that a rig uses."""
-
-    @property
-    def telemetry(self) -> Mapping[int, Telemetry]: ...
-
-    @property
-    def fault(self) -> OperatorMessage | None: ...
-
-    @property
-    def boards(self) -> Mapping[int, int]: ...
-
-    wait: float  # s, recent mean from posting a command to its transmission
-
-    def misfit(self, robot: int) -> Misfit | None: ...
-
-    def quality(self, robot: int) -> LinkQuality: ...
-
-    def send(self, wheels: Sequence[WheelCommand | None]) -> None: ...
-
-    def pump(self) -> None: ...
-
-    def start(self) -> object: ...
-
-    def close(self) -> None: ...
-
-
 class RobotSnapshot(NamedTuple):
     """Predicted poses of all robots now, and at the time when a command sent now acts."""
 
@@ -119,16 +49,6 @@ class RobotSnapshot(NamedTuple):
     last_captured: float  # s, exposure of the newest picture behind the prediction
     now: list[Sighting]
     later: list[Sighting]
-
-
-class Recorder(Protocol):
-    """Receives all commands, fixes and estimates, for a recording."""
-
-    def record_commands(self, time: float, wheels: Sequence[WheelCommand | None]) -> None: ...
-
-    def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None: ...
-
-    def record_estimates(self, now: float, sightings: Sequence[Sighting]) -> None: ...
 
 
 class Rig:
@@ -141,8 +61,8 @@ class Rig:
     def __init__(
         self,
         camera: CameraSource,
-        tracker: TrackerPort,
-        link: LinkPort,
+        tracker: PoseFilters,
+        link: CommandLink,
         clock: Clock,
         drivetrains: Sequence[Drivetrain] = (UNMEASURED,) * ROBOTS,
         drift: Callable[[], float] = lambda: 0.0,

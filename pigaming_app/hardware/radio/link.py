@@ -25,22 +25,39 @@ RECENT = 0.01  # share of the newest command in the mean of the waits
 NOBODY: tuple[WheelCommand | None, ...] = (None,) * ROBOTS
 
 
-class Link:
-    """Connection to the robots over a serial line; a context manager."""
+class CommandLink:
+    """A link to robots: a mailbox that a thread empties until `close`, and what has come back."""
 
-    def __init__(
-        self, open_port: OpenPort, clock: Clock, protocol: RadioProtocol, name: str = "the serial port"
-    ) -> None:
-        self._line = SerialLine(open_port, clock, name)
-        self._protocol = protocol
+    wait = 0.0  # s, recent mean from posting a command to its transmission
+
+    def __init__(self, clock: Clock) -> None:
         self._clock = clock
         self._mail: tuple[float, Sequence[WheelCommand | None]] = (float("-inf"), NOBODY)
-        self.wait = 0.75 * BEAT  # s, recent mean from posting a command to its transmission
-        self._posted = float("-inf")  # s, when the last command transmitted was posted
-        self._due = float("-inf")  # s, time of the next transmission
-        self._listened = float("-inf")  # s, time of the last read; silence since then is not the radio's fault
         self._thread: threading.Thread | None = None
         self._closing = threading.Event()
+
+    @property
+    def telemetry(self) -> dict[int, Telemetry]:
+        """Newest telemetry of every robot received so far, by robot."""
+        raise NotImplementedError
+
+    @property
+    def boards(self) -> dict[int, int]:
+        """Board numbers that robots have announced, by robot."""
+        return {}
+
+    @property
+    def fault(self) -> OperatorMessage | None:
+        """Present fault of the link, or None."""
+        raise NotImplementedError
+
+    def misfit(self, robot: int) -> Misfit | None:
+        """Why a robot that reports cannot be driven; None if it can, or has not reported for a while."""
+        return None
+
+    def quality(self, robot: int) -> LinkQuality:
+        """Reception quality of a robot."""
+        raise NotImplementedError
 
     def send(self, wheels: Sequence[WheelCommand | None]) -> None:
         """Post the wheel commands of robots 0, 1, ...; None or no entry: stop. Raises ValueError for a fifth entry."""
@@ -48,56 +65,9 @@ class Link:
             raise ValueError(f"{len(wheels)} robots; there are at most {ROBOTS}")
         self._mail = self._clock(), (*wheels, *NOBODY[len(wheels) :])
 
-    @property
-    def telemetry(self) -> dict[int, Telemetry]:
-        """Newest telemetry of every robot received so far, by robot."""
-        return dict(self._protocol.telemetry)
-
-    def misfit(self, robot: int) -> Misfit | None:
-        """Why a robot that reports cannot be driven; None if it can, or has not reported for a while.
-
-        A robot of another arena is no misfit while the robot of this arena with the same number reports.
-        """
-        misfit, report = self._protocol.misfits.get(robot), self._protocol.telemetry.get(robot)
-        if misfit is None or self._clock() - misfit.received > HEARD:
-            return None
-        return None if report is not None and self._clock() - report.received <= HEARD else misfit
-
-    @property
-    def boards(self) -> dict[int, int]:
-        """Board numbers that robots have announced, by robot."""
-        return dict(self._protocol.boards)
-
-    def quality(self, robot: int) -> LinkQuality:
-        """Reception quality of a robot."""
-        return self._protocol.quality(robot, self._clock())
-
-    @property
-    def fault(self) -> OperatorMessage | None:
-        """Present fault of the link, or None."""
-        if self._thread is not None and not self._thread.is_alive() and not self._closing.is_set():
-            return radio_message("program", self._line.name)
-        if self._line.fault is not None or not self._line.is_open:
-            return self._line.fault
-        fault = self._protocol.fault(self._listened)
-        return radio_message(fault[0], self._line.name, fault[1]) if fault else None
-
     def pump(self) -> None:
-        """Open the line if necessary, read, and send when due. Never blocks, never raises."""
-        if self._closing.is_set():
-            return
-        if self._line.open():
-            self._line.write(self._protocol.open(self._clock()))
-        now = self._clock()
-        self._protocol.receive(self._line.read(), now)
-        self._listened = now
-        if now >= self._due:
-            self._due = self._due + BEAT if now < self._due + BEAT else now + BEAT
-            posted, wheels = self._mail
-            if posted > self._posted:
-                self._posted = posted
-                self.wait += RECENT * (now - posted - self.wait)
-            self._line.write(self._protocol.command(wheels if now - posted <= PATIENCE else NOBODY, now))
+        """Read, and send when due. Never blocks, never raises."""
+        raise NotImplementedError
 
     def start(self) -> Self:
         """Run in a thread until close(); needs a real-time clock."""
@@ -123,12 +93,92 @@ class Link:
     def __exit__(self, *_: object) -> None:
         self.close()
 
+    @property
+    def _dead(self) -> bool:
+        """True if the thread has ended by an error."""
+        return self._thread is not None and not self._thread.is_alive() and not self._closing.is_set()
+
+    @property
+    def _pause(self) -> float:
+        """Time until the next `pump`, s."""
+        return BEAT
+
     def _run(self) -> None:
         try:
-            while not self._closing.wait(max(0.0, min(BEAT, self._due - self._clock()))):
+            while not self._closing.wait(self._pause):
                 self.pump()
         finally:
             self._shut_down()
+
+    def _shut_down(self) -> None:
+        """Send stop, and close the line."""
+        raise NotImplementedError
+
+
+class Link(CommandLink):
+    """Connection to the robots over a serial line; a context manager."""
+
+    def __init__(
+        self, open_port: OpenPort, clock: Clock, protocol: RadioProtocol, name: str = "the serial port"
+    ) -> None:
+        super().__init__(clock)
+        self._line = SerialLine(open_port, clock, name)
+        self._protocol = protocol
+        self.wait = 0.75 * BEAT
+        self._posted = float("-inf")  # s, when the last command transmitted was posted
+        self._due = float("-inf")  # s, time of the next transmission
+        self._listened = float("-inf")  # s, time of the last read; silence since then is not the radio's fault
+
+    @property
+    def telemetry(self) -> dict[int, Telemetry]:
+        return dict(self._protocol.telemetry)
+
+    def misfit(self, robot: int) -> Misfit | None:
+        """See CommandLink.
+
+        A robot of another arena is no misfit while the robot of this arena with the same number reports.
+        """
+        misfit, report = self._protocol.misfits.get(robot), self._protocol.telemetry.get(robot)
+        if misfit is None or self._clock() - misfit.received > HEARD:
+            return None
+        return None if report is not None and self._clock() - report.received <= HEARD else misfit
+
+    @property
+    def boards(self) -> dict[int, int]:
+        return dict(self._protocol.boards)
+
+    def quality(self, robot: int) -> LinkQuality:
+        return self._protocol.quality(robot, self._clock())
+
+    @property
+    def fault(self) -> OperatorMessage | None:
+        if self._dead:
+            return radio_message("program", self._line.name)
+        if self._line.fault is not None or not self._line.is_open:
+            return self._line.fault
+        fault = self._protocol.fault(self._listened)
+        return radio_message(fault[0], self._line.name, fault[1]) if fault else None
+
+    def pump(self) -> None:
+        """Open the line if necessary, read, and send when due. Never blocks, never raises."""
+        if self._closing.is_set():
+            return
+        if self._line.open():
+            self._line.write(self._protocol.open(self._clock()))
+        now = self._clock()
+        self._protocol.receive(self._line.read(), now)
+        self._listened = now
+        if now >= self._due:
+            self._due = self._due + BEAT if now < self._due + BEAT else now + BEAT
+            posted, wheels = self._mail
+            if posted > self._posted:
+                self._posted = posted
+                self.wait += RECENT * (now - posted - self.wait)
+            self._line.write(self._protocol.command(wheels if now - posted <= PATIENCE else NOBODY, now))
+
+    @property
+    def _pause(self) -> float:
+        return max(0.0, min(BEAT, self._due - self._clock()))
 
     def _shut_down(self) -> None:
         for _ in range(FAREWELLS):

@@ -4,15 +4,14 @@ The same filters predict over the dead time, and the same safety judges ages. Co
 a new one for 0.1 s, and five times at the end, the speeds are zero.
 """
 
-import atexit
 import threading
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from math import isfinite
 
 import numpy as np
 
-from pigaming_app.hardware.radio.link import BEAT, FAREWELLS, PATIENCE
+from pigaming_app.hardware.radio.link import BEAT, FAREWELLS, PATIENCE, CommandLink
 from pigaming_app.hardware.radio.protocol import LinkQuality
 from pigaming_app.hardware.ros.node import Pose, RosNode
 from pigaming_app.hardware.ros.units import ArenaFrame
@@ -34,14 +33,11 @@ REST: Twist = (0.0, 0.0)
 
 
 class RosPoses(PoseFilters):
-    """Poses from topics: CameraSource and TrackerPort of a rig."""
+    """Poses from topics: CameraSource and tracker of a rig."""
 
     def __init__(self, node: RosNode, frame: ArenaFrame, clock: Clock, drivetrains: Sequence[Drivetrain]) -> None:
         super().__init__(drivetrains, frame.mm)
         self.node, self.frame, self.clock = node, frame, clock
-        self.expected = set(range(ROBOTS))
-        self.last_captured = float("-inf")
-        self.rejections: Mapping[int, str] = {}
         self.received = [float("-inf")] * ROBOTS  # s, newest pose of each robot
         self._arrived = [deque[float](maxlen=round(POSES * WINDOW)) for _ in range(ROBOTS)]  # s, by robot
         self._begun = clock()
@@ -86,17 +82,6 @@ class RosPoses(PoseFilters):
             self.last_captured = max(self.last_captured, fix.captured)
         return [fix for fix in sorted(fixes, key=lambda fix: fix.captured) if self.filters[fix.robot].correct(fix)]
 
-    def duplicates(self) -> set[int]:
-        return set()
-
-    @property
-    def wrong_size(self) -> float | None:
-        return None
-
-    @property
-    def delay(self) -> None:
-        """None: the network's nodes stamp their poses."""
-
     def close(self) -> None:
         """Leave the topics."""
         self.node.close()
@@ -112,16 +97,12 @@ class RosPoses(PoseFilters):
             self._waiting.append(Fix(robot, x, y, heading, captured))
 
 
-class RosLink:
-    """Commands to topics: LinkPort of a rig."""
-
-    wait = 0.0  # s, they are published at once
+class RosLink(CommandLink):
+    """Commands to topics, published at once."""
 
     def __init__(self, node: RosNode, poses: RosPoses, drivetrains: Sequence[Drivetrain]) -> None:
+        super().__init__(poses.clock)
         self.node, self.poses, self.drivetrains = node, poses, drivetrains
-        self._mail: tuple[float, Sequence[WheelCommand | None]] = (float("-inf"), (None,) * ROBOTS)
-        self._closing = threading.Event()
-        self._thread: threading.Thread | None = None
         self._driven: set[int] = set()  # robots that were commanded; the others belong to somebody else
 
     @property
@@ -132,60 +113,26 @@ class RosLink:
 
     @property
     def fault(self) -> OperatorMessage | None:
-        dead = self._thread is not None and not self._thread.is_alive() and not self._closing.is_set()
-        return OperatorMessage("ros_gone") if dead else self.node.fault
+        return OperatorMessage("ros_gone") if self._dead else self.node.fault
 
     def quality(self, robot: int) -> LinkQuality:
         """Reception of a robot's poses."""
         return LinkQuality(self.poses.share(robot), None, None)
 
-    @property
-    def boards(self) -> dict[int, int]:
-        """None: topics do not tell the kind of a robot."""
-        return {}
-
-    def misfit(self, robot: int) -> None:
-        """None: the robots of a topic are those of this network."""
-
     def send(self, wheels: Sequence[WheelCommand | None]) -> None:
-        """Post the wheel commands of all robots; None: stop."""
         self._driven |= {i for i, command in enumerate(wheels) if command is not None}
-        self._mail = self.poses.clock(), tuple(wheels)
+        super().send(wheels)
 
     def pump(self) -> None:
         """Publish the speeds of the robots that were driven."""
         posted, wheels = self._mail
-        fresh = self.poses.clock() - posted <= PATIENCE
+        fresh = self._clock() - posted <= PATIENCE
         for robot in sorted(self._driven):
             command = wheels[robot] if fresh else None
             speeds = twist(self.drivetrains[robot], *command) if command else REST
             self.node.publish_twist(robot, self.poses.frame.twist_to_ros(speeds))
 
-    def start(self) -> "RosLink":
-        self._thread = threading.Thread(target=self._run, name="link", daemon=True)
-        atexit.register(self.close)
-        self._thread.start()
-        return self
-
-    def close(self) -> None:
-        """Publish zero speeds five times. Idempotent."""
-        if self._closing.is_set():
-            return
-        self._closing.set()
-        atexit.unregister(self.close)
-        if self._thread is None:
-            self._farewell()
-        else:
-            self._thread.join(timeout=1.0)
-
-    def _run(self) -> None:
-        try:
-            while not self._closing.wait(BEAT):
-                self.pump()
-        finally:
-            self._farewell()
-
-    def _farewell(self) -> None:
+    def _shut_down(self) -> None:
         pause = threading.Event()
         for _ in range(FAREWELLS):
             self._mail = (float("-inf"), self._mail[1])

@@ -2,30 +2,38 @@
 
 from collections.abc import Callable
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from pigaming_app.hardware.session.robot_session import RobotsUnavailable, fault_of, new_rig
-from pigaming_app.sim.world import DT, HZ
+import numpy as np
+
+from pigaming_app.hardware.calibration.boards import BOARD, HELD_OUT
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
+from pigaming_app.hardware.calibration.procedure import Calibration
+from pigaming_app.hardware.calibration.solver import with_verification
+from pigaming_app.hardware.control.rig import UNMEASURED, Rig
+from pigaming_app.hardware.emulator.arena import SHOWS_AFTER, STARTS, EmulatedArena
+from pigaming_app.hardware.emulator.camera import CameraTraits, FrameTiming
+from pigaming_app.hardware.emulator.radio import MODERATE, RadioChannel
+from pigaming_app.hardware.emulator.realtime import PacedArena
+from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
+from pigaming_app.hardware.emulator.things.prism import Prism
+from pigaming_app.hardware.emulator.things.random_scene import some_things
+from pigaming_app.hardware.emulator.wifi.air import LOOPBACK, WifiChannel
+from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython
+from pigaming_app.hardware.emulator.wifi.radio import WifiRadio
+from pigaming_app.hardware.emulator.xbee import EmulatedCarrier
+from pigaming_app.hardware.radio.link import Link
+from pigaming_app.hardware.radio.wifi import WifiNetwork, WifiProtocol
+from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
+from pigaming_app.hardware.radio.xbee_setup import Carrier
+from pigaming_app.hardware.session import store
+from pigaming_app.hardware.session.lighting import Lighting
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, new_rig
+from pigaming_app.hardware.signals import CameraFrame
+from pigaming_app.hardware.tracking.tracker import Tracker
+from pigaming_app.hardware.vision.markers import OpenCVMissing, opencv
+from pigaming_app.sim.world import DT, HZ, ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
-
-if TYPE_CHECKING:
-    from pigaming_app.hardware.calibration.ground_plane import GroundPlane
-    from pigaming_app.hardware.calibration.quality import CameraQuality
-    from pigaming_app.hardware.control.rig import Rig
-    from pigaming_app.hardware.emulator.arena import EmulatedArena
-    from pigaming_app.hardware.emulator.camera import CameraTraits, FrameTiming
-    from pigaming_app.hardware.emulator.radio import RadioChannel
-    from pigaming_app.hardware.emulator.realtime import PacedArena
-    from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
-    from pigaming_app.hardware.emulator.things.prism import Prism
-    from pigaming_app.hardware.emulator.wifi.air import WifiChannel
-    from pigaming_app.hardware.radio.link import Link
-    from pigaming_app.hardware.radio.wifi import WifiNetwork
-    from pigaming_app.hardware.radio.xbee_setup import Carrier
-    from pigaming_app.hardware.scan.expected import ExpectedLight
-    from pigaming_app.hardware.session.lighting import Lighting
-    from pigaming_app.hardware.signals import CameraFrame
-    from pigaming_app.hardware.tracking.tracker import Tracker
 
 AHEAD = 0.03  # s by which the arena's clock may lead the window's frames
 DIM = 0.015  # s between two images projected on the emulated mat
@@ -38,7 +46,7 @@ FURNITURE = 5  # things put on an empty mat, to be scanned
 SEARCH = 10.0  # timeout for finding all robots, s
 
 
-class EmulatedSession:
+class EmulatedSession(RobotSession):
     """The emulated arena of a seed. `live`: it runs in real time; else its time passes only in `advance`.
 
     `projection` is `Canvas.projection` and selects the calibration saved by the wizard; if it returns None, the
@@ -49,28 +57,23 @@ class EmulatedSession:
     """
 
     emulated = True
-    radio = True
 
     def __init__(
         self,
         seed: int = 1,
         live: bool = True,
         projection: Callable[[], str | None] = lambda: None,
-        lighting: "Lighting | None" = None,
-        timing: "FrameTiming | None" = None,
-        channel: "RadioChannel | None" = None,
+        lighting: Lighting | None = None,
+        timing: FrameTiming | None = None,
+        channel: RadioChannel | None = None,
         exposure_jitter: float = 0.0,
-        ground: "GroundPlane | None" = None,
-        tracker: "type[Tracker] | None" = None,
-        traits: "CameraTraits | None" = None,
-        wifi: "WifiChannel | None" = None,
+        ground: GroundPlane | None = None,
+        tracker: type[Tracker] | None = None,
+        traits: CameraTraits | None = None,
+        wifi: WifiChannel | None = None,
         things: int = 0,
     ) -> None:
         self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
-        self.mm = 0.0
-        self.quality: CameraQuality | None = None
-        self.network: WifiNetwork | None = None  # of robots with Wi-Fi
-        self.expected: ExpectedLight | None = None
         self._wifi = wifi
         self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
         self._traits = traits
@@ -79,28 +82,19 @@ class EmulatedSession:
         self._things: list[Prism] = []  # to stand on the mat
         self._arena: EmulatedArena | None = None
         self._made = ground
-        self._rig: Rig | None = None
         self._time: PacedArena | None = None
         self._lit = self._now = -1.0  # s of the arena's clock: last projection, and last `advance`
 
     @property
-    def fault(self) -> OperatorMessage | None:
-        return fault_of(self._rig) if self._rig else None
-
-    @property
-    def arena(self) -> "EmulatedArena":
+    def arena(self) -> EmulatedArena:
         """The arena, created and calibrated on first use; a live one then runs. Raises RobotsUnavailable."""
         if self._arena is None:
-            from pigaming_app.hardware.vision.markers import OpenCVMissing, opencv
-
             try:
                 opencv()
             except OpenCVMissing as error:
                 raise RobotsUnavailable(error.message) from error
             self._arena = self._new_arena()
         if self.live and self._time is None:
-            from pigaming_app.hardware.emulator.realtime import PacedArena
-
             self._time = PacedArena(self._arena).start()
         return self._arena
 
@@ -109,11 +103,8 @@ class EmulatedSession:
         return self.arena.arena_id
 
     @property
-    def ground(self) -> "GroundPlane":
+    def ground(self) -> GroundPlane:
         """The calibration saved by the wizard, or else the one made with the arena. Raises RobotsUnavailable."""
-        from pigaming_app.hardware.calibration.ground_plane import CalibrationError
-        from pigaming_app.hardware.session import store
-
         _, projection = self.arena, self.projection()
         assert self._made is not None
         if projection is None:
@@ -124,24 +115,16 @@ class EmulatedSession:
             return self._made
 
     @property
-    def newest(self) -> "CameraFrame | None":
+    def newest(self) -> CameraFrame | None:
         """The newest frame of the emulated camera."""
         return self._arena.camera.last if self._arena else None
 
     @property
-    def site(self) -> "EmulatedCalibrationSite":
-        from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
-
+    def site(self) -> EmulatedCalibrationSite:
         return EmulatedCalibrationSite(self.seed, self.live, self.arena)
 
-    def open(self) -> "Rig":
+    def open(self) -> Rig:
         if self._rig is None:
-            from pigaming_app.hardware.control.rig import UNMEASURED
-            from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
-            from pigaming_app.hardware.radio.link import Link
-            from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
-            from pigaming_app.sim.world import ROBOTS
-
             arena, ground = self.arena, self.ground
             arena.cleared = False
             if self._things and not arena.things:
@@ -173,17 +156,10 @@ class EmulatedSession:
                 return
         raise RuntimeError("the tracker does not find all robots")
 
-    def open_link(self) -> "Link | None":
-        """Always None: without an arena there is no radio either."""
-        return None
-
-    def carrier(self, number: int) -> "Carrier":
-        from pigaming_app.hardware.emulator import xbee
-        from pigaming_app.hardware.radio.xbee_setup import Carrier
-
+    def carrier(self, number: int) -> Carrier:
         radio = self.arena.radio
         module = radio.modules[number - 1] if number else radio.module
-        return Carrier(xbee.EmulatedCarrier(module, self.arena.clock).open, self.arena.clock, "EMU0")
+        return Carrier(EmulatedCarrier(module, self.arena.clock).open, self.arena.clock, "EMU0")
 
     def tick(self) -> None:
         self.advance(DT)
@@ -203,10 +179,11 @@ class EmulatedSession:
         self._time.limit = self._now + seconds + AHEAD
         return self._now - before
 
-    def furnish(self) -> None:
-        """Put random things on the mat, away from the robots, unless there are some already."""
-        from pigaming_app.hardware.emulator.things.random_scene import some_things
+    @property
+    def empty(self) -> bool:
+        return not self.arena.things
 
+    def furnish(self) -> None:
         if not self.arena.things:
             self._things = some_things(self.seed, FURNITURE, self.arena.optics, self.arena.poses())
             self.arena.furnish(self._things)
@@ -222,9 +199,7 @@ class EmulatedSession:
 
     def close(self) -> None:
         """Stop the robots and release camera and radio; the arena keeps running."""
-        rig, self._rig = self._rig, None
-        if rig is not None:
-            rig.close()
+        super().close()
         if self._time is not None:
             self._time.watched, self._time.limit = False, inf
 
@@ -236,13 +211,7 @@ class EmulatedSession:
         if self._arena is not None and self.network is not None:
             self._arena.radio.end()
 
-    def _new_arena(self) -> "EmulatedArena":
-        import numpy as np
-
-        from pigaming_app.hardware.emulator.arena import STARTS, EmulatedArena
-        from pigaming_app.hardware.emulator.camera import FrameTiming
-        from pigaming_app.hardware.emulator.radio import MODERATE
-
+    def _new_arena(self) -> EmulatedArena:
         refresh = WHOLE if self.live else QUICK
         arena = EmulatedArena(
             self.seed,
@@ -254,21 +223,13 @@ class EmulatedSession:
         )
         self._made = self._made or calibrated(arena)
         if self._count:
-            from pigaming_app.hardware.emulator.things.random_scene import some_things
-
             self._things = some_things(self.seed, self._count, arena.optics, STARTS)
             arena.furnish(self._things)
         arena.project(np.zeros(DARK, np.uint8))  # until the window renders
         return arena
 
-    def _wifi_link(self, channel: "WifiChannel") -> "Link":
+    def _wifi_link(self, channel: WifiChannel) -> Link:
         """A link to boards of their own. Raises RobotsUnavailable."""
-        from pigaming_app.hardware.emulator.wifi.air import LOOPBACK
-        from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython
-        from pigaming_app.hardware.emulator.wifi.radio import WifiRadio
-        from pigaming_app.hardware.radio.link import Link
-        from pigaming_app.hardware.radio.wifi import WifiNetwork, WifiProtocol
-
         if self.network is None:
             network = WifiNetwork(self.arena.arena_id, EMULATED_KEY, self.arena.clock, 0, LOOPBACK).open()
             try:
@@ -278,7 +239,7 @@ class EmulatedSession:
             self.network = network
         return Link(self.network.open, self.arena.clock, WifiProtocol(self.network), "Wi-Fi")
 
-    def _render(self, rig: "Rig") -> None:
+    def _render(self, rig: Rig) -> None:
         """Render complete pictures while somebody looks at more than the robots."""
         painter = self.arena.camera.painter
         if rig.viewers and self._refresh is None:
@@ -286,22 +247,14 @@ class EmulatedSession:
         elif not rig.viewers and self._refresh is not None:
             painter.refresh, self._refresh = self._refresh, None
 
-    def _light(self, rig: "Rig") -> None:
+    def _light(self, rig: Rig) -> None:
         """Project the floor, and a disc at each robot's predicted position when the light lands."""
         if self.lighting is not None:
-            from pigaming_app.hardware.emulator.arena import SHOWS_AFTER
-
             self.arena.project(self.lighting.picture(rig.sense(SHOWS_AFTER)))
 
 
-def calibrated(arena: "EmulatedArena", site: "EmulatedCalibrationSite | None" = None) -> "GroundPlane":
+def calibrated(arena: EmulatedArena, site: EmulatedCalibrationSite | None = None) -> GroundPlane:
     """Calibrate an arena and verify the result, by the wizard's procedure. Raises CalibrationError."""
-    from pigaming_app.hardware.calibration.boards import BOARD, HELD_OUT
-    from pigaming_app.hardware.calibration.ground_plane import CalibrationError
-    from pigaming_app.hardware.calibration.procedure import Calibration
-    from pigaming_app.hardware.calibration.solver import with_verification
-    from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
-
     site = site or EmulatedCalibrationSite(arena=arena)
     work = Calibration(site, 0, site.measures, "emulated")
     pictures = {board: board.picture() for board in (BOARD, HELD_OUT)}

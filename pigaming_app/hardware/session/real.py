@@ -7,48 +7,34 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from pigaming_app.hardware.session.robot_session import RobotsUnavailable, fault_of, new_rig
-from pigaming_app.sim.world import DT
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, new_rig
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.storage.settings import Settings
 
 if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import GroundPlane
-    from pigaming_app.hardware.calibration.quality import CameraQuality
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.radio.link import Link
-    from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
-    from pigaming_app.hardware.scan.expected import ExpectedLight
     from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureState
 
 STOCK, UDP = "stock", "udp"  # radio settings: a robot with factory firmware on a cable; Wi-Fi robots
 NO_PORT = "no serial port"
 
 
-class RealSession:
+class RealSession(RobotSession):
     """The robots of these settings. `projection` is `Canvas.projection`; None accepts a calibration of any display."""
 
-    emulated = False
-    radio = True
+    ground: "GroundPlane | None" = None
+    _link: "Link | None" = None
 
     def __init__(self, settings: Settings, projection: Callable[[], str | None] = lambda: None) -> None:
         self.settings, self.projection = settings, projection
-        self.mm = 0.0
-        self.quality: CameraQuality | None = None
-        self._rig: Rig | None = None
-        self.network: WifiNetwork | None = None
-        self.ground: GroundPlane | None = None
-        self.expected: ExpectedLight | None = None
-        self._link: Link | None = None
-        self._next = time.monotonic()  # s, time of the next tick
 
     @property
     def fault(self) -> OperatorMessage | None:
-        if self._rig is not None:
-            return fault_of(self._rig)
-        return self._link.fault if self._link else None
+        return super().fault or (self._link.fault if self._link else None)
 
     @property
     def arena_id(self) -> int:
@@ -94,23 +80,11 @@ class RealSession:
             self._link = self._new_link().start()
         return self._link
 
-    def tick(self) -> None:
-        self._next = max(self._next + DT, time.monotonic() - DT)
-        time.sleep(max(0.0, self._next - time.monotonic()))
-
-    def advance(self, seconds: float) -> float:
-        return seconds
-
     def close(self) -> None:
-        rig, self._rig, link, self._link = self._rig, None, self._link, None
-        self.network = None
-        if rig is not None:
-            rig.close()
+        super().close()
+        link, self._link, self.network = self._link, None, None
         if link is not None:
             link.close()
-
-    def end(self) -> None:
-        self.close()
 
     def carrier(self, number: int) -> "Carrier":
         """The radio on the port of the settings, whichever it is: they are plugged in one after another."""

@@ -4,11 +4,12 @@
 opens also measures, from the projected corner markers, how far the camera has drifted since its calibration.
 """
 
+import time
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from pigaming_app.hardware.control.safety import REMOTE
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import DT, ROBOTS
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 if TYPE_CHECKING:
@@ -32,61 +33,79 @@ class RobotsUnavailable(OperatorError):
     """The robots cannot be used."""
 
 
-class RobotSession(Protocol):
+class RobotSession:
     """Robots on a mat with a camera, a radio and a projector."""
 
-    emulated: bool
-    radio: bool  # False: cameras and radios are those of a ROS network, and the settings of the mat do not apply
-    network: "WifiNetwork | None"  # of Wi-Fi robots, while the session is open
-    expected: "ExpectedLight | None"  # the mat as scanned last, for the watch over its things
+    emulated = False
+    radio = True  # False: cameras and radios are those of a ROS network, and the settings of the mat do not apply
+    network: "WifiNetwork | None" = None  # of Wi-Fi robots, while the session is open
+    expected: "ExpectedLight | None" = None  # the mat as scanned last, for the watch over its things
+    quality: "CameraQuality | None" = None  # of the calibrated picture, valid while the session is open
+    mm = 0.0  # of the mat per arena px, valid while the session is open
+    _rig: "Rig | None" = None
+    _next = 0.0  # s, time of the next tick
 
     @property
     def fault(self) -> OperatorMessage | None:
         """Fault of camera or radio; None if there is none, or if they are not in use."""
+        return (self._rig.camera.fault or self._rig.link.fault) if self._rig else None
 
     @property
     def site(self) -> "CalibrationSite":
         """Interface to this mat for calibration. Raises RobotsUnavailable."""
+        raise NotImplementedError
 
     @property
     def arena_id(self) -> int:
         """Id of this computer's arena; robots with another one are not driven. Raises RobotsUnavailable."""
-
-    @property
-    def mm(self) -> float:
-        """mm of the mat per arena px, valid while the session is open."""
-
-    @property
-    def quality(self) -> "CameraQuality | None":
-        """Quality of the calibrated picture, valid while the session is open; None before."""
+        raise NotImplementedError
 
     @property
     def ground(self) -> "GroundPlane | None":
         """The calibration, valid while the session is open; None if the camera is not the arcade's own."""
+        return None
+
+    @property
+    def empty(self) -> bool:
+        """True if nothing stands on the mat, whatever was found there before."""
+        return False
 
     def open(self) -> "Rig":
         """Start camera, tracker and radio, or return the running rig. Raises RobotsUnavailable."""
+        raise NotImplementedError
 
     def open_link(self) -> "Link | None":
         """The radio alone, for use when `open` raises; None if there is none either."""
+        return None
 
     def carrier(self, number: int) -> "Carrier":
         """The USB carrier with the radio of the computer (0) or of a robot (1 to 4), for XBeeSetup.
 
         Raises RobotsUnavailable.
         """
+        raise NotImplementedError
 
     def tick(self) -> None:
         """Sleep until 1/50 s after the last call, or advance simulated time by 1/50 s."""
+        self._next = max(self._next + DT, time.monotonic() - DT)
+        time.sleep(max(0.0, self._next - time.monotonic()))
 
     def advance(self, seconds: float) -> float:
         """Advance simulated time by `seconds`; returns the time that passed, s. Real time passes by itself."""
+        return seconds
+
+    def furnish(self) -> None:
+        """Put random things on an emulated mat, away from the robots, unless there are some already."""
 
     def close(self) -> None:
         """Stop the robots and end the threads of camera, tracker and radio. Idempotent; `open` may follow."""
+        rig, self._rig = self._rig, None
+        if rig is not None:
+            rig.close()
 
     def end(self) -> None:
         """Close for good, including an emulated arena."""
+        self.close()
 
 
 def new_rig(
@@ -115,11 +134,6 @@ def settings_problem(settings: "Settings") -> OperatorMessage | None:
     from pigaming_app.hardware.radio.stock_protocol import NO_DEADMAN
 
     return NO_DEADMAN
-
-
-def fault_of(rig: "Rig") -> OperatorMessage | None:
-    """Fault of a rig's camera, or else of its radio."""
-    return rig.camera.fault or rig.link.fault
 
 
 def camera_warning(session: RobotSession, rig: "Rig") -> OperatorMessage | None:

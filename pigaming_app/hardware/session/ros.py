@@ -5,20 +5,15 @@ import time
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from pigaming_app.hardware.session.robot_session import RobotsUnavailable, fault_of
-from pigaming_app.sim.world import DT, ROBOTS
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
+from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
 
 if TYPE_CHECKING:
-    from pigaming_app.hardware.calibration.ground_plane import GroundPlane
-    from pigaming_app.hardware.calibration.quality import CameraQuality
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
-    from pigaming_app.hardware.radio.link import Link
-    from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.ros.node import RosNode
-    from pigaming_app.hardware.scan.expected import ExpectedLight
 
 WIDTH_MM = 2112.0  # of the nominal arena
 STICK_AGE = 0.5  # s, after which a message of a joystick or of keys no longer counts
@@ -27,27 +22,16 @@ SEATS = {f"robot_{seat + 1}": seat for seat in range(ROBOTS)}
 Stick = tuple[float, float, bool, bool]  # ahead, clockwise, fire, turbo
 
 
-class RosSession:
+class RosSession(RobotSession):
     """Robots of an arena `width` mm wide."""
 
-    emulated = False
     radio = False
-    quality: "CameraQuality | None" = None  # the cameras are those of the network
-    network: "WifiNetwork | None" = None
-    ground: "GroundPlane | None" = None
-    expected: "ExpectedLight | None" = None
 
     def __init__(self, width: float = WIDTH_MM) -> None:
-        self.width, self.mm = width, 0.0
-        self._rig: Rig | None = None
+        self.width = width
         self._node: RosNode | None = None
         self._sticks: dict[int | None, tuple[float, Stick]] = {}  # by seat; None: not addressed
-        self._next = time.monotonic()
         self._published = 0.0
-
-    @property
-    def fault(self) -> OperatorMessage | None:
-        return fault_of(self._rig) if self._rig else None
 
     @property
     def site(self) -> "CalibrationSite":
@@ -82,16 +66,6 @@ class RosSession:
             self.mm, self._rig = frame.mm, rig.start()
         return self._rig
 
-    def open_link(self) -> "Link | None":
-        return None
-
-    def tick(self) -> None:
-        self._next = max(self._next + DT, time.monotonic() - DT)
-        time.sleep(max(0.0, self._next - time.monotonic()))
-
-    def advance(self, seconds: float) -> float:
-        return seconds
-
     def stick(self, seat: int, first: bool) -> Stick | None:
         """Joystick or keys of a seat; those that address none are the `first` person's."""
         now = time.monotonic()
@@ -109,13 +83,8 @@ class RosSession:
             self._node.publish_state(json.dumps(state))
 
     def close(self) -> None:
-        rig, self._rig = self._rig, None
-        if rig is not None:
-            rig.close()
+        super().close()
         self._node = None
-
-    def end(self) -> None:
-        self.close()
 
     def _take_stick(self, frame: str, axes: tuple[float, ...], buttons: tuple[int, ...]) -> None:
         """The layout of joy_node: axis 0 to the left, axis 1 ahead; buttons 0 and 1."""

@@ -4,7 +4,6 @@ import logging
 
 from pigaming_app.hardware.scan.things import LayoutError, ThingKind, ThingLayout
 from pigaming_app.hardware.session import store
-from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.sim.things.spec import ThingSpec
 
@@ -17,8 +16,7 @@ def load_layout(session: RobotSession) -> ThingLayout:
     A new emulated mat is empty, whatever stood on the one before.
     """
     layout = store.load_things(store.things_file(_site(session)))
-    empty = isinstance(session, EmulatedSession) and not session.arena.things
-    return ThingLayout((), layout.projector) if empty else layout
+    return ThingLayout((), layout.projector) if session.empty else layout
 
 
 def save_layout(session: RobotSession, layout: ThingLayout) -> None:

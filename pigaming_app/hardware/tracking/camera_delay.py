@@ -9,9 +9,9 @@ drive become later or earlier, so do those that stand.
 from collections import deque
 from collections.abc import Mapping, Sequence
 
-from pigaming_app.hardware.control.motion_delay import DriveTrace, common_delay
 from pigaming_app.hardware.signals import Fix
 from pigaming_app.hardware.tracking.ekf import PoseFilter
+from pigaming_app.hardware.tracking.motion_delay import DriveTrace, common_delay
 from pigaming_app.sim.plant import Twist
 
 LONGEST = 0.12  # s

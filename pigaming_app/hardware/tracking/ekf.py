@@ -11,8 +11,8 @@ from math import cos, hypot, inf, pi, sin, tau
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.control.motion_model import MotionState, WheelCorrection
 from pigaming_app.hardware.signals import Fix
+from pigaming_app.hardware.tracking.motion_model import MotionState, WheelCorrection
 from pigaming_app.sim.angles import wrap
 from pigaming_app.sim.drivetrain import Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist

@@ -1,10 +1,12 @@
 """One pose filter for each robot, corrected by whatever sees the robots."""
 
-from collections.abc import Sequence
-from math import hypot
+from collections.abc import Mapping, Sequence
+from math import hypot, inf
 
-from pigaming_app.hardware.control.motion_model import WheelCorrection
+from pigaming_app.hardware.signals import CameraFrame, Fix
+from pigaming_app.hardware.tracking.camera_delay import CameraDelay
 from pigaming_app.hardware.tracking.ekf import COAST, PoseFilter
+from pigaming_app.hardware.tracking.motion_model import WheelCorrection
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.robot import RADIUS
@@ -12,10 +14,32 @@ from pigaming_app.sim.world import ROBOTS
 
 
 class PoseFilters:
-    """Filters of the robots 0 to 3. `mm`: mm of the mat per arena px."""
+    """Filters of the robots 0 to 3: what a rig knows of their poses. `mm`: mm of the mat per arena px."""
+
+    delay: CameraDelay | None = None  # of the camera; None: its stamps are right
 
     def __init__(self, drivetrains: Sequence[Drivetrain] | None, mm: float) -> None:
+        self.expected = set(range(ROBOTS))  # robots to search for; others are tracked when seen
+        self.last_captured = -inf  # s, capture time of the newest processed frame
         self.filters = [PoseFilter(drivetrain, mm) for drivetrain in drivetrains or [NOMINAL] * ROBOTS]
+
+    @property
+    def rejections(self) -> Mapping[int, str]:
+        """Reason for the latest rejection of each robot's marker."""
+        return {}
+
+    @property
+    def wrong_size(self) -> float | None:
+        """Size of the robots' markers, mm, if it is so far from the true one that the arena's width is in doubt."""
+        return None
+
+    def duplicates(self) -> set[int]:
+        """Robots that were lately seen twice in one frame."""
+        return set()
+
+    def process(self, frame: CameraFrame) -> list[Fix]:
+        """Correct the filters by a frame; returns the accepted fixes."""
+        raise NotImplementedError
 
     def record_commands(self, time: float, twists: Sequence[Twist | None]) -> None:
         """Record the twists sent to the robots at a time, px/s and rad/s; None: stop."""

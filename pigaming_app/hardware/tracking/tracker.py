@@ -41,6 +41,8 @@ MARGIN, ASTRAY = 6.0, 200.0  # search radius around a prediction: px, plus px/s 
 class Tracker(PoseFilters):
     """Tracker of the robots 0 to 3. Times are those of `clock`; poses in arena px and rad. Raises OpenCVMissing."""
 
+    delay: CameraDelay
+
     def __init__(
         self,
         ground: GroundPlane,
@@ -50,8 +52,6 @@ class Tracker(PoseFilters):
     ) -> None:
         super().__init__(drivetrains, ground.mm)
         self.ground, self.clock = ground, clock
-        self.expected = set(range(ROBOTS))  # robots to search for; others are tracked when seen
-        self.last_captured = -inf  # s, capture time of the newest processed frame
         self.delay = CameraDelay(self.filters)
         self.drift = drift  # gets the same frames, for the corner markers
         self._markers = MarkerDetector(WEARERS)
@@ -62,7 +62,6 @@ class Tracker(PoseFilters):
         self._edge = self._expected_edge()
 
     def process(self, frame: CameraFrame) -> list[Fix]:
-        """Process a frame; returns the accepted fixes."""
         if self.drift is not None:
             self.drift.process(frame)
         return self.correct(self._markers.refine(frame.image, self._find(frame)), frame.captured)
@@ -85,7 +84,6 @@ class Tracker(PoseFilters):
 
     @property
     def wrong_size(self) -> float | None:
-        """Size of the robots' markers, mm, if it is so far from the true one that the arena's width is in doubt."""
         size = float(np.median(self._sizes)) if len(self._sizes) == SIZES else self.ground.marker
         return size if abs(size / self.ground.marker - 1.0) > MAX_SIZE_ERROR else None
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from pigaming_app.hardware.control.kinematics import LEVELS, Kinematics
-from pigaming_app.hardware.control.motion_model import WheelCorrection
 from pigaming_app.hardware.control.rig import UNMEASURED, Rig
 from pigaming_app.hardware.radio.packets import DEADMAN
 from pigaming_app.hardware.signals import CameraFrame, WheelCommand
+from pigaming_app.hardware.tracking.motion_model import WheelCorrection
 from pigaming_app.sim.drivetrain import NOMINAL
 from tests.hardware.mat import Mat
 

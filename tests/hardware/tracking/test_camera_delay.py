@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from pigaming_app.hardware.commissioning.pairing import Pairing
-from pigaming_app.hardware.control.motion_delay import SURE, common_delay, motion_delay, network_delay
 from pigaming_app.hardware.signals import Fix
+from pigaming_app.hardware.tracking.motion_delay import SURE, common_delay, motion_delay, network_delay
 from tests.hardware.tracking.blind_bed import BlindBed, rms
 
 UNEQUAL, SLOW = (0.0, 0.02, 0.04, 0.01), (0.01,) * 4  # s

@@ -6,9 +6,9 @@ from math import cos, degrees, hypot, pi, sin, sqrt, tau
 import numpy as np
 import pytest
 
-from pigaming_app.hardware.control.motion_model import MotionState, WheelCorrection
 from pigaming_app.hardware.signals import Fix
 from pigaming_app.hardware.tracking.ekf import NEVER, PoseFilter
+from pigaming_app.hardware.tracking.motion_model import MotionState, WheelCorrection
 from pigaming_app.sim.drivetrain import NOMINAL
 
 MM = 1.32

@@ -11,7 +11,6 @@ import pygame
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.scan.rig_scan import RigScan
 from pigaming_app.hardware.scan.things import LayoutError, Thing, ThingKind, ThingLayout
-from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.hardware.session.things_on_mat import load_layout, save_layout
 from pigaming_app.scenes.flow.access import Access
@@ -62,8 +61,7 @@ class ArenaPage(Page):
         self.context.sounds.music(False)
         try:
             self.rig = self.session.open()
-            if isinstance(self.session, EmulatedSession):
-                self.session.furnish()
+            self.session.furnish()
             if self.session.ground is None:
                 self.fault = OperatorMessage("ros_site")
             self._take(load_layout(self.session), False)

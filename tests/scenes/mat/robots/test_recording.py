@@ -9,6 +9,7 @@ from pigaming_app.games.replay import ReplayError
 from pigaming_app.hardware import recordings
 from pigaming_app.hardware.control import match_recording
 from pigaming_app.hardware.control.rig import Rig
+from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.jobs import play as play_job
 from pigaming_app.jobs.cli import Parser
 from pigaming_app.jobs.terminal.options import declare_job
@@ -35,11 +36,10 @@ from tests.scenes.mat.robots.test_real_match import match_for, play, started, un
 pytest.importorskip("cv2")
 
 
-class MatSession:
+class MatSession(RobotSession):
     """A session on the simulated mat, whose robots begin at their places."""
 
-    emulated, radio, mm, fault = True, True, 1.3, None
-    ground = expected = None
+    emulated, mm = True, 1.3
 
     def __init__(self) -> None:
         self.mat = Mat()
@@ -50,9 +50,6 @@ class MatSession:
     def advance(self, seconds: float) -> float:
         self.mat.pass_time(seconds)
         return seconds
-
-    def close(self) -> None:
-        pass
 
 
 @pytest.fixture
