@@ -163,12 +163,6 @@ def test_what_is_wrong_is_one_line_and_exit_code_2(arguments, capsys):
     assert len(captured.err.strip().splitlines()) == 1
 
 
-def test_the_game_stands_after_the_job(capsys):
-    seats = ["--seats", "level1,level1,off,off", "--headless", "--speed", "max", "--minutes", "0.05", "--json"]
-    assert main(["play", "factory", *seats]) == 0
-    assert json.loads(capsys.readouterr().out)["game"] == "factory"
-
-
 def test_every_job_describes_its_options_without_numpy():
     code = (
         "import sys\nsys.modules['numpy'] = None\nfrom pigaming_app.jobs.cli import main\n"

@@ -23,6 +23,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BARE = sys._base_executable
 FILES = ("main.py", "pyproject.toml", "constraints.txt", "pigaming_app/__init__.py", "pigaming_app/boot/__init__.py")
 FILES += tuple(f"pigaming_app/boot/{name}.py" for name in ("start", "interpreter", "environment", "fetch", "version"))
+EVERY = ("pygame_ce-2.5.9", "numpy-2.3.1", "platformdirs-4.3.0", "tomli_w-1.2.0", "msgspec-0.20.0", "networkx-3.6")
 JOB = """
 import sys
 
@@ -118,61 +119,41 @@ def test_an_old_python_can_parse_main():
 # Everything is installed
 
 
-def test_a_second_start_goes_straight_into_the_environment(furnished):
+def test_a_second_start_goes_straight_into_the_environment_even_if_the_clone_was_moved(furnished):
     assert started(furnished).returncode == 0
     again = started(furnished, "play", "--seed", "3")
     assert again.stdout == f"{furnished / '.venv'} play --seed 3\n"
     assert again.stderr == ""
     assert calls(furnished) == [{"pygame-ce", "numpy", "platformdirs", "tomli-w", "msgspec", "networkx"}]
-
-
-def test_the_exit_code_is_that_of_the_job(furnished):
-    assert started(furnished, "fail", "7").returncode == 7
-
-
-def test_a_clone_that_was_moved_starts_all_the_same(furnished):
-    started(furnished)
+    assert started(furnished, "fail", "7").returncode == 7, "the exit code of the job"
     moved = furnished.rename(furnished.with_name("elsewhere"))
     assert started(moved).stdout == f"{moved / '.venv'}\n"
     assert len(calls(moved)) == 1
 
 
-def test_a_python_that_has_every_package_is_used_as_it_is(clone, tmp_path):
-    packages = tmp_path / "site-packages"
-    for name in (
-        "pygame_ce-2.5.9",
-        "numpy-2.3.1",
-        "platformdirs-4.3.0",
-        "tomli_w-1.2.0",
-        "msgspec-0.20.0",
-        "networkx-3.6",
-    ):
+def add(packages, *names):
+    """Distributions that seem to be installed in a folder; returns its path."""
+    for name in names:
         (packages / f"{name}.dist-info").mkdir(parents=True)
-    assert started(clone, PYTHONPATH=str(packages)).stdout == f"{Path(BARE).resolve().parent.parent}\n"
+    return str(packages)
+
+
+def test_a_python_that_has_every_package_is_used_as_it_is(clone, tmp_path):
+    packages = add(tmp_path / "site-packages", *EVERY)
+    assert started(clone, PYTHONPATH=packages).stdout == f"{Path(BARE).resolve().parent.parent}\n"
     assert not (clone / ".venv").exists()
 
 
 def test_a_python_with_both_pygames_is_not_used(furnished, tmp_path):
-    packages = tmp_path / "site-packages"
-    for name in (
-        "pygame-2.6.1",
-        "pygame_ce-2.5.9",
-        "numpy-2.3.1",
-        "platformdirs-4.3.0",
-        "tomli_w-1.2.0",
-        "msgspec-0.20.0",
-        "networkx-3.6",
-    ):
-        (packages / f"{name}.dist-info").mkdir(parents=True)
-    ended = started(furnished, PYTHONPATH=str(packages))
+    packages = add(tmp_path / "site-packages", "pygame-2.6.1", *EVERY)
+    ended = started(furnished, PYTHONPATH=packages)
     assert ended.stdout == f"{furnished / '.venv'}\n"
     assert "both pygame and pygame-ce" in ended.stderr
 
 
 def test_an_environment_with_both_pygames_is_named(furnished):
     started(furnished)
-    for name in ("pygame-2.6.1", "pygame_ce-2.5.9"):
-        (interpreter.site_packages(furnished / ".venv") / f"{name}.dist-info").mkdir()
+    add(interpreter.site_packages(furnished / ".venv"), "pygame-2.6.1", "pygame_ce-2.5.9")
     assert f"{furnished / '.venv'} holds both pygame and pygame-ce" in started(furnished).stderr
 
 
@@ -344,19 +325,15 @@ def test_another_base_python_of_an_environment_is_detected(furnished):
     assert len(calls(furnished)) == 2
 
 
-def test_in_a_read_only_folder_the_environment_goes_to_the_user(tmp_path, monkeypatch):
+def test_in_a_read_only_folder_the_environment_goes_to_the_user_and_if_that_is_one_too_both_are_named(
+    tmp_path, monkeypatch
+):
     beside, own = tmp_path / "clone" / ".venv", tmp_path / "home" / "venv"
     monkeypatch.setattr(install, "environment_folders", lambda: [beside, own])
     monkeypatch.setattr(install, "open", no_writing_below(tmp_path / "clone"), raising=False)
     place, lock = install._claimed()
     lock.close()
     assert place == own
-
-
-def test_where_nothing_can_be_written_both_folders_are_named(tmp_path, monkeypatch):
-    monkeypatch.setattr(
-        install, "environment_folders", lambda: [tmp_path / "clone" / ".venv", tmp_path / "home" / "venv"]
-    )
     monkeypatch.setattr(install, "open", no_writing_below(tmp_path), raising=False)
     with pytest.raises(interpreter.StartError, match=r"neither .*clone nor .*home can be written"):
         install._claimed()
@@ -405,13 +382,11 @@ def test_no_registry_is_named():
 # Fetched by a running arcade
 
 
-def fetched(clone, extra="train", **more):
-    """The last line of the process that fetches an extra into the clone's environment."""
-    python = str(interpreter.python_of(clone / ".venv"))
-    command = [python, "-m", "pigaming_app.boot.fetch", extra]
-    done = subprocess.run(
-        command, cwd=clone, env=surroundings(clone, **more), capture_output=True, text=True, timeout=120
-    )
+def fetched(clone, python="", **more):
+    """The last word of the process that fetches an extra into the clone's environment."""
+    command = [python or str(interpreter.python_of(clone / ".venv")), "-m", "pigaming_app.boot.fetch", "train"]
+    environment = surroundings(clone, **more)
+    done = subprocess.run(command, cwd=clone, env=environment, capture_output=True, text=True, timeout=120)
     return done.stdout.split()[-1]
 
 
@@ -458,11 +433,7 @@ def test_the_bar_is_not_full_after_a_small_file_with_a_large_one_to_come(tmp_pat
 
 
 def test_an_environment_of_somebody_else_is_left_alone(furnished):
-    command = [BARE, "-m", "pigaming_app.boot.fetch", "train"]
-    done = subprocess.run(
-        command, cwd=furnished, env=surroundings(furnished), capture_output=True, text=True, timeout=60
-    )
-    assert done.stdout == "foreign\n"
+    assert fetched(furnished, BARE) == "foreign"
     assert not (furnished / ".venv" / "ready").exists()
 
 

@@ -1,4 +1,4 @@
-"""The arcade without its features: each alone, and all together, in processes in which their packages are missing."""
+"""The arcade without its features, each alone and all together, in processes without their packages; their pages."""
 
 import re
 import subprocess
@@ -9,7 +9,9 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.games.registry import games
+from pigaming_app.jobs.bench.test import paths_of
 from pigaming_app.jobs.features import every_feature
+from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.scenes.features.registry import NAMES, features
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -64,15 +66,38 @@ def test_the_arcade_runs_without_all_of_them(tmp_path: Path) -> None:
 
 def test_jobs_of_the_core_run_and_those_of_features_are_refused(tmp_path: Path) -> None:
     rooms = tuple(room for of_one in ROOMS.values() for room in of_one)
-    played = without(
-        rooms, tmp_path, "play", "race", "--headless", "--minutes", "0.05", "--seats", "level3,level2,off,off"
-    )
-    assert (played.returncode, played.stderr) == (0, "")
-    examined = without(rooms, tmp_path, "doctor")
-    assert examined.stdout.splitlines()[-1] == "All is well."
+    ran = without(rooms, tmp_path, "play race --headless --minutes 0.05 --seats level3,level2,off,off", "doctor")
+    assert (ran.returncode, ran.stderr) == (0, "")
+    assert ran.stdout.splitlines()[-1] == "All is well."
     event, onnx = "event new cup.json", "play --seats a.onnx"
-    for line in ("--kiosk", event, onnx, "report", "robots", "calibrate", "train ppo", "bench", "test"):
-        words = line.split()
-        refused = without(rooms, tmp_path, *words)
-        assert (refused.returncode, refused.stdout) == (2, "")
-        assert re.fullmatch(r"PiGaming: .* (in|of) this installation(; there are .*)?\n", refused.stderr)
+    lines = ("--kiosk", event, onnx, "report", "robots", "calibrate", "train ppo", "bench", "test")
+    refused = without(rooms, tmp_path, *lines)
+    assert (refused.returncode, refused.stdout) == (2, "")
+    told = re.findall(r"^PiGaming: .* (?:in|of) this installation(?:; there are .*)?$", refused.stderr, re.M)
+    assert len(told) == len(lines) == refused.stderr.count("\n")
+
+
+@pytest.mark.parametrize("feature", every_feature(), ids=ROOMS)
+def test_a_feature_has_a_short_page_with_its_rooms_and_its_command(feature) -> None:
+    folder = ROOT / "pigaming_app"
+    text = (folder / feature.rooms[0].replace(".", "/") / "README.md").read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= 40
+    assert text.endswith(f"`python3 main.py test --feature {feature.name}`\n")
+    rooms = re.findall(r"^\| (.*?) \|", text, re.M)[1:]
+    named = {name for cell in rooms for name in re.findall(r"`(.*?)`", cell)}
+    assert all((folder / name).exists() or (ROOT / name).exists() for name in named), named
+    for room in feature.rooms:
+        path = room.replace(".", "/")
+        assert {path, f"{path}/", f"{path}.py"} & named, room
+
+
+@pytest.mark.parametrize("name", ROOMS)
+def test_the_paths_of_a_feature_mirror_its_rooms(name: str) -> None:
+    paths = paths_of(name)
+    assert paths
+    assert all((ROOT / path).exists() for path in paths)
+
+
+def test_an_unknown_feature_is_refused() -> None:
+    with pytest.raises(Refusal, match="no feature 'cheese'; there are attract, brain"):
+        paths_of("cheese")

@@ -1,13 +1,13 @@
-"""Runs the arcade without some packages: `python -m tests.features.without ROOM… -- WHAT`.
+"""Runs the arcade without some packages: `python -m tests.features.without ROOM… -- WHAT…`.
 
 The packages are refused by an import hook, as if their folders were not there. WHAT: a tour through the screens of the
-core with the games whose matches are played, or a job with its words.
+core with the games whose matches are played, or jobs that end with the same exit code, each with its words.
 """
 
 import importlib.abc
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 
@@ -35,8 +35,10 @@ def tour(played: Sequence[str]) -> None:
     from pigaming_app.scenes.results.scene import Results
     from pigaming_app.scenes.start import opened
     from pigaming_app.scenes.title.scene import Title
+    from pigaming_app.ui.draw import glow
     from pigaming_app.ui.input.events import Button, Device, InputEvent
 
+    glow.add_glow = lambda *_: iter(())  # it takes most of the time
     keys = Device("keys", 0)
 
     def top(app: App, kind: type) -> Any:
@@ -48,6 +50,12 @@ def tour(played: Sequence[str]) -> None:
     def frames(app: App, count: int) -> None:
         for _ in range(count):
             app.compose(1 / 30)
+
+    def until(app: App, reached: Callable[[], bool], most: int) -> None:
+        while not reached():
+            frames(app, 1)
+            most -= 1
+            assert most, type(app.stack.top)
 
     def press(app: App, button: Button, device: Device = keys) -> None:
         app.stack.apply(app.stack.top.handle(InputEvent(button, device)))
@@ -69,30 +77,19 @@ def tour(played: Sequence[str]) -> None:
         press(app, Button.FIRE)
         press(app, Button.Y)
         press(app, Button.START)
-        for _ in range(300):
-            frames(app, 1)
-            if app.stack.top is not lobby:
-                break
+        until(app, lambda: app.stack.top is not lobby, 300)
         top(app, MatchSetupPage)
         frames(app, 30)
         press(app, Button.FIRE)
-        for _ in range(300):
-            frames(app, 1)
-            if isinstance(app.stack.top, MatchScene):
-                break
+        until(app, lambda: isinstance(app.stack.top, MatchScene), 300)
         match = top(app, MatchScene)
-        frames(app, 150)
-        assert match.match.state.tick > 0
+        until(app, lambda: match.match.state.tick > 30, 150)
         press(app, Button.START)
         frames(app, 2)
         assert app.stack.top is not match, "no pause"
         press(app, Button.START)
         match.stop()
-        for _ in range(900):
-            frames(app, 1)
-            if isinstance(app.stack.top, Results):
-                break
-        top(app, Results)
+        until(app, lambda: isinstance(app.stack.top, Results), 900)
 
     with opened(Options(headless=True, step=1 / 30)) as app:
         items = [spot.name for spot in top(app, Title).focus.spots if spot.name not in ("quit", "language")]
@@ -126,13 +123,14 @@ def main() -> int:
     sys.meta_path.insert(0, Missing([f"pigaming_app.{room}" for room in sys.argv[1:cut]]))
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
     os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
-    words = sys.argv[cut + 1 :]
-    if words[0] == "tour":
-        tour(words[1:])
+    what, *words = sys.argv[cut + 1 :]
+    if what == "tour":
+        tour(words)
         return 0
     from pigaming_app.jobs import cli
 
-    return cli.main(words)
+    (code,) = {cli.main(job.split()) for job in (what, *words)}
+    return code
 
 
 if __name__ == "__main__":

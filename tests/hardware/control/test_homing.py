@@ -10,12 +10,19 @@ from pigaming_app.hardware.control.path_planner import find_path, inflated_floor
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import offset_from_wall
+from tests.cases import one_in
 from tests.floor import floor
 from tests.hardware.mat import NOMINAL_MM, STARTS, Mat
 
 MIDDLE = ((800.0, 250.0, 800.0, 650.0),)
-YARD = [(wall.ax, wall.ay, wall.bx, wall.by) for wall in load("pitanks", "courtyard").walls]
 GATE = ((600.0, 0.0, 600.0, 380.0), (600.0, 520.0, 600.0, 900.0))  # walls with a gap of 110 px, 1.5 robot diameters
+
+
+def walls_of(arena):
+    return [(wall.ax, wall.ay, wall.bx, wall.by) for wall in arena.walls]
+
+
+YARD = walls_of(load("pitanks", "courtyard"))
 
 
 def gathered(mat, goals, walls=(), seconds=60.0):
@@ -42,13 +49,6 @@ def at(mat, robot, goal):
 def test_two_robots_change_places():
     mat = Mat([(400.0, 450.0, 0.0), (1000.0, 450.0, pi), *STARTS[2:]])
     goals = {0: (1000.0, 450.0, 0.0), 1: (400.0, 450.0, 0.0)}
-    assert gathered(mat, goals) is not None
-    assert all(at(mat, robot, goal) for robot, goal in goals.items())
-
-
-def test_four_robots_change_places_all_round():
-    mat = Mat()
-    goals = {i: STARTS[(i + 1) % 4] for i in range(4)}
     assert gathered(mat, goals) is not None
     assert all(at(mat, robot, goal) for robot, goal in goals.items())
 
@@ -82,6 +82,7 @@ def test_wider_robots_change_places_without_touching_each_other_or_a_wall():
     mat.pass_time = watched
     goals = {i: STARTS[(i + 1) % 4] for i in range(4)}
     assert gathered(mat, goals, MIDDLE) is not None
+    assert all(at(mat, robot, goal) for robot, goal in goals.items())
     assert min(nearest) > 2.0 * radius
     assert min(at_wall) > radius
 
@@ -108,6 +109,14 @@ def test_a_robot_gets_round_the_end_of_a_wall_that_holds_it():
 def test_a_robot_beside_a_wall_sets_out_across_its_heading():
     mat = Mat([(700.1, 192.0, 1.28), (1191.3, 565.6, 1.87), (1546.4, 220.5, 3.58), (281.7, 744.1, 5.46)])
     assert gathered(mat, {0: (448.6, 653.8, 5.17)}, YARD, seconds=20.0) is not None
+
+
+@pytest.mark.parametrize("name", one_in(3, ["labyrinth", "classic", "trenches"]))
+def test_robots_take_their_places_in_an_arena_round_walls_and_each_other(name):
+    mat, arena = Mat(), load("pitanks", name)
+    goals = {i: (start.x, start.y, start.heading) for i, start in enumerate(arena.starts)}
+    assert gathered(mat, goals, walls_of(arena), seconds=45.0) is not None
+    assert all(at(mat, robot, goal) for robot, goal in goals.items())
 
 
 def test_a_robot_whose_place_is_taken_waits():

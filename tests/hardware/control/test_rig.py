@@ -6,7 +6,7 @@ import time
 import numpy as np
 import pytest
 
-from pigaming_app.hardware.control.kinematics import LEVELS, Kinematics
+from pigaming_app.hardware.control.kinematics import IDEAL, LEVELS, Kinematics
 from pigaming_app.hardware.control.rig import UNMEASURED, Rig
 from pigaming_app.hardware.radio.packets import DEADMAN
 from pigaming_app.hardware.signals import CameraFrame, WheelCommand
@@ -212,23 +212,18 @@ DESIRED = [(260.0, 0.0), (-150.0, 1.0), (0.0, 2.5), (200.0, -1.5)]
 
 
 @pytest.mark.parametrize("desired", DESIRED)
-@pytest.mark.parametrize("drivetrain", [NOMINAL, UNMEASURED])
-def test_on_average_the_wheels_run_as_asked_though_the_radio_knows_63_levels(desired, drivetrain):
+@pytest.mark.parametrize(
+    ("drivetrain", "correction"), [(NOMINAL, IDEAL), (UNMEASURED, IDEAL), (UNMEASURED, WORN)], ids=["", "new", "worn"]
+)
+def test_on_average_the_wheels_run_as_asked_though_the_radio_knows_63_levels(desired, drivetrain, correction):
+    """What is learnt of the wheels is made up for."""
     kinematics = Kinematics(drivetrain)
-    ran = [kinematics.expected_twist(kinematics.wheels(desired)) for _ in range(200)]
-    assert sum(linear for linear, _ in ran) / 200 == pytest.approx(desired[0], abs=1.0)
-    assert sum(angular for _, angular in ran) / 200 == pytest.approx(desired[1], abs=0.02)
-
-
-@pytest.mark.parametrize("desired", DESIRED)
-def test_what_is_learnt_of_the_wheels_is_made_up_for(desired):
-    kinematics = Kinematics(UNMEASURED)
-    kinematics.correction = WORN
-    ran = [kinematics.expected_twist(kinematics.wheels(desired)) for _ in range(200)]
-    assert sum(linear for linear, _ in ran) / 200 == pytest.approx(desired[0], abs=1.0)
-    assert sum(angular for _, angular in ran) / 200 == pytest.approx(desired[1], abs=0.02)
+    kinematics.correction = correction
     commands = [kinematics.wheels(desired) for _ in range(200)]
-    if desired == (260.0, 0.0):
+    ran = [kinematics.expected_twist(wheels) for wheels in commands]
+    assert sum(linear for linear, _ in ran) / 200 == pytest.approx(desired[0], abs=1.0)
+    assert sum(angular for _, angular in ran) / 200 == pytest.approx(desired[1], abs=0.02)
+    if desired == (260.0, 0.0) and correction is WORN:
         assert sum(wheels.left for wheels in commands) > sum(wheels.right for wheels in commands)
 
 

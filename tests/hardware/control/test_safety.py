@@ -126,13 +126,6 @@ def test_every_fault_has_a_plain_reason(language):
         assert len(words(f"faults.{name}", robot=1, button="F1")) > 15
 
 
-def test_a_fault_is_a_plain_sentence():
-    safety = Safety()
-    safety.judge([GOOD, GOOD._replace(battery=3.9)], 1.0)
-    texts = [Words("en")(f"faults.{fault.name}", robot=fault.robot + 1) for fault in safety.faults]
-    assert texts == ["The battery of robot 2 is empty: change it. Its motors stay off until then."]
-
-
 def test_a_robot_that_is_no_real_one_any_more_takes_its_faults_along():
     safety = Safety()
     safety.judge([Health(unseen=2.0), Health(battery=3.0), None, None], 0.0)

@@ -91,16 +91,6 @@ def test_a_robot_that_falls_silent_is_not_replaced_by_that_of_another_arena():
         assert one[1].misfit(robot)[:2] == ("foreign", 12)
 
 
-def test_sequence_numbers_wrap_without_a_gap_at_the_motors():
-    """128 numbers last 2.56 s; robots would ignore one that stood still."""
-    pair = arena, _ = linked(11)
-    run([pair], 0.2, [AHEAD])
-    (share,) = run([pair], 6.0, [AHEAD])
-    assert share == 1.0
-    assert all(firmware.ignored == 0 for firmware in arena.firmwares)
-    assert all(firmware.packets > 300 for firmware in arena.firmwares)
-
-
 def test_a_repeated_packet_neither_drives_nor_feeds_the_deadman():
     arena = EmulatedArena(1, channel=RadioChannel(mode=TRANSPARENT))
     arena.camera.due = float("inf")
@@ -108,7 +98,7 @@ def test_a_repeated_packet_neither_drives_nor_feeds_the_deadman():
         arena.radio.write(drive_packet(ARENA_ID, 7, [AHEAD] * 4))
         arena.advance(0.02)
     assert all(firmware.packets == 1 for firmware in arena.firmwares)
-    assert 0.25 < max(arena.last_driven) < 0.29
+    assert 0.25 < max(arena.last_driven) < 0.28
 
 
 @pytest.mark.parametrize(

@@ -88,15 +88,6 @@ def test_closing_says_stop_five_times_and_once_only(link, radio, time):
     assert radio.is_closed
 
 
-def test_an_exception_says_stop_five_times(radio, time):
-    link = Link(lambda: radio, time, XBeeProtocol(ARENA))
-    link.send([AHEAD])
-    link.pump()
-    with pytest.raises(ZeroDivisionError), link:
-        raise ZeroDivisionError
-    assert crews(radio) == [(AHEAD, None, None, None)] + [STOPPED] * 5
-
-
 def test_a_fifth_robot_is_refused_where_it_is_named(link):
     with pytest.raises(ValueError, match="at most 4"):
         link.send([AHEAD] * 5)

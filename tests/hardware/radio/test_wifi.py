@@ -51,6 +51,10 @@ class Robot:
                 self.about = self.about._replace(counter=opened[0])
                 self.obeyed.append(opened[1])
 
+    def answer(self, flags=0):
+        self.receive()
+        self.report(flags)
+
     def report(self, flags=0):
         self.sent += 1
         seq = self.obeyed[-1][3] if self.obeyed else 0
@@ -71,6 +75,13 @@ class Site:
     def add(self, **about):
         self.robots.append(Robot(self.network, **about))
         return self.robots[-1]
+
+    def meet(self, **about):
+        """Add a robot that has announced itself."""
+        robot = self.add(**about)
+        robot.announce()
+        self.tick()
+        return robot
 
     def tick(self, seconds=0.02):
         self.now += seconds
@@ -99,33 +110,24 @@ def test_robots_that_announce_themselves_are_driven_each_by_its_own_datagrams(si
         robot.announce()
     site.tick()
     for robot in (one, two):
-        robot.receive()
-        robot.report(flags=8)
+        robot.answer(flags=8)
     site.tick()
     assert one.obeyed
     assert one.obeyed == two.obeyed
     assert site.status() == [("R1", "ours"), ("R2", "ours")]
     assert site.network.boards == {0: 1, 1: 1}
-    assert {robot: (found.battery, found.flags) for robot, found in site.link.telemetry.items()} == {
-        0: (5.0, 8),
-        1: (5.0, 8),
-    }
+    assert [(found.robot, found.battery, found.flags) for found in site.link.telemetry.values()] == [
+        (0, 5.0, 8),
+        (1, 5.0, 8),
+    ]
     assert site.link.quality(0).echo == pytest.approx(0.02)
     assert site.link.fault is None
 
 
 def test_strangers_are_listed_and_never_driven(site):
-    robots = [
-        site.add(address=1, arena=78),
-        site.add(address=2, arena=0),
-        site.add(address=3, key=KEY[::-1]),
-    ]
+    robots = [site.meet(address=1, arena=78), site.meet(address=2, arena=0), site.meet(address=3, key=KEY[::-1])]
     for robot in robots:
-        robot.announce()
-    site.tick()
-    for robot in robots:
-        robot.receive()
-        robot.report()
+        robot.answer()
     site.tick()
     assert not any(robot.obeyed for robot in robots)
     assert sorted(site.status()) == [("R1", "foreign"), ("R2", "no_arena"), ("R3", "key")]
@@ -134,11 +136,8 @@ def test_strangers_are_listed_and_never_driven(site):
 
 
 def test_a_recorded_report_is_dropped(site):
-    robot = site.add()
-    robot.announce()
-    site.tick()
-    robot.receive()
-    robot.report()
+    robot = site.meet()
+    robot.answer()
     site.tick()
     heard, recorded = site.link.telemetry[0].received, robot.last
     site.add().send(recorded)
@@ -153,8 +152,7 @@ def test_a_robot_that_restarts_is_driven_again_and_its_recorded_past_is_void(sit
     recorded = robot.last
     for _ in range(3):
         site.tick()
-        robot.receive()
-        robot.report()
+        robot.answer()
     site.tick()
     site.tick()
     robot.reboot(b"ABCDEFG2")
@@ -183,8 +181,7 @@ def test_the_recorded_announcement_of_an_earlier_start_does_not_lock_a_robot_out
     for attempt in range(3):
         robot.announce()
         site.tick()
-        robot.receive()
-        robot.report()
+        robot.answer()
         site.tick(SILENT + 0.1)
         robot.send(recorded)
         site.tick()
@@ -205,8 +202,7 @@ def test_a_second_robot_with_the_same_number_waits_and_takes_over_when_the_first
     one, two = site.add(), site.add(nonce=b"12345678")
     one.announce()
     site.tick()
-    one.receive()
-    one.report()
+    one.answer()
     site.tick()
     two.announce()
     site.tick()
@@ -265,9 +261,7 @@ def test_a_port_in_use_is_a_fault(site, robots):
 
 
 def test_a_robot_whose_address_changes_is_heard_and_driven_at_the_new_one(site):
-    robot = site.add()
-    robot.announce()
-    site.tick()
+    robot = site.meet()
     robot.socket.close()
     robot.socket = site.add().socket
     robot.announce()
@@ -308,9 +302,7 @@ def test_strangers_that_have_gone_make_room_for_others(site):
 def test_no_datagram_of_a_stranger_disturbs_the_link_or_what_robots_obey(site):
     """Of every length and kind, and everything that a robot and the arcade have sent, damaged."""
     chance = Random(1)
-    robot = site.add()
-    robot.announce()
-    site.tick()
+    robot = site.meet()
     recorded = [robot.last, robot.socket.recv(256)]
     robot.report()
     recorded.append(robot.last)
@@ -347,9 +339,7 @@ def test_a_robot_at_the_end_of_its_counter_does_not_end_the_link(site, counter):
 
 @pytest.mark.parametrize("address", [0, 5, 255])
 def test_a_robot_with_a_number_that_no_robot_has_is_listed_only(site, address):
-    robot = site.add(address=address)
-    robot.announce()
-    site.tick()
+    robot = site.meet(address=address)
     site.tick()
     robot.receive()
     assert not robot.obeyed

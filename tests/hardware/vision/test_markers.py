@@ -10,6 +10,7 @@ from pigaming_app.hardware.vision.sharpness import blur_of, overexposed
 from tests.hardware.pictures import SIZE, lids, speckled, square
 
 IDS = (0, 1, 2, 3, *ROBOT_IDS)
+FINE = 8  # texels per px
 
 
 def test_markers_of_others_are_not_looked_at():
@@ -106,26 +107,18 @@ def test_near_the_edge_of_the_picture_a_marker_is_found_if_it_is_all_there():
 
 
 @pytest.mark.parametrize(
-    ("corners", "ids"),
+    ("corners", "ids", "numbers"),
     [
-        ([np.full((1, 4, 2), 7.0, np.float32)], np.array([[5]], np.int32)),  # OpenCV 4
-        (np.full((1, 4, 2), 7.0, np.float32), np.array([5], np.int32)),  # OpenCV 5
+        ([np.full((1, 4, 2), 7.0, np.float32)], np.array([[5]], np.int32), [5]),  # OpenCV 4
+        (np.full((1, 4, 2), 7.0, np.float32), np.array([5], np.int32), [5]),  # OpenCV 5
+        ((), None, []),
+        ([], np.zeros((0, 1), np.int32), []),
     ],
 )
-def test_both_lines_of_opencv_are_read_alike(corners, ids):
-    found, numbers = detections(corners, ids)
-    assert found.shape == (1, 4, 2)
-    assert numbers.tolist() == [5]
-
-
-@pytest.mark.parametrize(("corners", "ids"), [((), None), ([], np.zeros((0, 1), np.int32))])
-def test_no_markers_are_an_empty_list_in_both(corners, ids):
-    found, numbers = detections(corners, ids)
-    assert found.shape == (0, 4, 2)
-    assert numbers.shape == (0,)
-
-
-FINE = 8  # texels per px
+def test_both_lines_of_opencv_are_read_alike(corners, ids, numbers):
+    found, named = detections(corners, ids)
+    assert found.shape == (len(numbers), 4, 2)
+    assert named.tolist() == numbers
 
 
 @pytest.mark.parametrize("blur", [0.6, 1.2, 2.2, 3.0])
