@@ -20,7 +20,7 @@ from pigaming_app.hardware.vision.markers import opencv
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.messages import OperatorMessage
 
-LOWEST, HIGHEST = 500.0, 10000.0  # mm, of a camera over a mat
+LOWEST, HIGHEST = 500.0, 10000.0  # mm, of a camera or a projector over a mat
 FOCAL = 0.3, 4.0  # limits, in picture widths: from a fish-eye to a telephoto lens
 MAX_MISFIT = 20.0  # mm RMS on the mat: the projected image is not quite a rectangle
 PICTURES = 6  # of a marker at rest
@@ -57,18 +57,27 @@ def height_by_robot(
 ) -> GroundPlane:
     """The ground with the camera's foot and height, from a robot at `places` (arena px) observed at `seen` (camera px).
 
-    A point `lid` mm above p appears over C + (p - C) s, s = H / (H - lid): linear in s and in (1 - s) C. Raises
-    CalibrationError.
+    Raises CalibrationError.
     """
     there, apparent = np.array(places, dtype=np.float64), ground.on_mat(np.array(seen, dtype=np.float64))
     if len(there) < 2 or float(there.std(axis=0).max()) < 100.0:
         raise CalibrationError(OperatorMessage("places"))
-    away = there - there.mean(axis=0)
-    grown = float((away * (apparent - apparent.mean(axis=0))).sum() / (away * away).sum())
-    if not ground.lid / HIGHEST < grown - 1.0 < ground.lid / (LOWEST - ground.lid):
+    if (found := foot_and_height(there, apparent, ground.lid)) is None:
         raise CalibrationError(OperatorMessage("beside"))
-    foot = (apparent.mean(axis=0) - grown * there.mean(axis=0)) / (1.0 - grown)
-    return replace(ground, foot=(float(foot[0]), float(foot[1])), height=ground.lid * grown / (grown - 1.0))
+    return replace(ground, foot=found[0], height=found[1])
+
+
+def foot_and_height(there: Points, cast: Points, lid: float) -> tuple[tuple[float, float], float] | None:
+    """Foot C and height H (mm) of an eye or a lamp that casts points `lid` mm above `there` on the mat at `cast`.
+
+    A point above p is cast at C + (p - C) s, s = H / (H - lid): linear in s and in (1 - s) C. None if implausible.
+    """
+    away = there - there.mean(axis=0)
+    grown = float((away * (cast - cast.mean(axis=0))).sum() / (away * away).sum())
+    if not lid / HIGHEST < grown - 1.0 < lid / (LOWEST - lid):
+        return None
+    foot = (cast.mean(axis=0) - grown * there.mean(axis=0)) / (1.0 - grown)
+    return (float(foot[0]), float(foot[1])), lid * grown / (grown - 1.0)
 
 
 class TwoHeights:

@@ -12,7 +12,7 @@ import numpy as np
 from pigaming_app.hardware.calibration.boards import ARENA_AT, LIGHT
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane, Points
 from pigaming_app.hardware.signals import CameraFrame, DetectedMarker, Image
-from pigaming_app.hardware.vision.markers import CORNER_IDS, MarkerDetector, SearchWindow, dictionary, mean_edge, opencv
+from pigaming_app.hardware.vision.markers import CORNER_IDS, MarkerDetector, dictionary, opencv, window_around
 
 WARN, PAUSE = 5.0, 15.0  # mm
 PICTURES = 10  # of the median
@@ -33,7 +33,7 @@ class DriftMonitor:
             number: place - np.array(ARENA_AT) for number, place in zip(CORNER_IDS, _centres(), strict=True)
         }
         self._seen = {number: self._outline(number) for number in CORNER_IDS}  # last seen
-        self._spots = {number: _spot(mark) for number, mark in self._seen.items()}
+        self._spots = {number: window_around(mark, 1.3) for number, mark in self._seen.items()}
         self._misses: dict[int, deque[Points]] = {number: deque(maxlen=PICTURES) for number in CORNER_IDS}
         self._looked = self._local_search = self._full_search = float("-inf")
 
@@ -85,12 +85,6 @@ class DriftMonitor:
         half = EDGE / 2.0
         square = half * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
         return DetectedMarker(number, self.ground.to_camera(self._places[number] + square))
-
-
-def _spot(mark: DetectedMarker) -> SearchWindow:
-    """The search window round a marker's last position."""
-    (x, y), edge = mark.corners.mean(axis=0).tolist(), mean_edge(mark.corners)
-    return SearchWindow(x, y, 1.3 * edge, edge)
 
 
 def corner_markers() -> list[tuple[int, int, Image]]:

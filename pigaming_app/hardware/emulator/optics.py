@@ -97,14 +97,15 @@ def _lit_by(lens: TrueLens, turn: bytes, to_canvas: bytes, height: float) -> tup
     """Like `Optics.lit_by`, shared by all arenas with the same lens."""
     rays, up = _rays(lens, turn), np.float32(lens.eye[2] - height)
     x, y = lens.eye[0] + rays[..., 0] * up, lens.eye[1] + rays[..., 1] * up
-    lamp, grow = LAMP.astype(np.float32), np.float32(LAMP[2] / (LAMP[2] - height))
+    return canvas_px(np.frombuffer(to_canvas).reshape(3, 3), x, y, np.float32(LAMP[2] / (LAMP[2] - height)))
+
+
+def canvas_px(to_canvas: Floats, x: Map, y: Map, grow: np.float32 | Map) -> tuple[Map, Map]:
+    """The canvas px that light these points, (x, y) of each; `grow`: by how far the lamp's rays lead on to the mat."""
+    lamp, h = LAMP.astype(np.float32), to_canvas.astype(np.float32)
     x, y = lamp[0] + (x - lamp[0]) * grow, lamp[1] + (y - lamp[1]) * grow
-    h = np.frombuffer(to_canvas).reshape(3, 3).astype(np.float32)
     below = h[2, 0] * x + h[2, 1] * y + h[2, 2]
-    return (
-        (h[0, 0] * x + h[0, 1] * y + h[0, 2]) / below,
-        (h[1, 0] * x + h[1, 1] * y + h[1, 2]) / below,
-    )
+    return (h[0, 0] * x + h[0, 1] * y + h[0, 2]) / below, (h[1, 0] * x + h[1, 1] * y + h[1, 2]) / below
 
 
 @lru_cache(maxsize=2)

@@ -77,18 +77,17 @@ class SceneRenderer:
         optics: Optics,
         seed: int,
         refresh: int = 1,
-        noise: float = NOISE,
         size: tuple[int, int] = SENSOR,
         defocus: float = 0.0,
         jpeg: int = 0,
     ) -> None:
-        """`refresh`: interval of complete pictures; `noise`: grey levels, standard deviation.
+        """`refresh`: interval of complete pictures.
 
         `size`: px of the delivered pictures, scaled from the sensor's; `defocus`: px of them, standard deviation;
         `jpeg`: quality of their compression, 0: none.
         """
         self.refresh, self.size, self.jpeg = refresh, size, jpeg
-        self._blur, noise = defocus * SENSOR[0] / size[0], noise * SENSOR[0] / size[0]  # scaling averages noise
+        self._blur, noise = defocus * SENSOR[0] / size[0], NOISE * SENSOR[0] / size[0]  # scaling averages noise
         self.ambient = 1.0  # share of the room light
         self._seed = seed
         random = np.random.default_rng(seed)

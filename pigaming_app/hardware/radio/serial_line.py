@@ -9,7 +9,7 @@ import errno
 import re
 from collections.abc import Callable
 from contextlib import suppress
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import Any, NamedTuple
 
 from pigaming_app.hardware.signals import Clock, SerialPort
 from pigaming_app.storage.messages import OperatorMessage
@@ -28,13 +28,6 @@ WRITE_TIMEOUT = 0.05  # s
 STUCK = 1.0  # s without a successful write after which a port is reported
 
 OpenPort = Callable[[], SerialPort]
-
-
-@runtime_checkable
-class BufferedPort(Protocol):
-    """A port with an output buffer that can be flushed, like pyserial's."""
-
-    def reset_output_buffer(self) -> None: ...
 
 
 ERRORS = {
@@ -165,14 +158,14 @@ class SerialLine:
             with suppress(*FAILURES):
                 port.close()
 
-    def _timed_out(self, port: SerialPort) -> None:
+    def _timed_out(self, port: Any) -> None:
         """Handle a write timeout: flush the buffer, as its commands would arrive stale."""
         now = self._clock()
         if self._blocked_since is None:
             self._blocked_since = now
         if now - self._blocked_since >= STUCK:
             self.fault = radio_message("stuck", self.name)
-        if isinstance(port, BufferedPort):
+        if hasattr(port, "reset_output_buffer"):
             try:
                 port.reset_output_buffer()
             except FAILURES:

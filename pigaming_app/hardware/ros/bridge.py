@@ -5,8 +5,7 @@ from typing import Any
 
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.hardware.ros.node import RosNode
-from pigaming_app.hardware.ros.units import ArenaFrame
+from pigaming_app.hardware.ros.node import ArenaFrame, RosNode
 from pigaming_app.hardware.signals import Clock
 from pigaming_app.sim.plant import Twist
 from pigaming_app.sim.world import DT, ROBOTS, World

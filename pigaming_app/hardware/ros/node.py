@@ -6,11 +6,13 @@ right and y up, headings and turns counter-clockwise (REP 103).
 
 import sys
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from http.client import HTTPConnection, HTTPException
-from math import atan2, cos, sin
+from math import atan2, cos, sin, tau
 from typing import Any
 from xmlrpc.client import Error, ServerProxy, Transport
 
+from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 SYSTEM = "/usr/lib/python3/dist-packages"  # where Debian installs rospy
@@ -122,11 +124,11 @@ class RosNode:
         """Call `handle` with every std_msgs String on /key_input."""
         self._subscribe("/key_input", self._standard.String, lambda keys: handle(keys.data))
 
-    def publish_pose(self, robot: int, pose: Pose, age: float = 0.0) -> None:
-        """Publish a pose that is `age` s old."""
+    def publish_pose(self, robot: int, pose: Pose) -> None:
+        """Publish a pose of now."""
         message = self._geometry.PoseStamped()
         message.header.frame_id = FRAME
-        message.header.stamp = self._ros.Time.now() - self._ros.Duration.from_sec(age)
+        message.header.stamp = self._ros.Time.now()
         message.pose.position.x, message.pose.position.y = pose[0], pose[1]
         message.pose.orientation.z, message.pose.orientation.w = sin(0.5 * pose[2]), cos(0.5 * pose[2])
         self._publish(topic_of(robot, "pose"), message)
@@ -171,3 +173,36 @@ def _flat(pose: Any) -> Pose:
     at, turn = pose.position, pose.orientation
     heading = atan2(2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y * turn.y + turn.z * turn.z))
     return at.x, at.y, heading
+
+
+@dataclass(frozen=True)
+class ArenaFrame:
+    """The arena's frame in ROS: its px, y down and clockwise, to m, y up and counter-clockwise, and back.
+
+    `mm`: mm of the mat per arena px.
+    """
+
+    mm: float
+
+    @classmethod
+    def of_width(cls, mm: float) -> "ArenaFrame":
+        """The frame of an arena so many mm wide."""
+        return cls(mm / WIDTH)
+
+    def to_ros(self, pose: Pose) -> Pose:
+        """Pose in m and rad."""
+        m = 1e-3 * self.mm
+        return pose[0] * m, (HEIGHT - pose[1]) * m, -pose[2]
+
+    def from_ros(self, pose: Pose) -> Pose:
+        """Pose in arena px and rad, its heading from 0 to a whole turn."""
+        px = 1e3 / self.mm
+        return pose[0] * px, HEIGHT - pose[1] * px, -pose[2] % tau
+
+    def twist_to_ros(self, twist: Twist) -> Twist:
+        """Speeds in m/s and rad/s."""
+        return 1e-3 * self.mm * twist[0], -twist[1]
+
+    def twist_from_ros(self, twist: Twist) -> Twist:
+        """Speeds in px/s and rad/s."""
+        return 1e3 / self.mm * twist[0], -twist[1]

@@ -13,8 +13,7 @@ import numpy as np
 
 from pigaming_app.hardware.radio.link import BEAT, FAREWELLS, PATIENCE, CommandLink
 from pigaming_app.hardware.radio.protocol import LinkQuality
-from pigaming_app.hardware.ros.node import Pose, RosNode
-from pigaming_app.hardware.ros.units import ArenaFrame
+from pigaming_app.hardware.ros.node import ArenaFrame, Pose, RosNode
 from pigaming_app.hardware.signals import CameraFrame, Clock, ExposureState, Fix, Telemetry, WheelCommand
 from pigaming_app.hardware.tracking.pose_filters import PoseFilters
 from pigaming_app.sim.drivetrain import Drivetrain, twist

@@ -6,7 +6,7 @@ was for TIMEOUT. Two blocks with the same number are two walls.
 """
 
 from dataclasses import dataclass
-from math import atan2, cos, hypot, inf, pi, sin
+from math import atan2, cos, hypot, inf, sin
 
 import numpy as np
 
@@ -15,11 +15,12 @@ from pigaming_app.hardware.calibration.marker_sheet import BLOCK_SIZES
 from pigaming_app.hardware.control.moving_things import MovingThings, Things
 from pigaming_app.hardware.scan.things import Outline, Thing, ThingKind
 from pigaming_app.hardware.signals import CameraFrame, DetectedMarker
-from pigaming_app.hardware.vision.markers import MarkerDetector, SearchWindow, mean_edge
+from pigaming_app.hardware.vision.markers import MarkerDetector, window_around
+from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.things.spec import MOST
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
-BLOCK_HEIGHT = 50.0  # mm, unless the caller gives another
+BLOCK_HEIGHT = 50.0  # mm
 TIMEOUT = 1.0  # s without sight, after which a block is gone
 SEARCH = 0.1  # s between two searches of the whole picture
 LOST = 0.25  # s for which a block that is out of sight is searched near its last place
@@ -39,7 +40,6 @@ class Block:
     heading: float
     mark: DetectedMarker
     seen: float  # s
-    height: float  # mm
     size: tuple[float, float]  # mm
 
     def outline(self, mm: float) -> Outline:
@@ -51,7 +51,7 @@ class Block:
 
     def follow(self, x: float, y: float, heading: float) -> None:
         """Move to a measured pose."""
-        turn = (heading - self.heading + pi) % (2.0 * pi) - pi
+        turn = turn_to(heading - self.heading)
         share = SMOOTH if hypot(x - self.x, y - self.y) < STILL and abs(turn) < TURN else 1.0
         self.x, self.y = self.x + share * (x - self.x), self.y + share * (y - self.y)
         self.heading += share * turn
@@ -60,20 +60,20 @@ class Block:
 class BlockTracker:
     """The blocks on one mat. `things` is what games get. Raises OpenCVMissing."""
 
-    def __init__(self, ground: GroundPlane, height: float = BLOCK_HEIGHT) -> None:
-        self.ground, self.height = ground, height
+    def __init__(self, ground: GroundPlane) -> None:
+        self.ground = ground
         self.blocks: list[Block] = []
         self._markers = MarkerDetector(BLOCK_SIZES)
         self._searched = -inf
         middle = np.array([(WIDTH / 2.0, HEIGHT / 2.0), (WIDTH / 2.0 + MARKER / ground.mm, HEIGHT / 2.0)])
-        self._edge = float(np.hypot(*np.diff(ground.to_camera(middle, height), axis=0)[0]))  # px, expected
+        self._edge = float(np.hypot(*np.diff(ground.to_camera(middle, BLOCK_HEIGHT), axis=0)[0]))  # px, expected
 
     @property
     def things(self) -> list[Thing]:
         """The blocks as walls, in the order of their numbers."""
         mm = self.ground.mm
         return [
-            Thing(ThingKind.TALL, tuple((x, y) for x, y in block.outline(mm).tolist()), block.height, MARGIN / mm)
+            Thing(ThingKind.TALL, tuple((x, y) for x, y in block.outline(mm).tolist()), BLOCK_HEIGHT, MARGIN / mm)
             for block in sorted(self.blocks, key=lambda block: block.number)
         ]
 
@@ -92,8 +92,7 @@ class BlockTracker:
         found = []
         for block in self.blocks:
             if frame.captured - block.seen < LOST:
-                (x, y), edge = block.mark.corners.mean(axis=0).tolist(), mean_edge(block.mark.corners)
-                mark = self._markers.detect_in(frame.image, SearchWindow(x, y, 1.6 * edge, edge), block.number)
+                mark = self._markers.detect_in(frame.image, window_around(block.mark, 1.6), block.number)
                 found += [mark] if mark is not None else []
         return found
 
@@ -111,14 +110,14 @@ class BlockTracker:
 
     def _fix(self, mark: DetectedMarker, captured: float) -> Block | None:
         """The block under a marker, unless the marker is not on a block."""
-        corners = self.ground.at_height(mark.corners, self.height)
+        corners = self.ground.at_height(mark.corners, BLOCK_HEIGHT)
         sides = np.hypot(*(corners - np.roll(corners, 1, axis=0)).T) * self.ground.mm
         if sides.max() > SKEW_TOLERANCE * sides.min() or abs(sides.mean() / MARKER - 1.0) > SIZE_TOLERANCE:
             return None
         x, y = corners.mean(axis=0).tolist()
         right = corners[1] + corners[2] - corners[0] - corners[3]
         heading = atan2(right[1], right[0])
-        return Block(mark.number, x, y, heading, mark, captured, self.height, BLOCK_SIZES[mark.number])
+        return Block(mark.number, x, y, heading, mark, captured, BLOCK_SIZES[mark.number])
 
 
 def _apart(one: Block, other: Block) -> float:

@@ -1,7 +1,4 @@
-"""The projector's place over the mat, from robots: their lids are at a known height, and fringes show what lights them.
-
-A point p on a lid is lit by the canvas px L + (p - L) s, s = G / (G - lid): linear in s and in (1 - s) L.
-"""
+"""The projector's place over the mat, from robots: lids are at a known height, and fringes show what lights them."""
 
 from collections.abc import Sequence
 from math import hypot
@@ -9,6 +6,7 @@ from math import hypot
 import numpy as np
 
 from pigaming_app.hardware.calibration.boards import ARENA_AT, CANVAS
+from pigaming_app.hardware.calibration.camera_position import foot_and_height
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.scan.heights import Rectified, displacements
 from pigaming_app.hardware.scan.things import ProjectorPlace
@@ -18,7 +16,6 @@ from pigaming_app.storage.messages import OperatorMessage
 LID_RADIUS = 40.0  # mm, the part of a lid that is surely lid
 FEWEST, APART = 2, 400.0  # robots, and the distance of two of them, px
 FAINT = 4.0  # grey levels, amplitude of the fringes below which a px is ignored
-NEAREST, FARTHEST = 500.0, 10000.0  # mm, plausible heights of a projector
 
 Place = tuple[float, float]  # arena px
 
@@ -32,12 +29,9 @@ def projector_place(pictures: Rectified, robots: Sequence[Place]) -> ProjectorPl
     if len(pairs) < FEWEST:
         raise CalibrationError(OperatorMessage("projector_robots"))
     there, light = (np.array(column) for column in zip(*pairs, strict=True))
-    away = there - there.mean(axis=0)
-    grown = float((away * (light - light.mean(axis=0))).sum() / (away * away).sum())
-    if not ground.lid / FARTHEST < grown - 1.0 < ground.lid / (NEAREST - ground.lid):
+    if (found := foot_and_height(there, light, ground.lid)) is None:
         raise CalibrationError(OperatorMessage("projector_robots"))
-    foot = (light.mean(axis=0) - grown * there.mean(axis=0)) / (1.0 - grown)
-    return ProjectorPlace((float(foot[0]), float(foot[1])), ground.lid * grown / (grown - 1.0))
+    return ProjectorPlace(*found)
 
 
 def _light(pictures: Rectified, ground: GroundPlane, robot: Place) -> tuple[Place, Place] | None:

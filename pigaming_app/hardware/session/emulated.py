@@ -12,7 +12,7 @@ from pigaming_app.hardware.calibration.procedure import Calibration
 from pigaming_app.hardware.calibration.solver import with_verification
 from pigaming_app.hardware.control.rig import UNMEASURED, Rig
 from pigaming_app.hardware.emulator.arena import SHOWS_AFTER, STARTS, EmulatedArena
-from pigaming_app.hardware.emulator.camera import CameraTraits, FrameTiming
+from pigaming_app.hardware.emulator.camera import FrameTiming
 from pigaming_app.hardware.emulator.radio import MODERATE, RadioChannel
 from pigaming_app.hardware.emulator.realtime import PacedArena
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
@@ -51,7 +51,7 @@ class EmulatedSession(RobotSession):
 
     `projection` is `Canvas.projection` and selects the calibration saved by the wizard; if it returns None, the
     session uses `ground`, or else a calibration made with the arena. `lighting` lights the mat where no window calls
-    `show`. `timing`, `traits`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of
+    `show`. `timing`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of
     camera and radio. With `wifi` the robots are boards on such a network and run their own program, else they have
     XBees. `things`: number of random real things on the mat, at most 8; the wizard takes them away.
     """
@@ -69,14 +69,12 @@ class EmulatedSession(RobotSession):
         exposure_jitter: float = 0.0,
         ground: GroundPlane | None = None,
         tracker: type[Tracker] | None = None,
-        traits: CameraTraits | None = None,
         wifi: WifiChannel | None = None,
         things: int = 0,
     ) -> None:
         self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
         self._wifi = wifi
         self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
-        self._traits = traits
         self._refresh: int | None = None  # usual interval of complete renders, while every one is complete
         self._count = things
         self._things: list[Prism] = []  # to stand on the mat
@@ -219,7 +217,6 @@ class EmulatedSession(RobotSession):
             self._channel or MODERATE,
             refresh,
             self._exposure_jitter,
-            traits=self._traits,
         )
         self._made = self._made or calibrated(arena)
         if self._count:

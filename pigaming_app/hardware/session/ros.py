@@ -48,9 +48,8 @@ class RosSession(RobotSession):
         if self._rig is None:
             from pigaming_app.hardware.control.kinematics import Kinematics
             from pigaming_app.hardware.control.rig import UNMEASURED, Rig
-            from pigaming_app.hardware.ros.node import STATE, RosNode, RosUnavailable, topic_of
+            from pigaming_app.hardware.ros.node import STATE, ArenaFrame, RosNode, RosUnavailable, topic_of
             from pigaming_app.hardware.ros.robots import RosLink, RosPoses
-            from pigaming_app.hardware.ros.units import ArenaFrame
 
             try:
                 self._node = RosNode("pigaming", [*(topic_of(robot, "cmd_vel") for robot in range(ROBOTS)), STATE])

@@ -48,6 +48,12 @@ class SearchWindow(NamedTuple):
     edge: float
 
 
+def window_around(mark: DetectedMarker, reach: float) -> SearchWindow:
+    """The window to search for a marker that moves little; `reach`: half its width, in edges."""
+    (x, y), edge = mark.corners.mean(axis=0).tolist(), mean_edge(mark.corners)
+    return SearchWindow(x, y, reach * edge, edge)
+
+
 class MarkerDetector:
     """Detector of the markers with these ids. Raises OpenCVMissing.
 

@@ -8,7 +8,6 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
 from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.mat.fault_icons import sign
-from pigaming_app.scenes.mat.robots.interrupted import MatchOf
 from pigaming_app.scenes.mat.things.arena_page import ArenaPage
 from pigaming_app.scenes.mat.things.outlines import boxes
 from pigaming_app.scenes.pages.sheet import Sheet
@@ -23,12 +22,25 @@ from pigaming_app.ui.widgets.dialog import HEAD, ICON, ROOM, TEXT_X
 UNCALIBRATED = ("none", "damaged", "changed", "version", "other_display")  # messages that require calibration
 
 
-class UnavailablePage(Sheet):
+class BeforeMatchPage(Sheet):
+    """A sheet for those who were about to play."""
+
+    color = ALARM
+
+    def __init__(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> None:
+        self.setup, self.devices = setup, devices
+        self.access = Access(context, lambda: self.devices)
+        super().__init__(context, gate=self.access)
+
+    def on_enter(self) -> None:
+        self.context.sounds.play("error")
+
+
+class UnavailablePage(BeforeMatchPage):
     """Real robots are not available: try again, or play with simulated ones. `message`: the reason; `match_of`: match
     factory for a set of real seats.
     """
 
-    color = ALARM
     hints = ((Button.FIRE, "mat.hint_simulated"), (Button.X, "mat.hint_again"), (Button.BACK, "mat.hint_leave"))
 
     def __init__(
@@ -38,15 +50,10 @@ class UnavailablePage(Sheet):
         devices: Sequence[Device | None],
         real: Collection[int],
         message: OperatorMessage,
-        match_of: MatchOf,
+        match_of: Callable[..., Scene],
     ) -> None:
-        self.setup, self.devices, self.real, self.reason = setup, devices, real, message
-        self.match_of = match_of
-        self.access = Access(context, lambda: self.devices)
-        super().__init__(context, gate=self.access)
-
-    def on_enter(self) -> None:
-        self.context.sounds.play("error")
+        super().__init__(context, setup, devices)
+        self.real, self.reason, self.match_of = real, message, match_of
 
     def press(self, event: InputEvent) -> StackOperation:
         """FIRE plays with simulated robots, X retries."""
@@ -66,12 +73,11 @@ class UnavailablePage(Sheet):
         write_lines(layer, words("mat.calibrate" if lost else "mat.anyway"), TEXT_X, y + 16, ROOM, MIST)
 
 
-class UnplayablePage(Sheet):
+class UnplayablePage(BeforeMatchPage):
     """An arena cannot be played with the things on the mat: build again, or play without them. `again` and `without`
     make the match with the things, as they are then, and without.
     """
 
-    color = ALARM
     hints = ((Button.FIRE, "things.hint_build"), (Button.X, "things.hint_without"), (Button.BACK, "mat.hint_leave"))
 
     def __init__(
@@ -82,14 +88,13 @@ class UnplayablePage(Sheet):
         again: Callable[[], Scene],
         without: Callable[[], Scene],
     ) -> None:
-        self.setup, self.devices, self.again, self.without = setup, devices, again, without
+        super().__init__(context, setup, devices)
+        self.again, self.without = again, without
         self.building = False
-        self.access = Access(context, lambda: self.devices)
-        super().__init__(context, gate=self.access)
 
     def on_enter(self) -> None:
         if not self.building:
-            self.context.sounds.play("error")
+            super().on_enter()
 
     def press(self, event: InputEvent) -> StackOperation:
         """FIRE builds again, X plays without the things."""

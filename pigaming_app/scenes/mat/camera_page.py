@@ -1,7 +1,7 @@
 """The page with the picture of the camera over the mat."""
 
 from collections.abc import Sequence
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import pygame
 
@@ -11,23 +11,15 @@ from pigaming_app.scenes.flow.stack import Scene
 BOX: Box = (60, 34, 1800, 1012)
 
 
-@runtime_checkable
-class CameraScene(Protocol):
-    """A scene with a camera; `camera_image`: its newest picture, grey, (height, width), or None."""
-
-    @property
-    def camera_image(self) -> Any: ...
-
-
 class CameraPage:
-    """Has something to show in matches with real or emulated robots."""
+    """Has something to show in matches with real or emulated robots, whose scenes have a `camera_image`."""
 
     name = "camera"
 
     def parts(self, scenes: Sequence[Scene]) -> Sequence[BoardPart] | None:
         """The newest picture."""
-        scene = next((scene for scene in reversed(scenes) if isinstance(scene, CameraScene)), None)
-        image = scene.camera_image if scene is not None else None
+        scene = next((scene for scene in reversed(scenes) if hasattr(scene, "camera_image")), None)
+        image: Any = getattr(scene, "camera_image", None)
         return None if image is None else [BoardPart(BOX, Picture(image), lambda surface: _picture(image, surface))]
 
 

@@ -21,12 +21,12 @@ from pigaming_app.hardware.emulator.things.contact import Obstacle, distance, ob
 from pigaming_app.hardware.emulator.things.prism import Prism
 from pigaming_app.hardware.emulator.things.random_scene import some_things
 from pigaming_app.hardware.proof import testbed
-from pigaming_app.hardware.proof.things_watch import scanned
 from pigaming_app.hardware.proof.trials import play
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.things.spec import ThingSpec, Use, written
 from pigaming_app.sim.world import HZ, ROBOTS
 from tests.cases import repeated
+from tests.hardware.proof.things_watch import scanned
 
 RAM, BACK = 3 * HZ, HZ  # ticks for which a player drives at a thing at most, and away from it
 SPEEDS = (1.0, 1.0, 0.7, 0.4)  # of the stick

@@ -8,10 +8,10 @@ import pytest
 from pigaming_app.hardware.emulator import renderer
 from pigaming_app.hardware.emulator.things.prism import TAPE, box
 from pigaming_app.hardware.proof.things import ThingsBed, compare, distances, trial
-from pigaming_app.hardware.proof.things_watch import BETWEEN, WatchedMatch
 from pigaming_app.hardware.scan.things import ThingKind
 from pigaming_app.jobs.bench.robots import TARGETS
 from tests.cases import repeated
+from tests.hardware.proof.things_watch import BETWEEN, WatchedMatch
 
 
 def test_outlines_apart_by_a_millimetre_on_all_sides_differ_by_one():

@@ -16,9 +16,8 @@ import pytest
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import UNMEASURED, Rig
 from pigaming_app.hardware.ros import node as node_module
-from pigaming_app.hardware.ros.node import RosUnavailable, require_roscore
+from pigaming_app.hardware.ros.node import ArenaFrame, RosUnavailable, require_roscore
 from pigaming_app.hardware.ros.robots import RosLink, RosPoses
-from pigaming_app.hardware.ros.units import ArenaFrame
 from pigaming_app.hardware.session.robot_session import cause_of
 from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.sim.world import DT, ROBOTS, World

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.emulator.objects import BLACK, MARKER, WHITE
-from pigaming_app.hardware.emulator.optics import LAMP, SENSOR, Floats, Optics
+from pigaming_app.hardware.emulator.optics import LAMP, SENSOR, Floats, Optics, canvas_px
 from pigaming_app.hardware.emulator.things.prism import TEXELS, Map, Prism, cut, texture
 from pigaming_app.hardware.signals import Image
 
@@ -102,7 +102,7 @@ def _patch(window: tuple[slice, slice], things: Sequence[Prism], optics: Optics,
     lamp *= (np.float32(LAMP[2]) / (np.float32(LAMP[2]) - z)) ** 2
     for number, thing in enumerate(things):
         lamp[_blocks(thing, at_x, at_y, z) & (owner != number)] = 0.0
-    canvas = _canvas(optics, at_x, at_y, z)
+    canvas = canvas_px(optics.to_canvas, at_x, at_y, np.float32(LAMP[2]) / (np.float32(LAMP[2]) - z))
     size = shape[::-1]
     small = cv2.GaussianBlur(cv2.resize(room, size, interpolation=cv2.INTER_AREA), (5, 5), 0.7)
     height = cv2.resize(z, size, interpolation=cv2.INTER_AREA)
@@ -161,16 +161,6 @@ def _may_meet(thing: Prism, x: Map, y: Map, lowest: float, source: Sequence[floa
         if last < min(corners) or first > max(corners):
             return False
     return True
-
-
-def _canvas(optics: Optics, x: Map, y: Map, z: Map) -> tuple[Map, Map]:
-    """The canvas px that light these points."""
-    lamp_x, lamp_y, lamp_z = (np.float32(value) for value in LAMP)
-    grow = lamp_z / (lamp_z - z)
-    x, y = lamp_x + (x - lamp_x) * grow, lamp_y + (y - lamp_y) * grow
-    h = optics.to_canvas.astype(np.float32)
-    below = h[2, 0] * x + h[2, 1] * y + h[2, 2]
-    return (h[0, 0] * x + h[0, 1] * y + h[0, 2]) / below, (h[1, 0] * x + h[1, 1] * y + h[1, 2]) / below
 
 
 def _fine(axis: Map) -> Map:

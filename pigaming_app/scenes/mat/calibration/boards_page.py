@@ -3,6 +3,8 @@
 A row of boxes in the margin below the markers counts the pictures taken; it is dark on the board's light.
 """
 
+import math
+
 import pygame
 
 from pigaming_app.hardware.calibration.boards import LIGHT, CalibrationBoard
@@ -10,22 +12,26 @@ from pigaming_app.hardware.calibration.procedure import Calibration
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
 from pigaming_app.scenes.mat.calibration.height_page import HeightPage
 from pigaming_app.scenes.mat.calibration.result_page import CalibrationResult, ResultPage
+from pigaming_app.scenes.pages.page import Page
 from pigaming_app.ui.draw.pixels import grey_surface
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.input.events import Button, InputEvent
 
 BOX, GAP, FOOT = 26, 8, 1062  # px: size and gap of the progress boxes, y of their row
 GREY, DONE = (150, 150, 150), (20, 20, 20)
 
 
-class BoardsPage:
+class BoardsPage(Page):
     """One run of the calibration."""
 
+    idle = math.inf
+    hints = ()
+
     def __init__(self, context: Context, site: CalibrationSite, number: int, measures: Measurements) -> None:
-        self.context, self.site, self.number, self.measures = context, site, number, measures
+        super().__init__(context)
+        self.site, self.number, self.measures = site, number, measures
         self.work = Calibration(site, number, measures, context.canvas.projection)
         self.work.begin()
 
@@ -36,15 +42,7 @@ class BoardsPage:
         """Release the camera."""
         self.work.close()
 
-    def handle(self, event: InputEvent) -> StackOperation:
-        """BACK aborts."""
-        if event.button is Button.BACK:
-            self.context.sounds.play("back")
-            self.on_leave()
-            return Pop()
-        return None
-
-    def update(self, seconds: float) -> StackOperation:
+    def advance(self, seconds: float) -> StackOperation:
         """Poll the camera; switch to the result when done."""
         self.site.advance(seconds)
         self.work.pump()

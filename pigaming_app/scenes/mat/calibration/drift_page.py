@@ -56,10 +56,6 @@ class DriftPage(Page):
         """Release the camera."""
         self.work.close()
 
-    def leave(self) -> StackOperation:
-        self.on_leave()
-        return super().leave()
-
     def advance(self, seconds: float) -> StackOperation:
         self.site.advance(seconds)
         self.work.pump()

@@ -42,10 +42,6 @@ class HeightPage(Page):
         """Release the camera."""
         self.work.close()
 
-    def leave(self) -> StackOperation:
-        self.on_leave()
-        return super().leave()
-
     def advance(self, seconds: float) -> StackOperation:
         """Poll for the robot on the next spot; after the last, show the result."""
         work = self.work

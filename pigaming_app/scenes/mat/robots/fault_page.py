@@ -14,9 +14,8 @@ from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.fault_icons import sign
 from pigaming_app.scenes.mat.robots.flood_light import FloodLight, hint_line
-from pigaming_app.scenes.mat.robots.interrupted import InterruptedMatch
 from pigaming_app.scenes.mat.robots.pair_again import PairAgain
-from pigaming_app.scenes.mat.things.moved_page import MovedPage
+from pigaming_app.scenes.mat.things.moved_page import InterruptedMatch, MovedPage
 from pigaming_app.scenes.play.pause import Pause, sheet_title
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color

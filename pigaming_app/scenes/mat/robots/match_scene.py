@@ -22,7 +22,6 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
-from pigaming_app.scenes.mat.robots.interrupted import MatchOf
 from pigaming_app.scenes.mat.robots.real_robots import RealRobots
 from pigaming_app.scenes.mat.robots.swap_page import SwapPage
 from pigaming_app.scenes.mat.robots.take_places import TakePlaces
@@ -57,7 +56,7 @@ class RealMatch(MatchScene):
         devices: Sequence[Device | None],
         real: Collection[int],
         session: RobotSession,
-        match_of: MatchOf,
+        match_of: Callable[..., Scene],
         game_choice: SceneFactory | None = None,
         rounds: Rounds | None = None,
         arena: Arena | None = None,
@@ -150,7 +149,7 @@ class RealMatch(MatchScene):
         """Draw the match or the start positions; the discs last."""
         if self.gathering is None:
             super().draw(screen)
-            self.robots.draw_lights(screen, self.runner.view.things.cover)
+            self.robots.draw_overlay(screen, self.runner.view.things.cover)
             if not self.match.over:
                 self.watch.note(screen)
             return

@@ -4,6 +4,8 @@ The result is applied at once. If a robot did not spin as commanded, the page re
 and the match resumes.
 """
 
+import math
+
 import pygame
 
 from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
@@ -12,7 +14,8 @@ from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.robots.fleet_state import worst_finding
 from pigaming_app.scenes.mat.robots.flood_light import UNSEEN, FloodLight, looking
-from pigaming_app.scenes.mat.robots.interrupted import InterruptedMatch
+from pigaming_app.scenes.mat.things.moved_page import InterruptedMatch
+from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import ALARM, BODY, ICE
 from pigaming_app.ui.draw.text import paragraph, text
@@ -20,40 +23,44 @@ from pigaming_app.ui.input.events import Button, InputEvent
 
 LOOKS = 3.0  # s, timeout of the search before the first spin
 GOOD = (PairingCase.FITS, PairingCase.SWAPPED, PairingCase.ABSENT)
-TITLE_Y, PROMPTS_Y, SAID_Y = 42, 102, 480  # px
+TITLE_Y, SAID_Y = 42, 480  # px
 
 
-class PairAgain:
+class PairAgain(Page):
     """Pairing page over a match whose robots stand still."""
 
+    idle = math.inf
+    prompts_y, prompts_room, closing = 102, 1560, (Button.START,)
+
     def __init__(self, match: InterruptedMatch) -> None:
-        self.match, self.context = match, match.context
+        super().__init__(match.context)
+        self.match = match
         self.flood, self.timestep = FloodLight(), FixedTimestep()
         self.pairing: Pairing | None = None
         self.sentence = ""  # fault, once all have spun
         self.clock = 0.0
-        self.stop = self.context.prompts([(Button.BACK, "mat.hint_stop")], PROMPTS_Y, 1560)
-        self.after = self.context.prompts(
-            [(Button.FIRE, "mat.hint_retry"), (Button.BACK, "mat.hint_done")], PROMPTS_Y, 1560
-        )
 
-    def on_enter(self) -> None:
-        """Nothing to do."""
+    @property
+    def hints(self) -> Hints:
+        if self.sentence:
+            return (Button.FIRE, "mat.hint_retry"), (Button.BACK, "mat.hint_done")
+        return ((Button.BACK, "mat.hint_stop"),)
 
-    def handle(self, event: InputEvent) -> StackOperation:
+    def press(self, event: InputEvent) -> StackOperation:
         """FIRE repeats a finished pairing and aborts a running one; BACK, START and STOP abort at any time."""
-        event = (self.after if self.sentence else self.stop).as_button(event)
         if event.button is Button.FIRE and self.sentence:
             self.pairing, self.sentence, self.clock = None, "", 0.0
-        elif event.button in (Button.FIRE, Button.BACK, Button.START, Button.STOP):
-            self.match.plant.rig.send([None] * ROBOTS)
-            if event.button is Button.STOP:
-                self.match.plant.safety.all_stop()
-            self.context.sounds.play("back")
-            return Pop()
-        return None
+            return None
+        if event.button is Button.STOP:
+            self.match.plant.safety.all_stop()
+        return self.leave() if event.button in (Button.FIRE, Button.STOP) else None
 
-    def update(self, seconds: float) -> StackOperation:
+    def leave(self) -> StackOperation:
+        """Stop the robots."""
+        self.match.plant.rig.send([None] * ROBOTS)
+        return super().leave()
+
+    def advance(self, seconds: float) -> StackOperation:
         """Search for all robots, then spin one after the other."""
         seconds = self.match.session.advance(seconds)
         self.clock += seconds
@@ -76,7 +83,7 @@ class PairAgain:
             return
         screen.fill((0, 0, 0))
         text(words("mat.pairing"), BODY, ICE, "body", "c", 1728).draw(screen, 960, TITLE_Y)
-        (self.after if self.sentence else self.stop).draw(screen)
+        self.prompts.draw(screen)
         for i, line in enumerate(paragraph(self.sentence, 1300, 3, ALARM, "c") if self.sentence else ()):
             line.draw(screen, 960, SAID_Y + 60 * i)
         self.flood.draw(screen, "")

@@ -6,6 +6,7 @@ from typing import Any
 
 import pygame
 
+from pigaming_app.games.match import Match
 from pigaming_app.hardware.control.match_recording import MatchRecorder
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.moving_things import MovingThings
@@ -19,7 +20,6 @@ from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.replays import reroute_of
 from pigaming_app.scenes.mat.robots.fault_page import fault_sentence
 from pigaming_app.scenes.mat.robots.marker_discs import MarkerDiscs
-from pigaming_app.scenes.mat.robots.match_state import match_state
 from pigaming_app.scenes.mat.things.match_watch import MatchWatch
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.sim.things.spec import ThingSpec
@@ -122,12 +122,8 @@ class RealRobots:
         self.stand_still(self.session.advance(seconds))
         self._publish()
 
-    def draw_overlay(self, screen: pygame.Surface) -> None:
-        """Draw the corner markers and the discs on top of everything."""
-        self.draw_lights(screen)
-
-    def draw_lights(self, screen: pygame.Surface, cover: Callable[[pygame.Surface], None] | None = None) -> None:
-        """Draw corner markers and discs; `cover`: draws what stands on the mat."""
+    def draw_overlay(self, screen: pygame.Surface, cover: Callable[[pygame.Surface], None] | None = None) -> None:
+        """Draw corner markers and discs on top of everything; `cover`: draws what stands on the mat."""
         if self.real:
             draw_corners(screen)
         self._discs.draw(screen, self.real, cover)
@@ -158,3 +154,40 @@ class RealRobots:
 def _reportable(fault: Fault) -> bool:
     """False for a robot that is only briefly hard to see."""
     return fault.response is not Response.HALF and (fault.pauses or fault.name in REPORTED_ONLY)
+
+
+def match_state(match: Match, faults: Sequence[Fault], waiting: bool) -> dict[str, Any]:
+    """The state of a match for programs that watch it, as values for JSON.
+
+    Lengths are arena px, y down; headings rad, clockwise; robots and seats count from 1.
+    """
+    state, setup = match.state, match.setup
+    return {
+        "game": setup.game,
+        "variant": setup.variant,
+        "arena": setup.arena,
+        "tick": int(state.tick),
+        "seconds": round(match.seconds, 2),
+        "seconds_left": round(match.seconds_left, 2),
+        "waiting": waiting,
+        "over": match.over,
+        "faults": [{"name": one.name, "robot": None if one.robot is None else one.robot + 1} for one in faults],
+        "robots": [
+            {
+                "robot": seat + 1,
+                "brain": setup.seats[seat].brain,
+                "team": int(robot.team),
+                "score": int(robot.score),
+                "x": round(robot.x, 2),
+                "y": round(robot.y, 2),
+                "heading": round(robot.heading, 4),
+            }
+            for seat, robot in enumerate(state.robots)
+            if robot.present
+        ],
+        "walls": [
+            [round(number, 1) for number in (wall.ax, wall.ay, wall.bx, wall.by, wall.half)]
+            for wall in state.walls[: state.wall_count]
+            if wall.health
+        ],
+    }

@@ -6,7 +6,7 @@ import pygame
 
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import StackOperation
-from pigaming_app.scenes.mat.robots.interrupted import InterruptedMatch
+from pigaming_app.scenes.mat.things.moved_page import InterruptedMatch
 from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import menu_spots, sheet_title
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge

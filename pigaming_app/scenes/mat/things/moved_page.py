@@ -6,6 +6,7 @@ from typing import Protocol
 
 import pygame
 
+from pigaming_app.games.match import Match
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.scan.rig_scan import RigScan
 from pigaming_app.hardware.scan.things import LayoutError, ThingLayout
@@ -41,9 +42,10 @@ class ExaminedRobots(Robots, Protocol):
         """Apply a new pairing of radios and robots. `turned`: robots that turned as commanded."""
 
 
-class MatchAmongThings(PausedMatch, Protocol):
-    """A paused match with real robots among things."""
+class InterruptedMatch(PausedMatch, Protocol):
+    """A paused match with real robots."""
 
+    match: Match
     access: Access
     plant: MixedPlant
     session: RobotSession
@@ -53,6 +55,17 @@ class MatchAmongThings(PausedMatch, Protocol):
     def robots(self) -> ExaminedRobots:
         """What drives."""
 
+    @property
+    def preparing(self) -> bool:
+        """True while robots drive to their start positions, and while the countdown runs."""
+
+    @property
+    def real(self) -> set[int]:
+        """Seats with real robots, including those still driving to their start positions."""
+
+    def set_real(self, seat: int, real: bool) -> None:
+        """Hand a seat over to its simulated or its real robot."""
+
     def rebuild(self, layout: ThingLayout) -> bool:
         """Go on among things that were scanned anew; false if that is impossible."""
 
@@ -60,7 +73,7 @@ class MatchAmongThings(PausedMatch, Protocol):
 class MovedPage:
     """The page. `places`: where things were moved, arena px."""
 
-    def __init__(self, match: MatchAmongThings, places: Sequence[tuple[float, float]]) -> None:
+    def __init__(self, match: InterruptedMatch, places: Sequence[tuple[float, float]]) -> None:
         self.match, self.context, self.places = match, match.context, list(places)
         self.layout: ThingLayout | None = None  # of a new scan, until the match has taken it over
         self.sentence = ""
