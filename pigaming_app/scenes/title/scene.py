@@ -15,12 +15,12 @@ from pigaming_app.scenes.title.kiosk_unlock import KioskUnlock
 from pigaming_app.scenes.title.language import LanguageName
 from pigaming_app.scenes.title.logo import dot_of, logo
 from pigaming_app.scenes.title.parade import dot_robot, parade
-from pigaming_app.scenes.views.game_tile import TileStrip, tile
+from pigaming_app.scenes.views.game_tile import TileStrip, empty_tile, tile
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.plugins.found import Plugin
 from pigaming_app.storage.plugins.parts import undecided
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.frame_budget import Steps, drop_paused, resumable
+from pigaming_app.ui.draw.frame_budget import Steps, Unfinished, budget, drop_paused, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
 from pigaming_app.ui.i18n import NAMES
@@ -54,6 +54,7 @@ class Title:
         self.clock = 0.0
         self.kiosk_unlock = KioskUnlock(context)
         self.tiles = TileStrip(shown_games())
+        self.complete = False  # whether all tiles have been shown
         self.game = self.tiles.names[0]  # the game whose tile was focused last
         self.menu = menu()  # of features, from left to right
         self.focus = Focus(self._spots())
@@ -117,13 +118,29 @@ class Title:
         screen.blit(ground(), (0, 0))
         parade(screen, self.clock)
         blit_sprite(screen, dot_robot(self.clock, LOGO[2] / 42), *dot_of(*LOGO))
-        self.tiles.draw(screen, self._tile)
+        self._draw_tiles(screen)
         self._prompt(screen)
         self._foot(screen)
         self.focus.draw(screen)
         self.language.draw(screen)
 
     # ---- internals
+
+    def _draw_tiles(self, screen: pygame.Surface) -> None:
+        """Draw the tiles. The first pictures do not wait for them: what is not yet built is an empty frame."""
+        frame, complete = empty_tile(), True
+
+        def tile_or_frame(game: str) -> LitImage:
+            nonlocal complete
+            try:
+                return self._tile(game)
+            except Unfinished:
+                complete = False
+                return frame
+
+        with budget.until(budget.prewarm_end):
+            self.tiles.draw(screen, self._tile if self.complete else tile_or_frame)
+        self.complete = self.complete or complete
 
     def _tile(self, game: str) -> LitImage:
         words = self.context.words

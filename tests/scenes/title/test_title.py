@@ -16,6 +16,8 @@ from pigaming_app.scenes.title.language import BOX as LANGUAGE_BOX
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views.game_tile import TileStrip
 from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.draw.frame_budget import budget, clock
+from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.focus import Focus
@@ -176,3 +178,16 @@ def test_outside_a_kiosk_holding_opens_nothing(arcade: Arcade) -> None:
         pad.press("rightshoulder")
         arcade.wait(HOLD + 1.0)
     title(arcade)
+
+
+def test_the_first_picture_does_not_wait_for_the_tiles(arcade: Arcade) -> None:
+    screen, page = pygame.Surface((1920, 1080)), Title(arcade.context)
+    surfaces.clear()
+    with budget.frame(behind=False, prewarm_end=clock()):
+        page.draw(screen)
+    assert not page.complete
+    inner = page.focus.rect("pitanks").inflate(-60, -240)
+    assert len(np.unique(pygame.surfarray.array3d(screen.subsurface(inner)))) == 1, "an empty frame"
+    page.draw(screen)
+    assert page.complete
+    assert len(np.unique(pygame.surfarray.array3d(screen.subsurface(inner)))) > 50
