@@ -29,7 +29,7 @@ from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.control import match_recording
 from pigaming_app.hardware.scan.things import Thing, ThingKind, ThingLayout
 from pigaming_app.hardware.session import store
-from pigaming_app.scenes.views.race import ghost_files
+from pigaming_app.scenes.views.race import ghost as ghosts
 from pigaming_app.sim import drivetrain
 from pigaming_app.sim.world import DT
 from pigaming_app.storage.day_log import DayLog, PlayedMatch, read_day
@@ -125,13 +125,13 @@ def write_ghost(folder: Path) -> None:
     first = max(i for i, (tick, _) in enumerate(track) if tick <= start)
     samples = [((tick - start) * DT, pose) for tick, pose in track[first:]]
     splits = [split * DT for split in racer.best_splits]
-    ghost = ghost_files.ghost_of(racer.line, racer.last_lap * DT, splits, samples)
-    ghost_files.save_ghost(folder, match.arena, ghost).join()
+    ghost = ghosts.ghost_of(racer.line, racer.last_lap * DT, splits, samples)
+    ghosts.save_ghost(folder, match.arena, ghost).join()
 
 
 def read_ghost(folder: Path) -> object:
     (path,) = (folder / "ghosts").glob("*.json")
-    _, ghost = ghost_files._parsed(path.read_text(encoding="utf-8"))
+    _, ghost = ghosts._parsed(path.read_text(encoding="utf-8"))
     return ghost.seconds, len(ghost.poses)
 
 

@@ -35,7 +35,7 @@ from pigaming_app.hardware.session.store import load_robots
 from pigaming_app.hardware.sysid.evaluate import RecordingTooShort, measure
 from pigaming_app.hardware.sysid.evaluate import replay as replay_run
 from pigaming_app.scenes.files import load_network, load_replay, load_table, save_replay
-from pigaming_app.scenes.views.race import ghost_files as ghosts
+from pigaming_app.scenes.views.race import ghost as ghosts
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import NOMINAL, DrivetrainError, parse, to_toml
 from pigaming_app.storage.parsing import MESSAGE_LENGTH

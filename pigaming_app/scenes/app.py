@@ -287,7 +287,7 @@ class App:
 
     def _excuse(self) -> str:
         """The sentence about a failure: which game is left out, or that something went wrong."""
-        from pigaming_app.scenes.options.new_game import game_name  # late: the title does not wait for it
+        from pigaming_app.scenes.options.games_page import game_name  # late: the title does not wait for it
 
         words, plugin = self.context.words, self.blamed
         return words("app.game_failed", game=game_name(words, plugin)) if plugin else words("app.error")

@@ -64,7 +64,7 @@ from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import LobbySeats
 from pigaming_app.scenes.mat.robots.menu import RobotsMenu
 from pigaming_app.scenes.options import games_page
-from pigaming_app.scenes.options.new_game import NewGame
+from pigaming_app.scenes.options.games_page import NewGame
 from pigaming_app.scenes.options.page import SECTIONS, OptionsPage
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import PATIENCE, JoinByPhone
@@ -74,8 +74,7 @@ from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.replays.page import ReplaysPage
-from pigaming_app.scenes.results.high_score_tables import high_score_tables
-from pigaming_app.scenes.results.high_scores import HighScores
+from pigaming_app.scenes.results.high_scores import HighScores, high_score_tables
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.day_log import Battery, PlayedMatch, ProgramEvent, Record

@@ -85,7 +85,7 @@ def board_pages(context: Context) -> Sequence[BoardPage]:
 
 
 def next_match(context: Context, scenes: Sequence[Scene]) -> str:
-    from pigaming_app.scenes.events.board.event_now import event_now, next_line
+    from pigaming_app.scenes.events.board.event_page import event_now, next_line
 
     now = event_now(context, scenes)
     return next_line(context.words, now) if now else ""

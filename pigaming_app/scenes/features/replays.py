@@ -7,8 +7,8 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.replay import Replay, ReplayError
 from pigaming_app.games.setup import ChoiceError, require_game
 from pigaming_app.games.timeline import Timeline
+from pigaming_app.scenes.features.feature import Marks, ReplayKind
 from pigaming_app.scenes.features.registry import features
-from pigaming_app.scenes.features.replay_kind import Marks, ReplayKind
 from pigaming_app.sim.record import digest
 from pigaming_app.storage.parsing import parse_json
 from pigaming_app.storage.plugins.found import NAME

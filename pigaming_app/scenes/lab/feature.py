@@ -10,8 +10,7 @@ from pigaming_app.scenes.launch import Options
 
 def service(context: Context, options: Options) -> Service:
     """The background, with the command by which this start can fetch."""
-    from pigaming_app.scenes.lab.background import LabBackground
-    from pigaming_app.scenes.lab.extra_fetch import ExtraFetch
+    from pigaming_app.scenes.lab.background import ExtraFetch, LabBackground
 
     background = context.shared(LabBackground)
     background.network_fetch = ExtraFetch(options.fetch_networks)

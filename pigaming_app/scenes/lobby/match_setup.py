@@ -21,7 +21,7 @@ from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import match_setup_view as choice
 from pigaming_app.scenes.lobby.seats import EMPTY, LobbySeats
 from pigaming_app.scenes.pages.page import Hints, Page
-from pigaming_app.scenes.results.high_score_tables import contest, format_score, table_of
+from pigaming_app.scenes.results.high_scores import contest, format_score, table_of
 from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.sprites import effects

@@ -5,8 +5,7 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.scenes.features.board_page import BoardPage
-from pigaming_app.scenes.features.feature import Feature, OptionRow, Service
-from pigaming_app.scenes.features.replay_kind import ReplayKind
+from pigaming_app.scenes.features.feature import Feature, OptionRow, ReplayKind, Service
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.scenes.flow.stack import Scene

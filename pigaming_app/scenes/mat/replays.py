@@ -13,7 +13,7 @@ from pigaming_app.hardware.control import match_recording
 from pigaming_app.hardware.control.match_recording import REPLAY, MatchFileError, MatchRecorder, MatchRecording
 from pigaming_app.hardware.control.moving_things import Reroute
 from pigaming_app.hardware.control.recorded_plant import RecordedPlant
-from pigaming_app.scenes.features.replay_kind import Marks
+from pigaming_app.scenes.features.feature import Marks
 from pigaming_app.sim.record import copy
 from pigaming_app.ui.i18n import Words
 

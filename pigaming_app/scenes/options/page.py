@@ -17,7 +17,7 @@ from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
 from pigaming_app.scenes.options import pictures
 from pigaming_app.scenes.options.games_page import GamesPage
 from pigaming_app.scenes.pages.settings_page import SettingsPage
-from pigaming_app.scenes.views.race.ghost_files import delete_ghosts
+from pigaming_app.scenes.views.race.ghost import delete_ghosts
 from pigaming_app.scenes.views.rumble import TAKEN
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import read_large

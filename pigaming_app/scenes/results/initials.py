@@ -15,7 +15,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
 from pigaming_app.scenes.results import initials_view as page
-from pigaming_app.scenes.results.high_score_tables import contest, counts, format_score, table_of
+from pigaming_app.scenes.results.high_scores import contest, counts, format_score, table_of
 from pigaming_app.scenes.results.spelling import Spelling
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Score, ScoreTable

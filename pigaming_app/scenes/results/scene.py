@@ -19,8 +19,7 @@ from pigaming_app.scenes.flow.stack import Home, Push, Scene, StackOperation, Sw
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.recordings.store import StoreError
 from pigaming_app.scenes.results.headline import EndedMatch
-from pigaming_app.scenes.results.high_score_tables import contest
-from pigaming_app.scenes.results.high_scores import HighScores
+from pigaming_app.scenes.results.high_scores import HighScores, contest
 from pigaming_app.scenes.results.initials import Initials, qualifying
 from pigaming_app.scenes.results.podium_page import PodiumPage
 from pigaming_app.scenes.results.rematch_vote import RematchVote

@@ -12,7 +12,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
 from pigaming_app.scenes.results.headline import EndedMatch, headline, is_allied, stars, winning_color
-from pigaming_app.scenes.results.high_score_tables import clock, contest, format_score, high_score_tables
+from pigaming_app.scenes.results.high_scores import clock, contest, format_score, high_score_tables
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.scenes.views.sprites.stars import HIGH, star_row

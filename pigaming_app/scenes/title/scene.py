@@ -105,7 +105,7 @@ class Title:
             self.context.sounds.play("accept")
             return Push(OptionsPage(self.context, operator=True))
         if plugin := self._new_plugin():
-            from pigaming_app.scenes.options.new_game import NewGame
+            from pigaming_app.scenes.options.games_page import NewGame
 
             self.asked.add(plugin.key)
             return Push(NewGame(self.context, plugin))

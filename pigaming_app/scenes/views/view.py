@@ -5,6 +5,7 @@ A view is read-only: it detects events by comparing states, and has its own rand
 
 import math
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -12,9 +13,9 @@ import pygame
 
 from pigaming_app.scenes.views.background import HUD_HEIGHT, LEFT, TOP, Background
 from pigaming_app.scenes.views.particles import Particles
-from pigaming_app.scenes.views.prewarm import driving
 from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.scenes.views.sprites import effects
+from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.things.on_mat import ThingsOnMat
 from pigaming_app.scenes.views.things.styles import NEON
 from pigaming_app.scenes.views.tread_marks import TreadMarks
@@ -22,7 +23,7 @@ from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, PRE
 from pigaming_app.ui.draw.frame_budget import Job, PrewarmQueue
-from pigaming_app.ui.draw.sprites import Batch, put, step
+from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 from pigaming_app.ui.i18n import Words
 
 REAL_WIDER = 42  # px, extra radius around a real robot
@@ -187,3 +188,19 @@ def decimal(words: Words | None, number: str) -> str:
 def _poses(state: Any) -> Sequence[Pose]:
     """Canvas poses of the robots."""
     return [(LEFT + robot.x, TOP + robot.y, robot.heading) for robot in state.robots]
+
+
+def driving(seats: Sequence[int]) -> Iterator[Job]:
+    """Jobs for driving robots: headings, headlights, treads, flames."""
+    for turn in range(HEADINGS):
+        for seat in seats:
+            yield partial(tank.tank, seat, turn)
+    for seat in seats:
+        for turn in range(effects.BEAM_TURNS):
+            yield partial(effects.beam, seat, turn)
+        for turn in range(effects.TURNS):
+            for level in range(effects.TREAD_LEVELS, 0, -1):
+                yield partial(effects.tread, seat, turn, level)
+        for turn in range(effects.TURNS):
+            for flicker in (0, 1):
+                yield partial(effects.flame, seat, turn, flicker)

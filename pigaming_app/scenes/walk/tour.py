@@ -7,8 +7,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.flow.stack import Push
 from pigaming_app.scenes.options.page import SECTIONS
-from pigaming_app.scenes.results.high_score_tables import contest
-from pigaming_app.scenes.results.high_scores import HighScores
+from pigaming_app.scenes.results.high_scores import HighScores, contest
 from pigaming_app.scenes.title.language import SECONDS
 from pigaming_app.scenes.walk.events_tour import events
 from pigaming_app.scenes.walk.steps import TourWalker, choose, home

@@ -14,8 +14,7 @@ import pytest
 from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.ai.networks.files import TrainedNetwork
 from pigaming_app.scenes.lab import saved_robots
-from pigaming_app.scenes.lab.background import LabBackground
-from pigaming_app.scenes.lab.extra_fetch import ExtraFetch
+from pigaming_app.scenes.lab.background import ExtraFetch, LabBackground
 from pigaming_app.scenes.lab.layout import MATCH
 from pigaming_app.scenes.lab.network.fetch_page import FetchPage
 from pigaming_app.scenes.lab.network.kind_switch import NETWORK, TABLE, kind_rect
@@ -307,7 +306,7 @@ def test_when_nobody_is_there_the_process_ends_and_the_next_visitors_begin_with_
 CRASHING = f"""
 import time
 from pigaming_app.ai.learning.compiler import Compiler
-from pigaming_app.scenes.lab.extra_fetch import ExtraFetch
+from pigaming_app.scenes.lab.background import ExtraFetch
 from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.network.trainer import NetworkTrainer
 trainer = NetworkTrainer(1, Compiler({NOTHING!r}), {PLAIN!r})

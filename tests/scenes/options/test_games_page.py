@@ -7,8 +7,7 @@ import pytest
 
 from pigaming_app.jobs.new_game import write
 from pigaming_app.scenes.options import games_page
-from pigaming_app.scenes.options.games_page import ROWS, GamesPage, why
-from pigaming_app.scenes.options.new_game import NewGame
+from pigaming_app.scenes.options.games_page import ROWS, GamesPage, NewGame, why
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.title import scene as title
 from pigaming_app.scenes.title.scene import Title

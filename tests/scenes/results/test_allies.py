@@ -6,8 +6,7 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.results.headline import headline, is_allied, stars
-from pigaming_app.scenes.results.high_score_tables import contest, counts
-from pigaming_app.scenes.results.high_scores import conditions
+from pigaming_app.scenes.results.high_scores import conditions, contest, counts
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.view import TOP
 from pigaming_app.scenes.views.sprites.stars import HIGH

@@ -7,7 +7,7 @@ import pytest
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.results.high_score_tables import (
+from pigaming_app.scenes.results.high_scores import (
     contest,
     contests,
     counts,

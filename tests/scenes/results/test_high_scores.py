@@ -5,8 +5,7 @@ from dataclasses import replace
 import pygame
 import pytest
 
-from pigaming_app.scenes.results.high_score_tables import contests
-from pigaming_app.scenes.results.high_scores import HighScores, conditions
+from pigaming_app.scenes.results.high_scores import HighScores, conditions, contests
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.draw import text_width
 from pigaming_app.ui.i18n import LANGUAGES, Words

@@ -14,11 +14,11 @@ from pigaming_app.scenes.bench.busy_race import BusyRace
 from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.games.race import preview
 from pigaming_app.scenes.views.particles import MAX_PARTICLES
-from pigaming_app.scenes.views.race import ghost_files as ghosts
+from pigaming_app.scenes.views.race import ghost as ghosts
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import SETTLE, SHOWN_FROM
 from pigaming_app.scenes.views.race.gaps import figure
-from pigaming_app.scenes.views.race.ghost_files import Ghost, file_of, ghost_of, load_ghost
+from pigaming_app.scenes.views.race.ghost import Ghost, file_of, ghost_of, load_ghost
 from pigaming_app.scenes.views.race.hud_cards import RaceCard, card_bits
 from pigaming_app.scenes.views.race.lines import sign_post
 from pigaming_app.scenes.views.race.track import edges

@@ -9,7 +9,7 @@ import tomli_w
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pigaming_app.scenes.results.high_score_tables import contests
+from pigaming_app.scenes.results.high_scores import contests
 from pigaming_app.storage.scores import FILE, Scores, ScoreTable
 
 TABLE = ScoreTable("pitanks", "classic", "points", rules="plain", length=2, people=1)

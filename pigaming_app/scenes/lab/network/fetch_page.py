@@ -6,8 +6,7 @@ import pygame
 
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
-from pigaming_app.scenes.lab.background import LabBackground
-from pigaming_app.scenes.lab.extra_fetch import BUILT, DONE, FETCHING, FOREIGN, RESTART
+from pigaming_app.scenes.lab.background import BUILT, DONE, FETCHING, FOREIGN, RESTART, LabBackground
 from pigaming_app.scenes.pages.page import Hints
 from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import sheet_title

@@ -21,9 +21,8 @@ from pigaming_app.scenes.views.race.hud_cards import FLASH, W
 from pigaming_app.scenes.views.race.lines import LineFrame, frame
 from pigaming_app.scenes.views.race.party.events import PartyEventDetector
 from pigaming_app.scenes.views.race.party.floor import draw_air, draw_finish, draw_floor, finish_line
-from pigaming_app.scenes.views.race.party.prewarm import party_jobs
 from pigaming_app.scenes.views.race.party.sprites import SHIELD_SWAY, SWIRL_TURNS, swirl
-from pigaming_app.scenes.views.race.prewarm import jobs, void_words
+from pigaming_app.scenes.views.race.prewarm import jobs, party_jobs, void_words
 from pigaming_app.scenes.views.race.recovery import draw_way_back, target_of
 from pigaming_app.scenes.views.rumble import BEST, BLOCKED, FINISH, GIVEN, LAP, PICKED, TAKEN, rumbles
 from pigaming_app.scenes.views.sprites import effects

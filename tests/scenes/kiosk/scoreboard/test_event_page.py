@@ -10,8 +10,16 @@ import pytest
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import Format
 from pigaming_app.scenes.app import App
-from pigaming_app.scenes.events.board.event_now import event_now, next_line, now_line
-from pigaming_app.scenes.events.board.event_page import CALL, FOOT, PODIUM, TURN, EventBoardPage
+from pigaming_app.scenes.events.board.event_page import (
+    CALL,
+    FOOT,
+    PODIUM,
+    TURN,
+    EventBoardPage,
+    event_now,
+    next_line,
+    now_line,
+)
 from pigaming_app.scenes.events.next_page import EventMatch, NextMatch
 from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
