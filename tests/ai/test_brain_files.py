@@ -16,6 +16,7 @@ from pigaming_app.games.replay import encode as encode_replay
 from pigaming_app.games.setup import ChoiceError, make_setup
 from pigaming_app.sim.record import digest
 from tests.ai.networks.random_network import random_network
+from tests.matches import finished
 
 
 @pytest.fixture
@@ -31,14 +32,10 @@ def brains(tmp_path, monkeypatch):
 def test_a_match_with_files_on_all_seats_is_replayed_under_their_paths(brains):
     names = ["mine.npz", "my brains/mine.npz", "table.npz", os.path.abspath("my brains/quick one.npz")]
     setup = make_setup("pitanks", names, None, 0.1, 1, None, None, known_brains("pitanks", names))
-    match = new_match(setup)
-    while not match.over:
-        match.tick()
+    match = finished(new_match(setup))
     replay = decode(encode_replay(match), "a.replay")
     assert [seat.brain for seat in replay.setup.seats] == names
-    again = to_match(replay)
-    while not again.over:
-        again.tick()
+    again = finished(to_match(replay))
     assert digest(again.state) == digest(match.state)
 
 

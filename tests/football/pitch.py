@@ -3,17 +3,17 @@
 from math import dist, hypot, isfinite
 
 from pigaming_app.games.arenas import load
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_football.rules import side_of
+from tests.matches import setup_of
 
 BALL, ROBOT = 22.0, 36.0  # px, radii
 ARENAS = ("classic", "bumpers", "small_goals")
 
 
 def setup(arena="classic", present=(0, 1, 2, 3), variant="standard", minutes=2.0, seed=1, teams=(0, 1, 0, 1)):
-    seats = tuple(Seat("random" if k in present else "off", teams[k]) for k in range(4))
-    return Setup("football", arena, seats, minutes, seed, variant, 0)
+    brains = ["random" if k in present else "off" for k in range(4)]
+    return setup_of("football", brains, arena, minutes, seed, variant, teams=teams)
 
 
 def match(*arguments, **named):

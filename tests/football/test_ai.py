@@ -16,6 +16,7 @@ from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_football.overlaps import is_free
 from tests.cases import repeated
 from tests.football.pitch import ARENAS, goals_of, match, put_ball, put_robot, setup
+from tests.matches import run
 
 AS_PLAYED = 2.0  # minutes
 
@@ -28,9 +29,7 @@ def with_brains(football, **brains):
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_alone_every_level_finds_the_goal(level):
-    football = with_brains(match(present=(0,)), p0=level)
-    for _ in range(60 * 50):
-        football.tick()
+    football = run(with_brains(match(present=(0,)), p0=level), 60 * 50)
     assert goals_of(football.state, 0) > 0
     assert football.state.players[0].own_goals <= 1
 
@@ -98,8 +97,7 @@ def test_a_keeper_stops_what_an_empty_goal_lets_in():
                 put_robot(state, 0, 90.0, 450.0, heading=1.57)
                 put_robot(state, 2, 1200.0, 800.0)
             put_ball(state, 900.0, 450.0, -700.0, 700.0 * (y - 450.0) / 900.0)
-            for _ in range(120):
-                football.tick()
+            run(football, 120)
             conceded[keeper] += goals_of(state, 1) + (state.goals if not keeper else 0)
     assert conceded[False] == 5
     assert conceded[True] <= 1

@@ -10,8 +10,7 @@ from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.files import brain_of
 from pigaming_app.ai.networks.policy import Handicap
-from pigaming_app.ai.registry import AIS, BRAINS, make_brain, new_match
-from pigaming_app.games.game import Seat, Setup
+from pigaming_app.ai.registry import AIS, BRAINS, make_brain
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
 from pigaming_football.ai import NET
@@ -20,6 +19,7 @@ from pigaming_football.training import FIELD, LEAD, NEARNESS, POINT, TASK
 from tests.ai.networks.random_network import random_network
 from tests.cases import repeated
 from tests.football.pitch import match, put_ball, put_robot, setup, state
+from tests.matches import match_of, run
 
 needs_numba = pytest.mark.skipif(not can_compile(), reason="needs the extra train")
 
@@ -35,8 +35,7 @@ def inputs_of(football, seat, **habits):
 
 
 def test_everything_is_seen_where_it_is():
-    seats = tuple(Seat("hand3", team) for team in (0, 1, 0, 1))
-    football = new_match(Setup("football", "bumpers", seats, 2.0, 4, "party"))
+    football = match_of("football", ["hand3"] * 4, "bumpers", 2.0, 4, "party")
     found, side = {"held": 0, "free": 0, "out": 0}, (1.0, -1.0)
     while football.state.tick < 2500:
         football.tick()
@@ -135,8 +134,7 @@ def test_the_network_that_ships_is_offered_and_explains_itself():
     assert "net" in AIS["football"].rivals
     football = match()
     football.sit(0, make_brain("football", "net", 1))
-    for _ in range(120):
-        football.tick()
+    run(football, 120)
     told = thoughts_of(football, 0)
     assert told.heads.keys() == {"drive", "turn", "kick", "turbo"}
     assert {sight.kind for sight in told.percepts}

@@ -7,15 +7,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import load, parse
 from pigaming_app.games.drawing.values import Drawing, Part, drawing_of
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor.model.problems import Problem
 from pigaming_app.scenes.editor.model.problems import problems as problems_of
 from pigaming_app.sim.arena import ArenaError
 from tests.football.pitch import BALL
+from tests.matches import match_of
 
 CLASSIC = drawing_of(load("football", "classic").source)
 BARE = Drawing(tuple(part for part in CLASSIC.parts if part.kind != "wall"))
@@ -49,9 +48,7 @@ def wedge(degrees: float) -> Drawing:
 
 def is_freed(drawing: Drawing, x: float, y: float, seed: int) -> bool:
     """True if robots of level 5 get a ball that rests at (x, y) away from there before it is dropped anew."""
-    one, two, three, four = (Seat("level5", team) for team in (0, 1, 0, 1))
-    arena = parse("football", drawing.text(), "a.toml")
-    match = new_match(Setup("football", "a", (one, two, three, four), 2.0, seed, "standard"), arena=arena)
+    match = match_of("football", ["level5"] * 4, parse("football", drawing.text(), "a.toml"), 2.0, seed, "standard")
     ball = match.state.ball
     ball.out, ball.x, ball.y, ball.vx, ball.vy, ball.anchor_x, ball.anchor_y = 0, x, y, 0.0, 0.0, x, y
     while not ball.out and hypot(ball.x - x, ball.y - y) < 150.0:

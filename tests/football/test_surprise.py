@@ -2,13 +2,12 @@
 
 import pytest
 
-from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import load
 from pigaming_app.games.drawing.values import drawing_of
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor.model.problems import problems
 from tests.cases import repeated
+from tests.matches import match_of
 
 
 def check(seed: int) -> tuple[int, int]:
@@ -25,8 +24,7 @@ def check(seed: int) -> tuple[int, int]:
 
 def dropped(seed: int) -> float:
     """Drops anew a minute, in two minutes of four robots; they score."""
-    one, two, three, four = (Seat("level5", team) for team in (0, 1, 0, 1))
-    match = new_match(Setup("football", f"surprise-{seed}", (one, two, three, four), 2.0, seed, "standard"))
+    match = match_of("football", ["level5"] * 4, f"surprise-{seed}", 2.0, seed, "standard")
     drops, was_out, goals = 0, True, 0
     while not match.over:
         match.tick()

@@ -10,14 +10,14 @@ import pytest
 from pigaming_app.ai.brain.driving import pointed
 from pigaming_app.ai.brain.kind import HumanPlayer
 from pigaming_app.ai.game_ai import POINT, TURN
-from pigaming_app.ai.registry import AIS, new_match
-from pigaming_app.games.game import Seat, Setup
+from pigaming_app.ai.registry import AIS
 from pigaming_app.games.registry import games
 from pigaming_app.sim.action import STEPS, quantise
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.robot import GAIN, RADIUS, integrate
 from pigaming_app.sim.world import HZ, Robot
 from pigaming_app.ui.input.events import StickState
+from tests.matches import match_of
 
 SPEED, TURN_RATE = 260.0, 3.0
 TURNS = [math.radians(degrees) for degrees in range(-170, 181, 25)]
@@ -114,11 +114,7 @@ def test_the_corner_of_a_stick_is_no_faster_than_its_edge() -> None:
 def test_in_every_game_the_stick_points_on_the_screen(
     game: str, stick: tuple[float, float], direction: tuple[int, int]
 ) -> None:
-    rules = games()[game].default
-    one, two, three, four = (Seat("human" if i == 0 else "idle", team) for i, team in enumerate(rules.teams))
-    match = new_match(
-        Setup(game, "classic" if game != "factory" else "hall", (one, two, three, four), 1.0, 1, rules.name)
-    )
+    match = match_of(game, "human idle idle idle")
     state, robot = match.state, match.state.robots[0]
     robot.heading = 0.3
     match.sit(0, HumanPlayer(lambda: StickState(*stick), AIS[game].driving[POINT]))

@@ -4,22 +4,18 @@ import pytest
 
 from pigaming_app.ai.brain.kind import OneButtonPlayer
 from pigaming_app.ai.game_ai import ONE_BUTTON
-from pigaming_app.ai.registry import AIS, make_person, new_match
-from pigaming_app.games.game import Seat, Setup
+from pigaming_app.ai.registry import AIS, make_person
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.ui.input.events import StickState
+from tests.matches import match_of
 
 NOTHING, FIRE, TURBO = StickState(), StickState(fire=True), StickState(turbo=True)
 
 
-def match_of(game: str, press: StickState, every: int = 25) -> Match:
+def pressed(game: str, press: StickState, every: int = 25) -> Match:
     """A match of a minute; seat 0 has one button, which goes down once in `every` ticks, and sticks that drift."""
-    rules = games()[game].default
-    one, two, three, four = Seat("human", 0), Seat("idle", 1), Seat("off", 2), Seat("off", 3)
-    match = new_match(
-        Setup(game, "classic" if game != "factory" else "hall", (one, two, three, four), 1.0, 5, rules.name)
-    )
+    match = match_of(game, "human idle", minutes=1.0, seed=5)
     drift = StickState(linear=-1.0, angular=1.0)
     read = lambda: press if match.state.tick % every < every // 2 else drift  # noqa: E731
     match.sit(0, make_person(game, ONE_BUTTON, read, 7))
@@ -40,12 +36,12 @@ def test_every_game_offers_it(game: str) -> None:
 
 @pytest.mark.parametrize("press", [FIRE, TURBO])
 def test_shots_are_the_persons_and_hit_as_the_robot_aims(press: StickState) -> None:
-    match = played(match_of("pitanks", press), 40.0)
+    match = played(pressed("pitanks", press), 40.0)
     assert match.state.robots[0].score > 0
 
 
 def test_without_a_press_nothing_is_fired() -> None:
-    match = match_of("pitanks", NOTHING)
+    match = pressed("pitanks", NOTHING)
     fired = 0
     while match.seconds < 20.0:
         match.tick()
@@ -58,21 +54,21 @@ def test_without_a_press_nothing_is_fired() -> None:
 
 
 def test_pallets_are_lifted_and_delivered_by_the_button() -> None:
-    waiting = played(match_of("factory", NOTHING), 20.0)
+    waiting = played(pressed("factory", NOTHING), 20.0)
     assert waiting.state.loads[0].pallet == 0
-    match = played(match_of("factory", FIRE, 40), 60.0)
+    match = played(pressed("factory", FIRE, 40), 60.0)
     assert match.state.robots[0].score > 0
 
 
 def test_the_button_is_the_turbo_of_the_race() -> None:
-    slow, fast = played(match_of("race", NOTHING), 15.0), played(match_of("race", FIRE, 60), 15.0)
+    slow, fast = played(pressed("race", NOTHING), 15.0), played(pressed("race", FIRE, 60), 15.0)
     assert fast.state.racers[0].progress > slow.state.racers[0].progress > 0.0
 
 
 def test_a_ball_is_caught_while_the_button_is_held_and_shot_when_it_is_released() -> None:
     shots, longest = [], []  # the latter: ticks for which a ball was held
     for press, every in ((NOTHING, 60), (FIRE, 10_000), (FIRE, 60)):
-        match = match_of("football", press, every)
+        match = pressed("football", press, every)
         charges = [match.state.ball.charge]
         while match.seconds < 30.0:
             match.tick()

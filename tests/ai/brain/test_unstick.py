@@ -10,11 +10,11 @@ from pigaming_app.ai.learning import training
 from pigaming_app.ai.qlearning.table import MOVES, Learned, LearnerMind, Move, player
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.world import HZ
 from tests.ai.pitanks.stuck import stuck
 from tests.cases import one_in
+from tests.matches import finished, match_of
 
 AHEAD = Move(1.0, 0.0, 0)
 
@@ -53,12 +53,10 @@ def test_with_the_reflex_it_gets_about():
 
 @pytest.mark.parametrize(("variant", "leaves"), [("pickups", True), ("plain", True), ("classic", False)])
 def test_whoever_waits_for_nobody_goes_out_in_the_end_but_not_by_the_rules_of_the_measured_results(variant, leaves):
-    seats = (Seat("q1", 0), Seat("idle", 1), Seat("off", 2), Seat("off", 3))
-    match = Match(Setup("pitanks", "classic", seats, 0.2, 1, variant))
+    match = match_of("pitanks", "q1 idle", minutes=0.2, variant=variant)
     match.sit(0, BrainPlayer(single_minded(Move(0.0, 0.0, 0), reflex=True), 1))
     before = match.state.robots[0].x
-    while not match.over:
-        match.tick()
+    finished(match)
     assert (abs(match.state.robots[0].x - before) > 20.0) == leaves
 
 
@@ -72,8 +70,7 @@ def test_whoever_gets_on_never_feels_it():
     match = Match(training.training_setup(1, minutes=0.02))
     brain = BrainPlayer(single_minded(AHEAD, reflex=True), 1)
     match.sit(0, brain)
-    while not match.over:
-        match.tick()
+    finished(match)
     assert match.state.actions[0].linear == 1.0
     assert brain.mind.reflex.left == 0
 

@@ -13,27 +13,23 @@ from pigaming_app.ai.explanations.registry import thoughts_of
 from pigaming_app.ai.networks.files import brain_of
 from pigaming_app.ai.networks.policy import Handicap, draw
 from pigaming_app.ai.networks.registry import ENCODINGS
-from pigaming_app.ai.registry import new_match
-from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.registry import games
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import LANGUAGES, texts
 from tests.ai.networks.random_network import random_network
+from tests.matches import match_of
 
 ENCODING = ENCODINGS["pitanks"]
 
 
-def match_of(network, seed=3, others="hand3 hand1 hand3"):
+def match_with(network, seed=3, others="hand3 hand1 hand3"):
     """A match with a network on seat 0."""
-    one, two, three = (Seat(brain, team) for team, brain in enumerate(others.split(), 1))
-    match = new_match(Setup("pitanks", "classic", (Seat("idle", 0), one, two, three), 2.0, seed, "party"))
+    match = match_of("pitanks", f"idle {others}", "classic", 2.0, seed, "party")
     match.sit(0, BrainPlayer(brain_of(network), seed))
     return match
 
 
 def test_asking_changes_neither_match_nor_mind_and_everything_told_has_words():
-    watched, alone = (match_of(random_network(handicap=Handicap(0.1, 0.05, 0.5))) for _ in range(2))
+    watched, alone = (match_with(random_network(handicap=Handicap(0.1, 0.05, 0.5))) for _ in range(2))
     brain, words, told = watched.brains[0], [texts(language) for language in LANGUAGES], []
     assert thoughts_of(watched, 0).behaviour == "starts"
     for _ in range(600):
@@ -67,7 +63,7 @@ def test_topics_cover_every_input_once_and_only_one_on_which_a_network_depends_c
             kept[part] = 3 * network.matrices[0][part]
         network.matrices[0][:] = kept
         brain = brain_of(network)
-        mind, weights, match = brain.mind(), brain.weights(False)[0], match_of(network)
+        mind, weights, match = brain.mind(), brain.weights(False)[0], match_with(network)
         brain.reset(mind, 1)
         mind.inputs[:] = [100.0] * ENCODING.size
         mind.logits[:] = weights.logits(mind.inputs)
@@ -89,7 +85,7 @@ def test_the_probabilities_are_those_by_which_choices_are_drawn():
 def test_things_are_marked_where_they_were_at_the_last_decision():
     network = random_network(seed=2)
     network.matrices[0][:] *= 2
-    match, seen = match_of(network), set()
+    match, seen = match_with(network), set()
     mind, explain = match.brains[0].mind, make_explain(ENCODING)
     for _ in range(1500):
         before = match.state
@@ -111,9 +107,7 @@ def test_things_are_marked_where_they_were_at_the_last_decision():
 
 @pytest.mark.parametrize("game", ENCODINGS)
 def test_networks_of_every_game_explain_themselves(game):
-    rules, track = games()[game].default, arenas(game)[0]
-    one, two, three, four = (Seat("idle", team) for team in rules.teams)
-    match = new_match(Setup(game, track, (one, two, three, four), 2.0, 1, rules.name, rules.default_goal))
+    match = match_of(game, ["idle"] * 4)
     for seat in range(4):
         network = random_network(seat, game)
         network.matrices[0][:] *= 3

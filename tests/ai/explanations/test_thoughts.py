@@ -13,16 +13,16 @@ from pigaming_app.ai.qlearning.features import NONE, SECTORS, state
 from pigaming_app.ai.qlearning.recipe import Recipe
 from pigaming_app.ai.qlearning.table import ACTIONS, MOVES, Learned, QTable, player
 from pigaming_app.ai.race import racer
-from pigaming_app.ai.registry import BRAINS, make_brain
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.factory.state import INPUT, RAW, A
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.registry import OURS, games
+from pigaming_app.games.registry import OURS
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.plugins.parts import plugins
 from pigaming_app.ui.i18n import texts
 from tests.cases import one_in
+from tests.matches import match_of, run
 
 ALL = [
     (game, name)
@@ -44,22 +44,9 @@ def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> Brai
     return BrainPlayer(player("taught", Learned(table)), seed=1)
 
 
-def play(game: str, *brains: str, seed: int = 1, variant: str | None = None) -> Match:
+def play(game: str, *brains: str, seed: int = 1, variant: str = "") -> Match:
     """A match with these brains on its first seats."""
-    rules = games()[game].default
-    seats = [*brains, *["off"] * (ROBOTS - len(brains))]
-    one, two, three, four = (Seat(brain, team) for brain, team in zip(seats, rules.teams, strict=True))
-    setup = Setup(game, "", (one, two, three, four), 2.0, seed, variant or rules.name, rules.default_goal)
-    match = Match(setup, arena=load(game))
-    for seat, brain in enumerate(brains):
-        match.sit(seat, make_brain(game, brain, seed * ROBOTS + seat))
-    return match
-
-
-def load(game: str):
-    from pigaming_app.games import arenas
-
-    return arenas.load(game, arenas.arenas(game)[0])
+    return match_of(game, brains, "", 2.0, seed, variant)
 
 
 def by_hand(game: str, besides: str = "") -> list[str]:
@@ -72,12 +59,6 @@ def thoughts(match: Match, seat: int = 0) -> Thoughts:
     told = thoughts_of(match, seat)
     assert told is not None
     return told
-
-
-def run(match: Match, ticks: int) -> Match:
-    for _ in range(ticks):
-        match.tick()
-    return match
 
 
 # ------------------------------------------------------------------------------------------------------- all of them

@@ -27,18 +27,16 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import HZ
-from tests.ai.factory.begun import begun
 from tests.cases import one_in
 from tests.games.factory.shop import Shop
+from tests.matches import finished, match_of, run
 
 FLOORS = arenas("factory")
 
 
 @cache
 def played(brains, floor="hall", seed=1, pallets=4):
-    match = begun(brains, floor, seed, pallets)
-    while not match.over:
-        match.tick()
+    match = finished(match_of("factory", brains, floor, seed=seed, goal=pallets))
     return match
 
 
@@ -108,16 +106,15 @@ def test_both_mates_do_their_part():
 
 
 def test_the_same_seed_is_the_same_match():
-    first, again = (begun(("hand3", "hand2", "hand1", "hand3"), "yard", 4) for _ in range(2))
+    first, again = (match_of("factory", ("hand3", "hand2", "hand1", "hand3"), "yard", seed=4) for _ in range(2))
     for match in (first, again):
-        for _ in range(20 * HZ):
-            match.tick()
+        run(match, 20 * HZ)
     assert digest(first.state) == digest(again.state)
 
 
 @pytest.mark.parametrize("strength", STRENGTHS)
 def test_it_thinks_without_changing_anything_but_its_action(strength):
-    match = begun((strength,) * 4)
+    match = match_of("factory", (strength,) * 4)
     brain = make_brain("factory", strength, 1)
     before = digest(match.state)
     for tick in (0, 5, 10, 15):
@@ -142,7 +139,7 @@ def first_aim(shop, seat=0, strength="hand3", seconds=0.6):
 
 def test_it_says_what_it_makes_for_and_then_uses_that_slot():
     """Before every lift and put-down the driver has announced that slot for a while."""
-    match = begun(("hand3",) * 4, "hall", 9)
+    match = match_of("factory", ("hand3",) * 4, seed=9)
     state, shown, uses = match.state, [[0] * 25 for _ in range(4)], 0
     where = [(pallet.place, pallet.at) for pallet in state.pallets]
     while not match.over:
@@ -194,16 +191,14 @@ def test_it_leaves_alone_what_belongs_to_the_others():
 
 @pytest.mark.parametrize("floor", FLOORS)
 def test_two_mates_begin_with_different_pallets(floor):
-    match = begun(("hand3",) * 4, floor, 6)
-    for _ in range(HZ):
-        match.tick()
+    match = run(match_of("factory", ("hand3",) * 4, floor, seed=6), HZ)
     aims = [load.aim for load in match.state.loads]
     assert all(aims)
     assert len(set(aims)) == 4
 
 
 def test_two_laden_mates_never_make_for_the_same_slot():
-    match = begun(("hand3", "off", "hand3", "off"), "yard", 6)
+    match = match_of("factory", ("hand3", "off", "hand3", "off"), "yard", seed=6)
     one, other = match.state.loads[0], match.state.loads[2]
     laden = 0
     while not match.over:
@@ -217,7 +212,7 @@ def test_two_laden_mates_never_make_for_the_same_slot():
 @pytest.mark.parametrize("brain", ["hand3", "level5"])
 def test_what_it_cannot_get_rid_of_it_brings_back_after_a_while(brain):
     """Both machines B are full of the other team's pallets, which nobody removes."""
-    match = begun((brain, "idle", "off", "off"))
+    match = match_of("factory", (brain, "idle", "off", "off"))
     state = match.state
     state.rules.collect = 10**6
     others = iter(range(MAX_PALLETS, MAX_PALLETS + 4))
@@ -275,7 +270,7 @@ def test_it_clears_the_machine_of_a_person_who_is_busy():
 @pytest.mark.parametrize("strength", STRENGTHS)
 def test_it_drives_round_people(strength):
     """A person stands between it and its first pallet."""
-    match = begun((strength, "off", "off", "off"), "hall", 2, pallets=2)
+    match = match_of("factory", (strength, "off", "off", "off"), seed=2, goal=2)
     hits = 0
     while not match.over:
         match.tick()
@@ -288,7 +283,7 @@ def test_it_drives_round_people(strength):
 
 def test_somebody_else_can_take_over_at_any_time():
     """A driver hands over to one with a fresh mind, laden or not, repeatedly."""
-    match = begun(("hand3", "off", "hand3", "off"), "lines", 8)
+    match = match_of("factory", ("hand3", "off", "hand3", "off"), "lines", seed=8)
     changes = 0
     while not match.over:
         match.tick()

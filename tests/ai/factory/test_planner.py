@@ -23,12 +23,12 @@ from pigaming_app.games.factory.state import (
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import DT, HZ
-from tests.ai.factory.begun import begun
 from tests.bench.fairness_factory import measure
 from tests.bench.makespan_bound import Floor, Search, bound
 from tests.bench.trial import Trial
 from tests.cases import one_in, repeated
 from tests.games.factory.shop import Shop
+from tests.matches import finished, match_of
 
 FLOORS = arenas("factory")
 NAMES = [level.name for level in LEVELS]
@@ -37,7 +37,7 @@ NAMES = [level.name for level in LEVELS]
 @cache
 def alone(floor, seed=1):
     """A match of two mates without rivals, and the distance of the nearer one from each product when it is done, px."""
-    match = begun(("level5", "off", "level5", "off"), floor, seed)
+    match = match_of("factory", ("level5", "off", "level5", "off"), floor, seed=seed)
     state, gaps = match.state, []
     while not match.over:
         match.tick()
@@ -97,7 +97,7 @@ def test_the_bound_is_that_of_an_exhaustive_search():
 
 @pytest.mark.parametrize("floor", one_in(3, FLOORS))
 def test_four_of_the_best_spoil_nothing_and_one_team_delivers_everything(floor):
-    match = begun(("level5",) * 4, floor, 2)
+    match = match_of("factory", ("level5",) * 4, floor, seed=2)
     while not match.over:
         match.tick()
         for seat in range(4):
@@ -150,10 +150,9 @@ def test_the_levels_are_five_and_named_in_order():
 
 def test_higher_levels_need_less_time():
     """Alone in the hall."""
-    matches = [begun((name, "off", name, "off"), "hall", 2) for name in NAMES[::2]]
+    matches = [match_of("factory", (name, "off", name, "off"), seed=2) for name in NAMES[::2]]
     for match in matches:
-        while not match.over:
-            match.tick()
+        finished(match)
     times = [match.seconds for match in matches]
     assert times == sorted(times, reverse=True)
     assert times[0] > 1.25 * times[-1]

@@ -11,10 +11,10 @@ from pigaming_app.games.factory.state import DONE, ENTRY, EXIT, FIRE, ICE, INPUT
 from pigaming_app.games.setup import make_setup
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import DT, HZ
-from tests.ai.factory.begun import begun
 from tests.bench.fairness_factory import measure
 from tests.bench.trial import Trial
 from tests.games.factory.test_party import loose, party, put
+from tests.matches import match_of, run
 
 FLOORS = arenas("factory")
 
@@ -105,7 +105,7 @@ def test_it_contests_the_fast_machine(fast):
 
 @pytest.mark.long
 def test_both_teams_score_steal_and_deliver_rush_orders():
-    match = begun(("hand3",) * 4, "yard", pallets=0, minutes=3.0, variant="party")
+    match = match_of("factory", ("hand3",) * 4, "yard", goal=0, minutes=3.0, variant="party")
     doubles = 0
     before = [0, 0]
     while not match.over and match.seconds < 90.0:
@@ -123,7 +123,7 @@ def test_both_teams_score_steal_and_deliver_rush_orders():
 
 
 def test_four_allies_announce_four_different_jobs():
-    match = begun(("hand3",) * 4, pallets=8, minutes=3.0, variant="together")
+    match = match_of("factory", ("hand3",) * 4, goal=8, minutes=3.0, variant="together")
     shared = 0
     for _ in range(20 * HZ):
         match.tick()
@@ -163,7 +163,7 @@ def test_robots_hardly_ever_stand_still(variant, brain):
 
 def test_a_waiting_robot_moves_to_and_fro_near_its_place():
     """All machines A are occupied for good, and it carries a raw pallet."""
-    match = begun(("hand3", "off", "off", "off"), minutes=3.0)
+    match = match_of("factory", ("hand3", "off", "off", "off"), minutes=3.0)
     state = match.state
     state.rules.collect = 10**6
     while not state.loads[0].pallet:
@@ -184,7 +184,7 @@ def test_a_waiting_robot_moves_to_and_fro_near_its_place():
 
 
 def test_the_weakest_sets_out_the_wrong_way_and_says_so():
-    match = begun(("hand1", "off", "off", "off"), minutes=3.0)
+    match = match_of("factory", ("hand1", "off", "off", "off"), minutes=3.0)
     mind, wrong = match.brains[0].mind, 0
     while not match.over and match.seconds < 60.0:
         match.tick()
@@ -203,12 +203,11 @@ def test_the_strongest_never_does():
 
 
 def test_while_it_thinks_it_draws_back_but_not_onto_a_person():
-    match = begun(("hand1", "off", "off", "off"), minutes=3.0)
+    match = match_of("factory", ("hand1", "off", "off", "off"), minutes=3.0)
     mind, robot = match.brains[0].mind, match.state.robots[0]
     while not match.state.loads[0].pallet:
         match.tick()
-    for _ in range(HZ):
-        match.tick()
+    run(match, HZ)
     assert mind.resting > 0
     assert robot.linear < -20.0
     worker = match.state.workers[0]

@@ -11,6 +11,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import HZ
+from tests.matches import run
 
 TICKS = 400
 VARIANTS = ("pickups", "plain", "classic", "pickups", "plain")
@@ -50,8 +51,7 @@ def alone():
         match = Match(setup)
         for seat in range(4):
             match.sit(seat, Given(i))
-        for _ in range(TICKS):
-            match.tick()
+        run(match, TICKS)
         digests.append(digest(match.state))
     return digests
 

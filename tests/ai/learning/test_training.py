@@ -25,6 +25,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
 from tests import tags
+from tests.matches import finished
 
 BODIES = [False, pytest.param(True, marks=pytest.mark.skipif(not can_compile(), reason="numba is not installed"))]
 compiles = pytest.mark.skipif(not can_compile(), reason="numba is not installed")
@@ -108,8 +109,7 @@ def test_a_checkpoint_stays_as_it_was_and_takes_a_seat(fast):
     assert digest(kept.kind.weights(False)[0]) == before != digest(course.checkpoint().kind.weights(False)[0])
     match = Match(training.training_setup(1, minutes=0.1))
     match.sit(0, BrainPlayer(kept.kind, 1))
-    while not match.over:
-        match.tick()
+    finished(match)
     assert any(match.log.ticks[tick : tick + 3] != b"\x40\x40\x00" for tick in range(0, len(match.log.ticks), 12))
 
 

@@ -4,18 +4,15 @@ import pytest
 
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.factory import ENCODING, GROUPS, LOAD, SIZE, TARGETS, WAY
-from pigaming_app.ai.registry import new_match
 from pigaming_app.games.factory.start import VARIANTS
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.sim.contact import drive
+from tests.matches import match_of
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_whoever_lifts_or_sets_down_does_so_at_a_target(variant):
-    rules = VARIANTS[variant]
-    seats = tuple(Seat("hand3", team) for team in rules.teams)
-    match = new_match(Setup("factory", "yard", seats, rules.default_minutes, 4, variant, rules.default_goal))
-    state, senses, inputs = match.state, [ENCODING.senses() for _ in seats], [[0.0] * SIZE for _ in seats]
+    match = match_of("factory", ["hand3"] * 4, "yard", VARIANTS[variant].default_minutes, 4, variant)
+    state, senses, inputs = match.state, [ENCODING.senses() for _ in range(4)], [[0.0] * SIZE for _ in range(4)]
     handled = missed = 0
     for _ in range(2500):
         loads = [load.pallet for load in state.loads]

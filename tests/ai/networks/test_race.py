@@ -10,21 +10,20 @@ from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.files import brain_of
 from pigaming_app.ai.networks.policy import Handicap
 from pigaming_app.ai.networks.race import AHEAD, BOX, COURSE, ENCODING, NEAR, OILS, OTHER, OTHERS, PAD, POWERS, SIZE
-from pigaming_app.ai.registry import BRAINS, new_match
-from pigaming_app.games.game import Seat, Setup
+from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.race.course import CoursePosition, distance_ahead, locate, segment_at
 from pigaming_app.games.race.observation import SIGHT
 from pigaming_app.games.setup import make_setup
 from pigaming_app.sim.record import digest
 from tests.ai.networks.random_network import random_network
+from tests.matches import match_of
 
 HANDICAP = Handicap(delay=0.2, error=0.1, sharpness=0.7, speed=0.9, form=0.2)
 VARIANTS = "standard", "party"
 
 
 def test_everything_is_seen_where_it_is():
-    seats = tuple(Seat("hand3", team) for team in range(4))
-    match = new_match(Setup("race", "technical", seats, 10.0, 4, "party", 5))
+    match = match_of("race", ["hand3"] * 4, "technical", 10.0, 4, "party", 5)
     state, senses, inputs, place = match.state, ENCODING.senses(), [0.0] * SIZE, CoursePosition()
     found = dict.fromkeys(("robot", "oil", "pad", "box", "item"), 0)
     while match.state.tick < 1500:

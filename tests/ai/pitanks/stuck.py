@@ -3,10 +3,8 @@
 from collections import deque
 from math import hypot
 
-from pigaming_app.ai.registry import make_brain
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.sim.world import HZ
+from tests.matches import match_of
 
 STUCK_SECONDS, STUCK_PX = 3.0, 10.0
 
@@ -16,11 +14,7 @@ def stuck(arena, seed, strengths, variant):
 
     Against an opponent that is in contact it may push for long: such times do not count.
     """
-    one, two, three, four = (Seat(brain, team) for team, brain in enumerate(strengths))
-    match = Match(Setup("pitanks", arena, (one, two, three, four), 1.0, seed, variant))
-    for seat, brain in enumerate(strengths):
-        if brain != "off":
-            match.sit(seat, make_brain("pitanks", brain, seed * 4 + seat))
+    match = match_of("pitanks", strengths, arena, 1.0, seed, variant)
     trails = [deque(maxlen=round(STUCK_SECONDS * HZ)) for _ in range(4)]
     times = []
     while not match.over:

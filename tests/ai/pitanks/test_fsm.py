@@ -3,13 +3,11 @@
 import pytest
 
 from pigaming_app.ai.learning.league import duel, wilson
-from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.sim.record import digest
 from tests.ai.pitanks.stuck import stuck
 from tests.cases import one_in
+from tests.matches import match_of, run
 
 SEED, TICKS = 7, 1500
 DIGESTS = {
@@ -24,12 +22,7 @@ DIGESTS = {
 
 @pytest.mark.parametrize(("brain", "arena", "variant"), DIGESTS)
 def test_their_play_does_not_change(brain, arena, variant):
-    one, two, three, four = (Seat(brain, team) for team in range(4))
-    match = Match(Setup("pitanks", arena, (one, two, three, four), 1.0, SEED, variant))
-    for seat in range(4):
-        match.sit(seat, make_brain("pitanks", brain, SEED * 4 + seat))
-    for _ in range(TICKS):
-        match.tick()
+    match = run(match_of("pitanks", [brain] * 4, arena, 1.0, SEED, variant), TICKS)
     assert digest(match.state) == DIGESTS[brain, arena, variant]
 
 

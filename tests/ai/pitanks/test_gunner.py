@@ -9,32 +9,18 @@ from pigaming_app.ai.learning.league import duel
 from pigaming_app.ai.pitanks import gunner
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks.observation import PiTanksObservation, observe
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
 from tests.ai.pitanks.stuck import stuck
 from tests.cases import one_in, repeated
+from tests.matches import match_of, run
 
 HANDS = ("hand1", "hand2", "hand3")
-OFF = ("off", "off")
 
 
 def begun(brains, variant="plain", arena="islands", seed=1):
-    """A match with these brains; seats called idle stay without one."""
-    one, two, three, four = (Seat(brain, team) for team, brain in enumerate(brains))
-    match = Match(Setup("pitanks", arena, (one, two, three, four), 2.0, seed, variant))
-    for seat, brain in enumerate(brains):
-        if brain not in ("off", "idle"):
-            match.sit(seat, make_brain("pitanks", brain, seed * 4 + seat))
-    return match
-
-
-def run(match, ticks):
-    for _ in range(ticks):
-        match.tick()
-    return match
+    return match_of("pitanks", brains, arena, 2.0, seed, variant)
 
 
 def put(match, *places):
@@ -58,7 +44,7 @@ def test_every_strength_thinks_without_changing_anything_but_its_action(strength
 
 @pytest.mark.parametrize("lead", [-3, 0, 3])
 def test_it_closes_in_and_fires_whatever_the_score(lead):
-    match = begun(("hand2", "idle", *OFF))
+    match = begun(("hand2", "idle"))
     put(match, (110.0, 450.0), (1200.0, 450.0))
     match.state.robots[0].score = lead
     run(match, 500)
@@ -68,7 +54,7 @@ def test_it_closes_in_and_fires_whatever_the_score(lead):
 
 def target_of(change):
     """The seat that a gunner turns to, of two idle ones 350 px and 500 px away, after `change(tank)` of the farther."""
-    match = begun(("hand2", "idle", "idle", "off"), "party", "classic")
+    match = begun(("hand2", "idle", "idle"), "party", "classic")
     put(match, (500.0, 600.0), (850.0, 600.0), (500.0, 100.0))
     mind = match.brains[0].mind
     run(match, 1)
@@ -86,7 +72,7 @@ def test_it_goes_for_the_nearest_for_lit_ones_and_for_a_bounty():
 
 def test_it_leaves_a_target_that_cannot_be_hit_but_novices_stay_with_theirs():
     for brain, seat in (("hand3", 2), ("hand1", 1)):
-        match, mind = begun((brain, "idle", "idle", "off"), arena="classic"), make_brain("pitanks", brain, 1).mind
+        match, mind = begun((brain, "idle", "idle"), arena="classic"), make_brain("pitanks", brain, 1).mind
         put(match, (500.0, 600.0), (850.0, 600.0), (900.0, 600.0))
         gunner.choose_target(match.state, 0, mind)
         assert mind.target + 1 == 1
@@ -139,7 +125,7 @@ def test_in_the_finale_it_shoots_more_often_and_leaves_pick_ups_alone():
 
 
 def test_hand1_aims_behind_a_moving_target():
-    match = begun(("hand1", "idle", *OFF), arena="classic")
+    match = begun(("hand1", "idle"), arena="classic")
     put(match, (300.0, 600.0), (700.0, 600.0))
     match.state.robots[1].heading, match.state.robots[1].linear = 1.5707963, 260.0
     aims = []
@@ -151,7 +137,7 @@ def test_hand1_aims_behind_a_moving_target():
 
 
 def test_it_swings_to_the_side_with_room():
-    match = begun(("hand3", "idle", *OFF), arena="classic")
+    match = begun(("hand3", "idle"), arena="classic")
     put(match, (120.0, 50.0), (520.0, 50.0))  # along the upper wall
     mind = match.brains[0].mind
     gunner.observe_self(match.state, 0, mind.obs)
@@ -163,7 +149,7 @@ def test_it_swings_to_the_side_with_room():
 
 
 def test_a_knocked_out_robot_neither_fires_nor_counts_as_stuck():
-    match = begun(("hand2", "idle", *OFF), "party")
+    match = begun(("hand2", "idle"), "party")
     put(match, (300.0, 700.0), (700.0, 700.0))
     mind = match.brains[0].mind
     for _ in range(100):

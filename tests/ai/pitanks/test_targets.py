@@ -5,10 +5,8 @@ from itertools import pairwise
 
 import pytest
 
-from pigaming_app.ai.registry import make_brain
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from tests.cases import one_in
+from tests.matches import match_of
 
 CASES = [(level, variant) for level in ("level1", "level2") for variant in ("party", "pickups", "classic")]
 
@@ -18,11 +16,7 @@ def victims(level: str, variant: str, seed: int) -> dict[int, list[int]]:
 
     Ticks with hits of several robots are left out: who hit whom is known of single ones only.
     """
-    names = ("random", level, level, level)
-    one, two, three, four = (Seat(name, i) for i, name in enumerate(names))
-    match = Match(Setup("pitanks", "classic", (one, two, three, four), 1.0, seed, variant, 0))
-    for i, name in enumerate(names):
-        match.sit(i, make_brain("pitanks", name, 4 * seed + i))
+    match = match_of("pitanks", ("random", level, level, level), "classic", 1.0, seed, variant)
     found: dict[int, list[int]] = {1: [], 2: [], 3: []}
     tanks = match.state.tanks
     while not match.over:

@@ -9,26 +9,20 @@ import pytest
 from pigaming_app.ai.learning.league import duel
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas, load, parse
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.games.race.course import point_at
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HZ
 from tests.bench.reference_lap import MIXTURES, STUCK, STUCK_PX, TARGETS
 from tests.cases import one_in
 from tests.games.rails import IN_ORDER
+from tests.matches import finished, match_of, run
 
 TRACKS = arenas("race")
 REFERENCE = {"classic": 9.25, "hairpin": 10.71, "kidney": 9.34, "technical": 11.26}  # s, of tests.bench.reference_lap
 
 
 def race(brains, track="classic", seed=IN_ORDER, laps=3):
-    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(brains))
-    match = Match(Setup("race", track, (one, two, three, four), 10.0, seed, "standard", laps))
-    for seat, brain in enumerate(brains):
-        if brain != "off":
-            match.sit(seat, make_brain("race", brain, seed * 4 + seat))
-    return match
+    return match_of("race", brains, track, 10.0, seed, "standard", laps)
 
 
 def the_other_way_round(track):
@@ -49,8 +43,7 @@ def test_each_strength_is_as_fast_as_it_is_meant_to_be(strength, track):
     """Flying laps without turbo against the fastest possible lap without turbo."""
     match = alone(strength, track, laps=5)
     match.state.robots[0].turbo = match.state.rules.turbo_refill = 0.0
-    while not match.over:
-        match.tick()
+    finished(match)
     laps = match.game.times(match.state, 0)[1:]
     low, high = TARGETS[strength]
     assert low <= REFERENCE[track] / (sum(laps) / len(laps)) <= high
@@ -58,9 +51,7 @@ def test_each_strength_is_as_fast_as_it_is_meant_to_be(strength, track):
 
 @pytest.mark.parametrize("track", TRACKS)
 def test_turbo_is_used_well(track):
-    match = alone("hand3", track)
-    while not match.over:
-        match.tick()
+    match = finished(alone("hand3", track))
     assert REFERENCE[track] / match.game.times(match.state, 0)[1] > 1.02
 
 
@@ -74,11 +65,8 @@ def test_a_hard_driver_stays_on_the_course(track):
 
 @pytest.mark.parametrize("track", one_in(4, TRACKS))
 def test_courses_can_be_driven_anticlockwise(track):
-    arena = the_other_way_round(track)
-    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(("hand3", "hand2", "hand1", "hand3")))
-    match = Match(Setup("race", track, (one, two, three, four), 10.0, IN_ORDER, "standard", 2), arena=arena)
-    for seat, brain in enumerate(("hand3", "hand2", "hand1", "hand3")):
-        match.sit(seat, make_brain("race", brain, seat))
+    brains = ("hand3", "hand2", "hand1", "hand3")
+    match = race(brains, the_other_way_round(track), laps=2)
     while not match.over:
         match.tick()
         assert not any(racer.missed for racer in match.state.racers)
@@ -130,12 +118,8 @@ def test_hard_beats_easy():
 
 @pytest.mark.parametrize("track", TRACKS)
 def test_it_drives_round_robots_that_stand_on_the_course(track):
-    match = race(("hand3", "idle", "idle", "idle"), track)
-    while not match.over:
-        match.tick()
-    free = alone("hand3", track)
-    while not free.over:
-        free.tick()
+    match = finished(race(("hand3", "idle", "idle", "idle"), track))
+    free = finished(alone("hand3", track))
     assert match.state.racers[0].finish < 1.2 * free.state.racers[0].finish
 
 
@@ -144,8 +128,7 @@ def test_it_overtakes_whoever_is_slower(slower, faster):
     """The slower one starts a line ahead. On a free course the faster one would win by at least 8 s."""
     match = race((slower, "off", "off", faster), laps=9)
     ahead, behind = match.state.racers[0], match.state.racers[3]
-    while not match.over:
-        match.tick()
+    finished(match)
     assert ((ahead.finish or match.state.tick) - behind.finish) * DT > 4.0
 
 
@@ -155,8 +138,7 @@ def test_it_overtakes_whoever_is_slower(slower, faster):
 def goes_on(match, seat=0, seconds=8.0):
     """True if a robot drives at least 300 px along the course within `seconds`."""
     before = match.state.racers[seat].progress
-    for _ in range(round(seconds * HZ)):
-        match.tick()
+    run(match, round(seconds * HZ))
     return match.state.racers[seat].progress > before + 300.0
 
 
@@ -172,9 +154,7 @@ def test_it_gets_free_whichever_way_it_stands_in_a_corner(strength, heading):
 
 @pytest.mark.parametrize("track", TRACKS)
 def test_it_turns_round_when_it_faces_the_wrong_way(track):
-    match = alone("hand2", track)
-    for _ in range(2 * HZ):
-        match.tick()
+    match = run(alone("hand2", track), 2 * HZ)
     robot = match.state.robots[0]
     robot.heading = (robot.heading + pi) % (2 * pi)
     assert goes_on(match)
@@ -192,8 +172,7 @@ def test_it_goes_back_to_a_line_that_it_has_been_carried_over(track, past):
     state.robots[0].x, state.robots[0].y = point_at(
         state.course, (state.lines[1].along + past) % state.course.length, 0.0
     )
-    while not match.over and match.seconds < 60.0:
-        match.tick()
+    finished(match, 60.0)
     assert state.racers[0].finished
     assert state.racers[0].void == 0
 
@@ -201,12 +180,9 @@ def test_it_goes_back_to_a_line_that_it_has_been_carried_over(track, past):
 @pytest.mark.parametrize("track", TRACKS)
 @pytest.mark.parametrize("place", [(800, 430), (400, 300), (1200, 600)])
 def test_it_finds_its_way_from_the_middle_of_the_infield(track, place):
-    match = alone("hand1", track, laps=1)
-    for _ in range(3 * HZ):
-        match.tick()
+    match = run(alone("hand1", track, laps=1), 3 * HZ)
     match.state.robots[0].x, match.state.robots[0].y = place
-    while not match.over and match.seconds < 120.0:
-        match.tick()
+    finished(match, 120.0)
     assert match.state.racers[0].finished
 
 
@@ -216,9 +192,7 @@ def test_it_finds_its_way_from_the_middle_of_the_infield(track, place):
 def test_no_two_races_of_equal_drivers_are_alike():
     ends = set()
     for seed in range(4):
-        match = race(("hand3", "hand3", "off", "off"), seed=seed, laps=1)
-        while not match.over:
-            match.tick()
+        match = finished(race(("hand3", "hand3", "off", "off"), seed=seed, laps=1))
         ends.add(tuple(round(racer.finish, 1) for racer in match.state.racers))
     assert len(ends) == 4
 
@@ -235,10 +209,7 @@ def test_the_weaker_make_mistakes_and_the_strongest_none():
 
 
 def test_drivers_use_what_party_offers_and_all_finish():
-    one, two, three, four = (Seat("hand3", i) for i in range(4))
-    match = Match(Setup("race", "classic", (one, two, three, four), 10.0, 5, "party", 2))
-    for seat in range(4):
-        match.sit(seat, make_brain("race", "hand3", seat))
+    match = match_of("race", ["hand3"] * 4, seed=5, variant="party", goal=2)
     used = dict.fromkeys(("surge", "slip", "item"), 0)
     while not match.over:
         match.tick()

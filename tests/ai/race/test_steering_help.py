@@ -10,14 +10,13 @@ from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, POINT, TURN
 from pigaming_app.ai.race.steering_help import helped_stick
 from pigaming_app.ai.registry import AIS
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.games.race.course import locate, point_at, segment_at
 from pigaming_app.sim.action import quantise, set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.input.events import StickState
 from tests.cases import one_in
+from tests.matches import match_of
 
 TRACKS = arenas("race")
 
@@ -43,8 +42,7 @@ class Novice:
 
 
 def alone(track="classic", laps=1):
-    seats = Seat("human", 0), Seat("off", 1), Seat("off", 2), Seat("off", 3)
-    return Match(Setup("race", track, seats, 2.0, 1, "standard", laps))
+    return match_of("race", "human", track, 2.0, 1, "standard", laps)
 
 
 def ticks_in_mud(match, novice, ticks=1000):

@@ -27,6 +27,7 @@ from pigaming_app.sim.action import set_action
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.world import DT, HZ
 from tests.cases import one_in
+from tests.matches import finished, run
 
 FLOORS = arenas("factory")
 WAYS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
@@ -81,8 +82,7 @@ def time_to_process(floor, m, pose=None, stick=None):
     state = match.state
     if pose:
         put(match, 0, *pose)
-    for _ in range(25):
-        match.tick()
+    run(match, 25)
     state.pallets[0].state, state.pallets[0].fed = RAW if state.machines[m].kind == A else HALF, 1
     move(state, 0, IN_SLOT, MACHINE_SLOTS + 2 * m)
     for tick in range(60 * HZ):
@@ -111,8 +111,7 @@ def ended(floor, brains, pose=None):
     match = begun(floor, brains)
     if pose:
         put(match, 1, *pose)
-    while not match.over:
-        match.tick()
+    finished(match)
     return match
 
 
@@ -139,8 +138,7 @@ def test_a_pair_gets_everything_out_while_both_others_stand_in_its_way():
     match = begun("yard", ("hand3", Stick(), "hand3", Stick()))
     for seat, pose in ((1, against(match.state, 0)[-1]), (3, (800.0, 414.0, -1.57))):
         put(match, seat, *pose)
-    while not match.over:
-        match.tick()
+    finished(match)
     assert match.state.winner == 1 + ICE
 
 
@@ -164,8 +162,7 @@ def test_an_idle_worker_takes_over_from_one_who_cannot_get_there():
     state.pallets[0].fed = 1
     match.tick()
     assert state.machines[0].worker == 1, "the nearest is called first"
-    for _ in range(state.rules.patience + 2):
-        match.tick()
+    run(match, state.rules.patience + 2)
     assert state.machines[0].worker == 2, "then the next"
     assert state.workers[0].task == RESTING
     while state.workers[1].task == GOING:
@@ -184,8 +181,7 @@ def test_another_machine_comes_before_the_one_that_nobody_gets_to():
         state.pallets[p].state, state.pallets[p].fed = RAW if state.machines[m].kind == A else HALF, 1
         move(state, p, IN_SLOT, MACHINE_SLOTS + 2 * m)
         state.pallets[p].waited = 500 - 100 * m
-    for _ in range(25 * HZ):
-        match.tick()
+    run(match, 25 * HZ)
     assert [bool(state.slots[MACHINE_SLOTS + 2 * m + 1].pallet) for m in range(4)] == [False, True, True, True]
     assert state.machines[0].stalled > 20 * HZ
 
@@ -210,8 +206,7 @@ def test_a_driver_takes_its_pallet_to_the_other_machine_if_nobody_comes_to_this_
     match = begun(floor, ("hand3", None, None, None))
     machine = match.state.machines[m]
     machine.spot_x, machine.spot_y = machine.x, machine.y
-    while not match.over:
-        match.tick()
+    finished(match)
     assert match.state.winner == 1 + ICE
     assert match.seconds < 240.0
     assert match.state.loads[0].spoiled == 0

@@ -2,16 +2,14 @@
 
 import pytest
 
-from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import parse
 from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.games.factory.surprise import WALLS, surprise
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor.model.problems import problems
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from tests.cases import repeated
+from tests.matches import finished, match_of
 
 
 def check(seed: int) -> int:
@@ -38,13 +36,7 @@ def check(seed: int) -> int:
 
 def deliver(seed: int) -> None:
     """Two robots of the planner, one of either team, deliver one pallet each within the time."""
-    brains = ("level5", "level5", "off", "off")
-    one, two, three, four = (Seat(brain, team) for brain, team in zip(brains, (0, 1, 0, 1), strict=True))
-    match = Match(Setup("factory", f"surprise-{seed}", (one, two, three, four), 5.0, 1, "standard", 2))
-    for seat in (0, 1):
-        match.sit(seat, make_brain("factory", "level5", seed))
-    while not match.over:
-        match.tick()
+    match = finished(match_of("factory", "level5 level5", f"surprise-{seed}", goal=2))
     assert match.state.winner
 
 

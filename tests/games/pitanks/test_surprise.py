@@ -5,16 +5,15 @@ from math import hypot
 
 import pytest
 
-from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import load
 from pigaming_app.games.drawing.values import drawing_of
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.pitanks.surprise import PAIRS, PASSAGE, surprise
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor.model.problems import problems
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from tests.cases import repeated
+from tests.matches import match_of
 
 SEEDS = range(60)
 FAR = 3000.0  # px that a robot drives in a minute that it does not spend in a corner
@@ -22,8 +21,7 @@ FAR = 3000.0  # px that a robot drives in a minute that it does not spend in a c
 
 def fight(seed: int) -> None:
     """Four hand-written opponents drive about for a minute and hit each other."""
-    one, two, three, four = (Seat("level3", i) for i in range(4))
-    match = new_match(Setup("pitanks", f"surprise-{seed}", (one, two, three, four), 1.0, 1, "plain"))
+    match = match_of("pitanks", ["level3"] * 4, f"surprise-{seed}", 1.0, 1, "plain")
     ways, places = [0.0] * 4, [(robot.x, robot.y) for robot in match.state.robots]
     while not match.over:
         match.tick()

@@ -2,16 +2,14 @@
 
 import pytest
 
-from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import load
 from pigaming_app.games.drawing.values import drawing_of
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.games.race.surprise import HALVES, surprise
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor.model.problems import problems
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from tests.cases import repeated
+from tests.matches import finished, match_of
 
 
 def check(seed: int) -> int:
@@ -31,11 +29,7 @@ def check(seed: int) -> int:
 
 def lap(seed: int) -> None:
     """The hand-written driver finishes two laps alone."""
-    one, two, three, four = (Seat(brain, i) for i, brain in enumerate(("level3", "off", "off", "off")))
-    match = Match(Setup("race", f"surprise-{seed}", (one, two, three, four), 2.0, 1, "standard", 2))
-    match.sit(0, make_brain("race", "level3", seed))
-    while not match.over:
-        match.tick()
+    match = finished(match_of("race", "level3", f"surprise-{seed}", 2.0, 1, "standard", 2))
     assert match.state.racers[0].finished
 
 

@@ -13,11 +13,11 @@ from pigaming_app.ai.learning.league import duel
 from pigaming_app.ai.networks.onnx import child
 from pigaming_app.ai.networks.onnx.files import OnnxPolicy
 from pigaming_app.ai.networks.registry import ENCODINGS
-from pigaming_app.ai.registry import find_brain, new_match
-from pigaming_app.games.game import Seat, Setup
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.jobs.cli import main
 from tests.ai.networks.onnx.tiny_onnx import DOUBLE, endless, field, model, node, tensor, troubled
+from tests.matches import finished, match_of
 
 ENCODING = ENCODINGS["pitanks"]
 SIZE, LESS = ENCODING.size, ENCODING.size - 1
@@ -88,10 +88,7 @@ class TestWithTheExtra:
         inputs = np.random.default_rng(2).integers(-256, 257, ENCODING.size).astype(float)
         logits = kind.weights(False)[0].logits(inputs.tolist())
         assert np.array(logits) / 65536.0 == pytest.approx(inputs / 256.0 @ MATRIX, rel=1e-4, abs=1e-4)
-        seats = Seat("my net.onnx", 0), Seat("level5", 1), Seat("off", 2), Seat("off", 3)
-        match = new_match(Setup("pitanks", "classic", seats, 0.1, 1, "pickups"))
-        while not match.over:
-            match.tick()
+        match = finished(match_of("pitanks", ["my net.onnx", "level5"], minutes=0.1, variant="pickups"))
         told = thoughts_of(match, 0)
         assert told is not None
         assert told.heads.keys() == {"drive", "turn", "shoot", "turbo"}
@@ -134,8 +131,7 @@ class TestWithTheExtra:
         monkeypatch.setattr(OnnxPolicy, "_try", lambda policy: None)
         monkeypatch.setattr("pigaming_app.ai.networks.onnx.files.failed", failures)
         Path("a.onnx").write_bytes(raw)
-        seats = Seat("a.onnx", 0), Seat("level5", 1), Seat("off", 2), Seat("off", 3)
-        match = new_match(Setup("pitanks", "classic", seats, 0.1, 1, "pickups"))
+        match = match_of("pitanks", "a.onnx level5", minutes=0.1, variant="pickups")
         while not match.over:
             match.tick()
             action = match.state.actions[0]
