@@ -33,16 +33,12 @@ def is_degenerate(corners: Sequence[float]) -> bool:
     return bool(turns.min() < MIN_SIDE * CANVAS[0] * MIN_SIDE * CANVAS[1])
 
 
-class CornerPinError(OperatorError):
-    """Corners that no picture fits."""
-
-
 class CornerPin:
-    """A corner pin for windows of any size. Raises CornerPinError or OpenCVMissing."""
+    """A corner pin for windows of any size. Raises OperatorError or OpenCVMissing."""
 
     def __init__(self, corners: Sequence[float]) -> None:
         if is_degenerate(corners):
-            raise CornerPinError(OperatorMessage("corners"))
+            raise OperatorError(OperatorMessage("corners"))
         opencv()
         self.corners = tuple(corners)
 

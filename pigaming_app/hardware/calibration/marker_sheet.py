@@ -21,17 +21,13 @@ BLOCK_SIZES = {number: SQUARE if number < 32 else LONG for number in range(20, 4
 BLOCK_PAGES = (range(20, 26), range(26, 32), range(32, 35), range(35, 38), range(38, 40))
 
 
-class MarkerSheetError(OperatorError):
-    """A marker size that fits neither the page nor a robot."""
-
-
 def sheet(edge: float = MARKER, notes: Sequence[str] = (), block_notes: Sequence[str] = ()) -> bytes:
     """A PDF of the four robots' markers, each `edge` mm wide (20 to 60), with `notes` as lines below; then the blocks.
 
-    Raises OpenCVMissing, MarkerSheetError.
+    Raises OpenCVMissing, OperatorError.
     """
     if not 20.0 <= edge <= 60.0:
-        raise MarkerSheetError(OperatorMessage("marker_edge", edge=f"{edge:g}"))
+        raise OperatorError(OperatorMessage("marker_edge", edge=f"{edge:g}"))
     blocks = [[*_blocks(numbers), *_words(block_notes, 14.0)] for numbers in BLOCK_PAGES]
     return _pdf(["\n".join(page) for page in ([*_markers(edge), *_ruler(), *_words(notes, 270.0)], *blocks)])
 

@@ -4,7 +4,6 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf
-from typing import Protocol
 
 from pigaming_app.hardware.calibration.ground_plane import LID
 from pigaming_app.hardware.signals import CameraSource, Clock, ExposureKept
@@ -26,19 +25,17 @@ class Measurements:
     lid: float = LID
 
 
-class CalibrationSite(Protocol):
+class CalibrationSite:
     """A mat with a projector and cameras. `stepped`: time is simulated and passes only in `advance`."""
 
     name: str
-    stepped: bool
-    clock: Clock
+    stepped = False
+    clock: Clock = staticmethod(time.monotonic)
     settle: float  # s from opening a camera to its first usable picture
+    measures = Measurements()  # initial ones
 
-    @property
-    def measures(self) -> Measurements:
-        """Initial measurements."""
-
-    def cameras(self) -> list[CameraInfo]: ...
+    def cameras(self) -> list[CameraInfo]:
+        raise NotImplementedError
 
     def open(
         self, number: int, locks: bool = True, fresh: bool = False, kept: ExposureKept | None = None
@@ -47,26 +44,25 @@ class CalibrationSite(Protocol):
 
         `locks`: lock the exposure once settled; `fresh`: choose it anew; `kept`: set that of a calibration.
         """
+        raise NotImplementedError
 
-    def advance(self, seconds: float) -> None: ...
+    def advance(self, seconds: float) -> None:
+        """Advance simulated time; real time passes by itself."""
 
     def clear(self, off: bool) -> None:
-        """Request an empty mat (`off`), or allow the robots back."""
+        """Request an empty mat (`off`), or allow the robots back; the wizard asks the operator of a real one."""
 
     def stand(self, x: float, y: float) -> None:
-        """Request a robot at this point, arena px."""
+        """Request a robot at this point, arena px; the operator of a real mat follows the projected outline."""
 
 
-class RealCalibrationSite:
+class RealCalibrationSite(CalibrationSite):
     """The physical mat. `open_capture` makes a `cv2.VideoCapture`."""
 
     name = "real"
-    stepped = False
     settle = SETTLED
-    measures = Measurements()
 
     def __init__(self, open_capture: Callable[[int], object] | None = None) -> None:
-        self.clock: Clock = time.monotonic
         self._open_capture = open_capture
 
     def cameras(self) -> list[CameraInfo]:
@@ -76,12 +72,3 @@ class RealCalibrationSite:
         self, number: int, locks: bool = True, fresh: bool = False, kept: ExposureKept | None = None
     ) -> CameraSource:
         return Camera(number, None, self.clock, self._open_capture, SETTLE if locks else inf, fresh, kept)
-
-    def advance(self, seconds: float) -> None:
-        """No effect: real time passes by itself."""
-
-    def clear(self, off: bool) -> None:
-        """No effect: the first page of the wizard asks the operator."""
-
-    def stand(self, x: float, y: float) -> None:
-        """No effect: the operator follows the projected outline."""

@@ -9,7 +9,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.calibration.site import Measurements
+from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.emulator.arena import ARENA_AT, EmulatedArena
 from pigaming_app.hardware.emulator.camera import CameraDriver, CameraTraits, FrameTiming
 from pigaming_app.hardware.emulator.realtime import RealtimeArena
@@ -51,7 +51,7 @@ class EmulatedCameraSource:
         """No effect: the emulated camera stays."""
 
 
-class EmulatedCalibrationSite:
+class EmulatedCalibrationSite(CalibrationSite):
     """An emulated arena whose robots move to the requested places by themselves."""
 
     name = "emulated"

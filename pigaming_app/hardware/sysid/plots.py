@@ -14,16 +14,12 @@ from pigaming_app.storage.safe_files import write_atomic
 SHOWN = 6  # predictions drawn per robot
 
 
-class PlotsUnavailable(OperatorError):
-    """matplotlib is not installed."""
-
-
 def draw(run: Recording, verdicts: Sequence[Identification], folder: Path) -> list[Path]:
-    """Write horizon.png and paths.png into the folder; returns their paths. Raises PlotsUnavailable, NotSaved."""
+    """Write horizon.png and paths.png into the folder; returns their paths. Raises OperatorError, NotSaved."""
     try:
         from matplotlib.figure import Figure
     except ImportError:
-        raise PlotsUnavailable(OperatorMessage("no_plots")) from None
+        raise OperatorError(OperatorMessage("no_plots")) from None
     files = []
     for name, paint in (("horizon.png", _horizons), ("paths.png", _paths)):
         figure = Figure(figsize=(10, 6), layout="constrained")

@@ -7,12 +7,12 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, settings_problem
-from pigaming_app.jobs.mat.sessions import new_session
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
+from pigaming_app.jobs.mat.sessions import require_deadman, robots_of
 from pigaming_app.jobs.terminal.options import JsonOption, RigOptions, argument, integer, option, path
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
+from pigaming_app.storage.messages import OperatorError
 from pigaming_app.storage.parsing import describe_error
-from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import english
 
 LONGEST = 3600  # s of a recording
@@ -51,27 +51,24 @@ def record(options: FidelityOptions) -> dict[str, Any]:
     from pigaming_app.hardware.run_writer import RecordingWriter
     from pigaming_app.storage.safe_files import require_writable
 
-    if options.emulate is None and (problem := settings_problem(Settings.load(folders().config)[0])):
-        raise Refusal(english().long_sentence(problem))
+    require_deadman(options)
     require("hardware")
     require_writable(options.file)
-    with refused(RobotsUnavailable):
-        session = new_session(options.emulate, options.camera, options.port)
-        rig = session.open()
     try:
-        present = _present(session, rig)
-        recorder = RecordingWriter(options.file, session.mm, options.emulate is not None)
-        try:
-            rig.recorder = recorder
-            _excite(session, rig, present, options.seconds)
-            rig.recorder = None
-            recorder.close()
-        finally:
-            recorder.discard()
+        with robots_of(options) as session:
+            with refused(RobotsUnavailable):
+                rig = session.open()
+            present = _present(session, rig)
+            recorder = RecordingWriter(options.file, session.mm, options.emulate is not None)
+            try:
+                rig.recorder = recorder
+                _excite(session, rig, present, options.seconds)
+                rig.recorder = None
+                recorder.close()
+            finally:
+                recorder.discard()
     except OSError as trouble:
         raise Refusal(f"{options.file}: cannot be written ({describe_error(trouble)})") from None
-    finally:
-        session.end()
     robots = ", ".join(str(robot + 1) for robot in present)
     lines = [f"{options.file}: {options.seconds:g} s of robots {robots}. Now: fidelity identify {options.file}"]
     return {"file": str(options.file), "robots": [robot + 1 for robot in present], "said": lines}
@@ -180,9 +177,9 @@ def _load(file: Path) -> Any:
 
 
 def _draw(run: Any, verdicts: Any, folder: Path) -> list[str]:
-    from pigaming_app.hardware.sysid.plots import PlotsUnavailable, draw
+    from pigaming_app.hardware.sysid.plots import draw
 
-    with refused(PlotsUnavailable):
+    with refused(OperatorError):
         return [f"drawn: {path}" for path in draw(run, verdicts, folder)]
 
 

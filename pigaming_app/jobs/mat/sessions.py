@@ -1,9 +1,15 @@
 """The robots of a job: the real ones of the settings, or the emulated arena in simulated time."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from pigaming_app.hardware.session.real import UDP, RealSession
-from pigaming_app.hardware.session.robot_session import RobotSession
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.hardware.session.robot_session import settings_problem as settings_problem
+from pigaming_app.jobs.terminal.options import RigOptions
+from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.ui.i18n import english
 
 EXPOSURE_JITTER = 0.15  # size of the exposure steps of the emulated camera, as a share
 
@@ -39,3 +45,20 @@ def new_session(emulate: int | None, camera: int | None, port: str | None, radio
     if emulate is None:
         return real_session(camera, port, radio)
     return emulated_session(emulate, (radio or Settings.load(folders().config)[0].radio) == UDP)
+
+
+@contextmanager
+def robots_of(options: RigOptions, radio: str | None = None) -> Iterator[RobotSession]:
+    """The emulated session of a seed, or the real one, until its end. Raises Refusal."""
+    with refused(RobotsUnavailable):
+        session = new_session(options.emulate, options.camera, options.port, radio)
+    try:
+        yield session
+    finally:
+        session.end()
+
+
+def require_deadman(options: RigOptions) -> None:
+    """Raises Refusal if the settings are those of real robots that would drive on."""
+    if options.emulate is None and (problem := settings_problem(Settings.load(folders().config)[0])):
+        raise Refusal(english().long_sentence(problem))

@@ -57,21 +57,9 @@ def _crossed_eye(ink: GlowCanvas, x: float, y: float, r: float, color: Color) ->
 
 
 SIGNS: dict[str, Draw] = {
-    "camera": _camera,
-    "drift": _camera,
-    "drifts": _camera,
-    "lost": _crossed_eye,
-    "held": _crossed_eye,
-    "twice": _crossed_eye,
-    "radio": _radio,
-    "silent": _radio,
-    "old": _radio,
-    "no_arena": _radio,
-    "foreign": _radio,
-    "key": _radio,
-    "deadman": _radio,
-    **dict.fromkeys(REMOTE.values(), _radio),
-    "empty": _battery,
-    "low": _battery,
+    **dict.fromkeys(("camera", "drift", "drifts"), _camera),
+    **dict.fromkeys(("lost", "held", "twice"), _crossed_eye),
+    **dict.fromkeys(("radio", "silent", "old", "no_arena", "foreign", "key", "deadman", *REMOTE.values()), _radio),
+    **dict.fromkeys(("empty", "low"), _battery),
     "stopped": _stop,
 }

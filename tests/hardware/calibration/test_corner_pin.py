@@ -6,10 +6,10 @@ import pytest
 from pigaming_app.hardware.calibration.corner_pin import (
     STRAIGHT,
     CornerPin,
-    CornerPinError,
     PerspectiveWarp,
     is_degenerate,
 )
+from pigaming_app.storage.messages import OperatorError
 from tests.hardware.sentences import refused
 
 ASKEW = (40.0, 20.0, 1880.0, 60.0, 1900.0, 1060.0, 10.0, 1000.0)
@@ -60,5 +60,5 @@ def test_the_mouse_points_at_what_is_seen_under_it() -> None:
 )
 def test_corners_into_which_nothing_fits_are_refused(corners: tuple[float, ...]) -> None:
     assert is_degenerate(corners)
-    with refused(CornerPinError, "fits"):
+    with refused(OperatorError, "fits"):
         CornerPin(corners)

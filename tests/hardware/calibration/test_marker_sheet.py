@@ -5,8 +5,9 @@ import re
 import numpy as np
 import pytest
 
-from pigaming_app.hardware.calibration.marker_sheet import BLOCK_SIZES, MarkerSheetError, sheet
+from pigaming_app.hardware.calibration.marker_sheet import BLOCK_SIZES, sheet
 from pigaming_app.hardware.vision.markers import ROBOT_IDS, MarkerDetector
+from pigaming_app.storage.messages import OperatorError
 from tests.hardware.sentences import refused
 
 MM = 72.0 / 25.4  # PDF points
@@ -77,5 +78,5 @@ def test_the_table_of_the_file_points_at_its_objects():
 
 @pytest.mark.parametrize("edge", [0.0, 500.0])
 def test_what_does_not_fit_is_refused(edge):
-    with refused(MarkerSheetError, "20 to 60 mm"):
+    with refused(OperatorError, "20 to 60 mm"):
         sheet(edge)

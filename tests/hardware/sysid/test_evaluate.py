@@ -15,8 +15,9 @@ from pigaming_app.hardware.signals import Fix, WheelCommand
 from pigaming_app.hardware.sysid.evaluate import RecordingTooShort, errors, measure, predictions, replay
 from pigaming_app.hardware.sysid.excitation import ExcitationPattern
 from pigaming_app.hardware.sysid.identify import fit_pieces, identify, move_pieces, track
-from pigaming_app.hardware.sysid.plots import PlotsUnavailable, draw
+from pigaming_app.hardware.sysid.plots import draw
 from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel
+from pigaming_app.storage.messages import OperatorError
 from tests.floor import floor
 from tests.hardware.mat import TRUE, Mat
 from tests.hardware.sentences import refused
@@ -217,5 +218,5 @@ def test_two_pictures_are_drawn(run, tmp_path):
 
 def test_without_matplotlib_there_is_one_sentence(run, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    with refused(PlotsUnavailable, "matplotlib"):
+    with refused(OperatorError, "matplotlib"):
         draw(run, [], tmp_path)

@@ -15,8 +15,7 @@ from pigaming_app.hardware.radio.xbee_setup import Carrier
 from pigaming_app.hardware.session.store import save_pairing
 from pigaming_app.hardware.signals import ExposureState
 from pigaming_app.jobs.cli import main
-from pigaming_app.jobs.mat import fidelity, robots
-from pigaming_app.jobs.mat.robots import radio_setup
+from pigaming_app.jobs.mat import robots, sessions
 from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, Wheel, parse, to_toml
 from pigaming_app.storage.settings import Settings, folders
 from tests.hardware.mat import TRUE, Mat
@@ -73,7 +72,7 @@ class Radios:
 
 def test_a_radio_is_written_and_refusals_are_one_line(capsys, monkeypatch):
     session = Radios()
-    monkeypatch.setattr(radio_setup, "new_session", lambda *_: session)
+    monkeypatch.setattr(sessions, "new_session", lambda *_: session)
     written = output(capsys, "robots", "--radio-setup", "3", "--channel", "D", "--pan", "ABC")
     assert written == {"radio": 3, "arena": 4711, "CH": 13, "ID": 0xABC, "MY": 3, "DH": 0, "DL": 0, "BD": 6, "AP": 0}
     assert session.module.saved[b"ID"] == 0xABC
@@ -163,7 +162,7 @@ def test_flags_of_reports_and_a_warning_about_the_picture_are_printed(monkeypatc
 
 @pytest.mark.long
 def test_robots_are_recorded_identified_and_replayed(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(fidelity, "new_session", Session)
+    monkeypatch.setattr(sessions, "new_session", Session)
     run, out = tmp_path / "run.jsonl", tmp_path / "robots.toml"
     assert output(capsys, "fidelity", "record", str(run), "--seconds", "24")["robots"] == [1, 2, 3, 4]
     found = output(capsys, "fidelity", "identify", str(run), "--out", str(out))
@@ -181,7 +180,7 @@ def test_an_earlier_run_stays_where_no_robot_can_drive(tmp_path, capsys, monkeyp
             super().__init__()
             monkeypatch.setattr(self.rig, "telemetry", lambda robot: None)
 
-    monkeypatch.setattr(fidelity, "new_session", Nobody)
+    monkeypatch.setattr(sessions, "new_session", Nobody)
     run = tmp_path / "run.jsonl"
     run.write_text("kept")
     assert main(["fidelity", "record", str(run)]) == 2

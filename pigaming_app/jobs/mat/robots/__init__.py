@@ -9,9 +9,9 @@ from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTE
 from pigaming_app.hardware.robot_files import set_up_command
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, camera_warning
 from pigaming_app.jobs.mat.robots import radio_setup, wifi_setup
-from pigaming_app.jobs.mat.sessions import new_session
+from pigaming_app.jobs.mat.sessions import robots_of
 from pigaming_app.jobs.terminal.options import flag
-from pigaming_app.jobs.terminal.refusal import Refusal, refused, require, sentence
+from pigaming_app.jobs.terminal.refusal import Refusal, require, sentence
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import english
@@ -66,7 +66,9 @@ def run(options: RobotsOptions) -> int:
     if wifi_setup.supply_file(options, settings):
         return 0
     if options.wheels is not None:
-        return _turn_wheels(options, options.wheels)
+        with robots_of(options, options.radio) as session:
+            wifi_setup.turn_wheels(session, options.wheels)
+        return 0
     if options.radio_setup is not None:
         return radio_setup.set_up(options, options.radio_setup, settings)
     if options.emulate is not None or options.pair or options.latency:
@@ -79,17 +81,6 @@ def run(options: RobotsOptions) -> int:
     return 0
 
 
-def _turn_wheels(options: RobotsOptions, robot: int) -> int:
-    """Turn the wheels of one robot, without a camera. Raises Refusal."""
-    with refused(RobotsUnavailable):
-        session = new_session(options.emulate, options.camera, options.port, options.radio)
-    try:
-        wifi_setup.turn_wheels(session, robot)
-    finally:
-        session.end()
-    return 0
-
-
 def look(options: RobotsOptions) -> dict[str, Any]:
     """The status by name; a fault is a sentence. Raises Refusal."""
     from pigaming_app.hardware.radio.serial_line import ports
@@ -99,17 +90,14 @@ def look(options: RobotsOptions) -> dict[str, Any]:
         "ports": [port._asdict() for port in ports()],
         "cameras": [camera._asdict() for camera in cameras()],
     }
-    with refused(RobotsUnavailable):
-        session = new_session(options.emulate, options.camera, options.port, options.radio)
-    try:
-        status["arena"] = session.arena_id
-        return {**status, **_full_status(session, options)}
-    except RobotsUnavailable as trouble:
-        if options.pair or options.latency:
-            raise Refusal(f"Robots move only in view of the camera. {sentence(trouble)}") from None
-        return {**status, **_radio_status(session), "eyes": sentence(trouble)}
-    finally:
-        session.end()
+    with robots_of(options, options.radio) as session:
+        try:
+            status["arena"] = session.arena_id
+            return {**status, **_full_status(session, options)}
+        except RobotsUnavailable as trouble:
+            if options.pair or options.latency:
+                raise Refusal(f"Robots move only in view of the camera. {sentence(trouble)}") from None
+            return {**status, **_radio_status(session), "eyes": sentence(trouble)}
 
 
 def _radio_status(session: RobotSession) -> dict[str, Any]:

@@ -7,8 +7,7 @@ from typing import Any, ClassVar
 from pigaming_app.hardware.radio.packets import LAST_ARENA, ROBOTS
 from pigaming_app.hardware.radio.xbee_frames import CHANNELS
 from pigaming_app.hardware.robot_files import set_up_command
-from pigaming_app.hardware.session.robot_session import RobotsUnavailable
-from pigaming_app.jobs.mat.sessions import new_session
+from pigaming_app.jobs.mat.sessions import robots_of
 from pigaming_app.jobs.terminal.options import Groups, JsonOption, RadioOptions, hexadecimal, integer, option
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.storage.messages import OperatorError
@@ -59,16 +58,12 @@ def set_up(options: RadioSetupOptions, number: int, settings: Settings) -> int:
 
     if settings.radio not in ("api2", "api1", "transparent"):
         raise Refusal(f"radio mode {settings.radio} uses no XBee")
-    with refused(OperatorError, RobotsUnavailable, ValueError):
-        session = new_session(options.emulate, None, options.port)
-        try:
-            arena = session.arena_id
-            network = network_of(arena, settings.radio_channel, settings.radio_pan)
-            wanted = parameters(number, network, settings.radio, settings.baud)
-            for _ in XBeeSetup(session.carrier(number), wanted, settings.baud).steps():
-                session.tick()
-        finally:
-            session.end()
+    with refused(OperatorError, ValueError), robots_of(options) as session:
+        arena = session.arena_id
+        network = network_of(arena, settings.radio_channel, settings.radio_pan)
+        wanted = parameters(number, network, settings.radio, settings.baud)
+        for _ in XBeeSetup(session.carrier(number), wanted, settings.baud).steps():
+            session.tick()
     result: dict[str, Any] = {"radio": number, "arena": arena, **wanted}
     if options.json:
         print(json.dumps(result))

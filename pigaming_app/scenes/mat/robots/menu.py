@@ -133,9 +133,7 @@ def sketch(name: str) -> LitImage:
     elif name == "blocks":
         for x, y, wide in ((-90, -60, 76), (90, 50, 130)):
             ink.line(cut_box(x - wide, y - 60, 2 * wide, 120, 6), ICE, LINE, True)
-            ink.line(cut_box(x - 36, y - 36, 72, 72, 4), FOCUS, THIN, True)
-            ink.fill([(x - 20, y - 20), (x + 4, y - 20), (x + 4, y + 4), (x - 20, y + 4)], FOCUS)
-            ink.fill([(x + 4, y + 4), (x + 20, y + 4), (x + 20, y + 20), (x + 4, y + 20)], FOCUS)
+            _marker(ink, x, y)
     elif name == "pin":
         ink.line(cut_box(-170, -110, 340, 220, 12), STEEL, THIN, True)
         points = [(-150, -120), (176, -92), (150, 118), (-182, 96)]
@@ -145,11 +143,15 @@ def sketch(name: str) -> LitImage:
     elif name == "sheet":
         ink.line(cut_box(-108, -150, 216, 300, 14), ICE, LINE, True)
         for x, y in ((-50, -84), (50, -84), (-50, 20), (50, 20)):
-            ink.line(cut_box(x - 36, y - 36, 72, 72, 4), FOCUS, THIN, True)
-            ink.fill([(x - 20, y - 20), (x + 4, y - 20), (x + 4, y + 4), (x - 20, y + 4)], FOCUS)
-            ink.fill([(x + 4, y + 4), (x + 20, y + 4), (x + 20, y + 20), (x + 4, y + 20)], FOCUS)
+            _marker(ink, x, y)
         ink.line([(-80, 112), (80, 112)], ICE, LINE).line([(-80, 98), (-80, 126)], ICE, LINE)
         ink.line([(80, 98), (80, 126)], ICE, LINE)
     else:
         raise KeyError(name)
     return LitImage(ink.lit(0.9), (-240, -170))
+
+
+def _marker(ink: GlowCanvas, x: float, y: float) -> None:
+    ink.line(cut_box(x - 36, y - 36, 72, 72, 4), FOCUS, THIN, True)
+    ink.fill([(x - 20, y - 20), (x + 4, y - 20), (x + 4, y + 4), (x - 20, y + 4)], FOCUS)
+    ink.fill([(x + 4, y + 4), (x + 20, y + 4), (x + 20, y + 20), (x + 4, y + 20)], FOCUS)
