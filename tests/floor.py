@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.pitanks import PITANKS
+from pigaming_app.games.pitanks import GAME as PITANKS
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.arena import Arena, StartPose, WallSpec, build
 from pigaming_app.sim.world import World

@@ -7,22 +7,20 @@ from pigaming_app.ai.brain.archive import BrainFileError
 from pigaming_app.ai.brain.driving import Controller
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer, HumanPlayer, OneButtonPlayer
 from pigaming_app.ai.brain_files import is_path, read_brain
-from pigaming_app.ai.factory import brains as factory
 from pigaming_app.ai.game_ai import CHAUFFEUR, LEVELS, ONE_BUTTON, RANDOM_ONLY, GameAI
-from pigaming_app.ai.pitanks import brains as pitanks
-from pigaming_app.ai.race import brains as race
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.registry import games
+from pigaming_app.games.registry import OURS, games
 from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.plant import Plant, SimPlant
 from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.optional import optional
 from pigaming_app.storage.plugins.parts import parts
 
 AIS: Mapping[str, GameAI] = {
     **dict.fromkeys(games(), RANDOM_ONLY),
-    **{"pitanks": pitanks.AI, "factory": factory.AI, "race": race.AI},
+    **{game: optional(f"ai.{game}.brains").AI for game in OURS},
     **parts("ai", "AI", GameAI),
 }  # by game
 BRAINS: Mapping[str, Mapping[str, BrainKind]] = {game: ai.brains for game, ai in AIS.items()}

@@ -3,14 +3,13 @@
 from collections.abc import Mapping
 from functools import cache
 
-from pigaming_app.games.factory import FACTORY
 from pigaming_app.games.game import Game
-from pigaming_app.games.pitanks import PITANKS
-from pigaming_app.games.race import RACE
 from pigaming_app.sim.kernel import add_sources
+from pigaming_app.storage.optional import optional
 from pigaming_app.storage.plugins.parts import RULES, kernel_sources, parts, plugins
 
-OURS = {game.name: game for game in (PITANKS, FACTORY, RACE)}
+NAMES = ("pitanks", "factory", "race")  # of the games of this package, any of which may be missing
+OURS: dict[str, Game] = {name: room.GAME for name in NAMES if (room := optional(f"games.{name}"))}
 
 
 @cache

@@ -57,9 +57,10 @@ if _sound is not None:
 
 __all__ = ["ENVIRONMENTS", "OptionError", "groups", "parallel_env"]
 
+NAMES = {"PiTanks-v0": "pitanks", "RobotRace-v0": "race", "RobotFactory-v0": "factory"}  # of our games
 ENVIRONMENTS = {
     **{f"{game.title().replace('_', '')}-v0": game for game in TALLIES if game in ENCODINGS and game not in OURS},
-    **{"PiTanks-v0": "pitanks", "RobotRace-v0": "race", "RobotFactory-v0": "factory"},
+    **{name: game for name, game in NAMES.items() if game in OURS},
 }  # names of the games
 
 

@@ -13,6 +13,9 @@ ALLOWED = {
     ("lab", "learning"): "it shows what learns",
     ("lab", "brain"): "the rose of directions",
     ("gym", "learning"): "its compiled loops",
+    ("editor", "factory"): "its tools for this game",
+    ("brain", "factory"): "its explanations of this game, and the signs of its crates",
+    ("gym", "factory"): "its rewards of this game",
     ("events", "learning"): "its compiled loops, for `event run --headless`",
 }
 

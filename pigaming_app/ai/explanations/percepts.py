@@ -2,12 +2,14 @@
 
 from collections.abc import Iterator, Sequence
 
-from pigaming_app.ai.brain.thoughts import BULLET, GOAL, MATE, OPPONENT, PERSON, PRIZE, WAY
-from pigaming_app.ai.networks import factory, pitanks, race
+from pigaming_app.ai.brain.thoughts import BULLET, MATE, OPPONENT, PRIZE, WAY
+from pigaming_app.ai.networks import pitanks, race
 from pigaming_app.ai.networks.pitanks_things import MINE_NEAR
 from pigaming_app.ai.networks.subject import Sight, Subject, distance_of
 from pigaming_app.games.pitanks.state import PiTanks
+from pigaming_app.games.registry import OURS as GAMES
 from pigaming_app.games.simple import MatchState
+from pigaming_app.storage.optional import optional
 from pigaming_app.storage.plugins.parts import Registry
 
 
@@ -29,22 +31,6 @@ def in_pitanks(match: PiTanks, inputs: Sequence[float]) -> Iterator[Sight]:
     k = pitanks.MINE
     if inputs[k + 2]:
         yield Sight("mines", BULLET, MINE_NEAR * (1.0 - inputs[k + 2]), inputs[k], inputs[k + 1])
-
-
-def in_factory(match: MatchState, inputs: Sequence[float]) -> Iterator[Sight]:
-    """The first target and the way to it, robots and people."""
-    k = factory.TARGETS
-    if inputs[k]:
-        way = factory.WAY
-        if not inputs[way + 2]:
-            yield Sight("target", WAY, 400.0 * inputs[way + 3], inputs[way], inputs[way + 1])
-        yield Sight("target", GOAL, distance_of(inputs[k + 2], factory.NEAR), inputs[k + 3], inputs[k + 4])
-    for k in range(factory.OTHERS, factory.PEOPLE, factory.OTHER):
-        if inputs[k]:
-            place = (distance_of(inputs[k + 1], factory.NEAR), inputs[k + 2], inputs[k + 3])
-            yield Sight("others", MATE if inputs[k] > 0.0 else OPPONENT, *place)
-    for k in range(factory.PEOPLE, factory.ROOM, factory.PERSON):
-        yield Sight("people", PERSON, distance_of(inputs[k], 150.0), inputs[k + 1], inputs[k + 2])
 
 
 def in_race(match: MatchState, inputs: Sequence[float]) -> Iterator[Sight]:
@@ -78,23 +64,6 @@ OURS = {
         in_pitanks,
         pitanks.PLACE,
     ),
-    "factory": Subject(
-        {
-            "target": ("target", "way"),
-            "choices": ("second", "third"),
-            "machines": ("machines",),
-            "others": ("others",),
-            "people": ("people",),
-            "walls": ("place", "room"),
-            "load": ("motion", "load"),
-            "score": ("score", "rules"),
-        },
-        (-1.0, 0.0, 1.0),
-        factory.TURNS,
-        "fork",
-        in_factory,
-        factory.PLACE,
-    ),
     "race": Subject(
         {
             "course": ("place", "way", "course"),
@@ -111,4 +80,6 @@ OURS = {
         in_race,
     ),
 }
+if "factory" in GAMES:
+    OURS["factory"] = optional("ai.explanations.factory").SUBJECT
 SUBJECTS = Registry(OURS, "network", "SUBJECT", Subject)  # by game

@@ -5,11 +5,9 @@ from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer, NoWeights, SimpleMind, act_randomly, stand_still
 from pigaming_app.ai.brain.thoughts import Thoughts
-from pigaming_app.ai.explanations import classic, foreman, fsm, gunner, racer, tables
+from pigaming_app.ai.explanations import classic, fsm, gunner, racer, tables
 from pigaming_app.ai.explanations.networks import make_explain
 from pigaming_app.ai.explanations.percepts import SUBJECTS
-from pigaming_app.ai.factory.foreman import think as foreman_think
-from pigaming_app.ai.factory.planner import think as planner_think
 from pigaming_app.ai.networks.policy import mind_record
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.pitanks.classic import think as classic_think
@@ -18,7 +16,9 @@ from pigaming_app.ai.pitanks.gunner import think as gunner_think
 from pigaming_app.ai.qlearning.table import think as table_think
 from pigaming_app.ai.race.racer import think as racer_think
 from pigaming_app.games.match import Match
+from pigaming_app.games.registry import OURS
 from pigaming_app.games.simple import MatchState
+from pigaming_app.storage.optional import optional
 
 Explain = Callable[[Any, int, Any, Any], Thoughts]
 
@@ -41,11 +41,11 @@ BY_THINK: dict[Any, Explain] = {
     classic_think: classic.explain,
     fsm_think: fsm.explain,
     gunner_think: gunner.explain,
-    foreman_think: foreman.explain,
-    planner_think: foreman.explain,
     racer_think: racer.explain,
     table_think: tables.explain,
 }
+if "factory" in OURS:
+    BY_THINK |= optional("ai.explanations.factory").BY_THINK
 
 
 def explain_of(kind: BrainKind, game: str) -> Explain | None:

@@ -1,11 +1,12 @@
 """The encodings of all games."""
 
-from pigaming_app.ai.networks import factory, pitanks, race
 from pigaming_app.ai.networks.encoding import Encoding
+from pigaming_app.games.registry import OURS
+from pigaming_app.storage.optional import optional
 from pigaming_app.storage.plugins.parts import Registry
 
 ENCODINGS = Registry(
-    {encoding.game: encoding for encoding in (pitanks.ENCODING, factory.ENCODING, race.ENCODING)},
+    {game: optional(f"ai.networks.{game}").ENCODING for game in OURS},
     "network",
     "ENCODING",
     Encoding,

@@ -8,7 +8,7 @@ from pigaming_app.games.factory.state import Factory
 from pigaming_app.games.factory.surprise import surprise
 from pigaming_app.games.game import Game, LadderMatches, RecordKind
 
-FACTORY = Game(
+GAME = Game(
     name="factory",
     state=Factory,
     senses=FactorySenses,

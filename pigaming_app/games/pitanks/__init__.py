@@ -8,7 +8,7 @@ from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.games.pitanks.surprise import surprise
 from pigaming_app.games.rounds import BEST_OF
 
-PITANKS = Game(
+GAME = Game(
     name="pitanks",
     state=PiTanks,
     senses=PiTanksSenses,

@@ -18,7 +18,7 @@ from pigaming_app.games.race.start import (
 from pigaming_app.games.race.state import Race
 from pigaming_app.games.race.surprise import surprise
 
-RACE = Game(
+GAME = Game(
     name="race",
     state=Race,
     senses=RaceSenses,

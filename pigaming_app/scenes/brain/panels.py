@@ -10,8 +10,8 @@ from collections.abc import Mapping, Sequence
 import pygame
 
 from pigaming_app.ai.brain.thoughts import MoveKey
+from pigaming_app.games.registry import OURS
 from pigaming_app.scenes.brain.rose import tone
-from pigaming_app.scenes.views.sprites.factory import state_icon
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put, trim
 from pigaming_app.ui.draw.surface_cache import cached
@@ -221,7 +221,9 @@ def divider(seat: int) -> Sprite:
 def sign(name: str, color: kit.Color) -> Sprite:
     """The sign of a wish: an icon, or a crate's state. A circle for what is unknown: plug-ins name their own wishes."""
     ink = kit.GlowCanvas(96, 96, 3).set_transform(48, 48)
-    if name in CRATES:
+    if name in CRATES and "factory" in OURS:
+        from pigaming_app.scenes.views.sprites.factory import state_icon
+
         state_icon(ink, CRATES[name], 0, 0, 17, color)
     elif name in PAIRS:
         for side, part in zip((-1, 1), PAIRS[name], strict=True):

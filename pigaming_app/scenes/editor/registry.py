@@ -2,10 +2,9 @@
 
 from collections.abc import Mapping
 
-from pigaming_app.scenes.editor.games.factory import FactoryTools
-from pigaming_app.scenes.editor.games.pitanks import PiTanksTools
-from pigaming_app.scenes.editor.games.race import RaceTools
+from pigaming_app.games.registry import OURS
 from pigaming_app.scenes.editor.model.shapes import Tools
+from pigaming_app.storage.optional import optional
 from pigaming_app.storage.plugins.parts import EDITOR, parts
 
 
@@ -14,6 +13,6 @@ def _misnamed(name: str, tools: Tools) -> str:
 
 
 EDITORS: Mapping[str, Tools] = {
-    **{tools.game: tools for tools in (PiTanksTools(), FactoryTools(), RaceTools())},
+    **{game: optional(f"scenes.editor.games.{game}").TOOLS for game in OURS},
     **parts(EDITOR, "TOOLS", Tools, _misnamed),
 }  # by game

@@ -7,8 +7,8 @@ import math
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from pigaming_app.scenes.views.sprites.factory import TEAMS, emblem
 from pigaming_app.scenes.views.sprites.robot import seat_robot
+from pigaming_app.scenes.views.sprites.teams import TEAMS, emblem
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage

@@ -9,7 +9,7 @@ from pigaming_app.ai.registry import AIS
 from pigaming_app.games.game import ALLIES, PAIRS, Outcome, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.brain_names import lit_stars
-from pigaming_app.scenes.views.sprites.factory import TEAMS
+from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.ui.draw import FOCUS, ICE, PLAYERS, Color
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device

@@ -19,9 +19,9 @@ from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration,
 from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.sprites.effects import SPARK_SIZES, SPARK_TURNS, sparks
-from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.scenes.views.sprites.robot import robot
 from pigaming_app.scenes.views.sprites.stars import STARS, star
+from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.scenes.views.view import ShownEffects
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, Steps, resumable

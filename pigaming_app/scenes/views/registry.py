@@ -6,7 +6,7 @@ from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.registry import AIS
 from pigaming_app.games.registry import OURS, games
 from pigaming_app.scenes.views.game_screens import GameScreens
-from pigaming_app.scenes.views.games import factory, pitanks, race
+from pigaming_app.storage.optional import optional
 from pigaming_app.storage.plugins.parts import SCREENS as PART
 from pigaming_app.storage.plugins.parts import hidden, parts
 from pigaming_app.ui.i18n import fields, texts
@@ -49,9 +49,7 @@ def _values(key: str, name: str) -> set[str]:
 
 
 SCREENS: Mapping[str, GameScreens] = {
-    "pitanks": pitanks.SCREENS,
-    "factory": factory.SCREENS,
-    "race": race.SCREENS,
+    **{game: optional(f"scenes.views.games.{game}").SCREENS for game in OURS},
     **parts(PART, "SCREENS", GameScreens, _lacks),
 }  # by game
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from pigaming_app.scenes.views.sprites.factory import TEAMS
+from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.ui.draw import ALARM, FOCUS, HAIR, ICE, LINE, MIST, PLAYERS, STEEL, THIN, WHITE, Color
 
 

@@ -6,7 +6,7 @@ from math import hypot
 import numpy as np
 import pytest
 
-from pigaming_app.ai.explanations.foreman import explain
+from pigaming_app.ai.explanations.factory import explain
 from pigaming_app.ai.factory.brains import LEVELS
 from pigaming_app.ai.factory.navigation import FAR
 from pigaming_app.ai.learning.rollout import Batch

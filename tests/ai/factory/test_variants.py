@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pigaming_app.ai.explanations.foreman import explain
+from pigaming_app.ai.explanations.factory import explain
 from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS, make_brain
 from pigaming_app.games.arenas import arenas

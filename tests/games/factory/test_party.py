@@ -5,7 +5,7 @@ from random import Random
 import pytest
 
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.factory import FACTORY
+from pigaming_app.games.factory import GAME as FACTORY
 from pigaming_app.games.factory.rules import may_lift
 from pigaming_app.games.factory.state import (
     DAMAGED,

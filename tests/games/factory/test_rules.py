@@ -5,7 +5,7 @@ from math import hypot, pi
 import pytest
 
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.factory import FACTORY
+from pigaming_app.games.factory import GAME as FACTORY
 from pigaming_app.games.factory.pallets import move
 from pigaming_app.games.factory.state import (
     BY_WORKER,

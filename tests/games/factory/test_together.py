@@ -3,7 +3,7 @@
 import pytest
 
 from pigaming_app.games.arenas import arenas, load
-from pigaming_app.games.factory import FACTORY
+from pigaming_app.games.factory import GAME as FACTORY
 from pigaming_app.games.factory.stars import THREE_STARS, TWO_STARS, expected_time, way
 from pigaming_app.games.factory.state import DELIVERED, DONE, ENTRY, EXIT, ICE, IN_SLOT, SHIPPED, WAITING
 from pigaming_app.games.replay import decode, encode, verify

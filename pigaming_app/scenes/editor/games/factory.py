@@ -51,7 +51,7 @@ from pigaming_app.scenes.views.factory.background import (
     draw_warehouse,
     draw_work_place,
 )
-from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
+from pigaming_app.scenes.views.sprites.teams import TEAMS as COLORS
 from pigaming_app.scenes.views.things.styles import WORKSHOP
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -281,3 +281,6 @@ def _box(part: Part) -> tuple[float, float, float, float]:
         case (int() | float() as w, int() | float() as h) if 0 < w <= WIDTH and 0 < h <= HEIGHT:
             return x, y, float(w), float(h)
     return x, y, float(LEAST), float(LEAST)
+
+
+TOOLS = FactoryTools()

@@ -20,3 +20,6 @@ class PiTanksTools(Tools):
     shapes: ClassVar[Mapping[str, Shape]] = {"thing": DrawnThing(NEON), "wall": DrawnWall(), "start": Start()}
     palette = (WALL, ROCK_TOOL, MUD)
     empty = EMPTY
+
+
+TOOLS = PiTanksTools()

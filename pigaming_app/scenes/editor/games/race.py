@@ -282,3 +282,6 @@ def _radius(corners: Sequence[Part], i: int, cuts: Mapping[int, float]) -> float
         way = apart(at, corners[k].point("at"))
         rooms.append(way - cuts[k] - 1.0 if k in cuts else way / 2 - SPARE / 2)
     return min(max(min(rooms) * tan(_half_angle(corners, i)), TIGHTEST), WIDEST_ARC)
+
+
+TOOLS = RaceTools()

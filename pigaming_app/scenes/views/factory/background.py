@@ -9,7 +9,8 @@ from pigaming_app.games.factory.layout import BODY, Floor, MachineSpec, SlotSpec
 from pigaming_app.games.factory.state import DONE, ENTRY, HALF, INPUT, MACHINE_SLOTS, RAW, SHARED_SLOTS, SHELVES, A
 from pigaming_app.games.factory.state import ICE as FIRST_TEAM
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS, state_icon
+from pigaming_app.scenes.views.sprites.factory import STATES, state_icon
+from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable

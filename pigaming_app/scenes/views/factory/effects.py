@@ -17,7 +17,8 @@ from pigaming_app.scenes.views.factory.events import (
     FactoryEvent,
 )
 from pigaming_app.scenes.views.particles import Particles
-from pigaming_app.scenes.views.sprites.factory import STATES, TEAMS
+from pigaming_app.scenes.views.sprites.factory import STATES
+from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.scenes.views.view import SoundCue, ViewOptions
 from pigaming_app.ui.draw import ALARM, FOCUS
 from pigaming_app.ui.numbers import signed

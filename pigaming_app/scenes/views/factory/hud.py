@@ -14,7 +14,7 @@ from pigaming_app.scenes.views.factory.order_cards import STEPS, Order
 from pigaming_app.scenes.views.factory.panels import NUMBER, H, Mate, W, X, Y
 from pigaming_app.scenes.views.hud.ai_sign import ai_of, name_of
 from pigaming_app.scenes.views.hud.parts import CLOCK, EDGE, HudParts, clock_jobs, drawn, pulse, word_bits
-from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
+from pigaming_app.scenes.views.sprites.teams import TEAMS as COLORS
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, Color, readable
 from pigaming_app.ui.draw import ICE as WHITE

@@ -9,8 +9,9 @@ from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.factory.background import draw_lorry
 from pigaming_app.scenes.views.hud.ai_sign import driver_tab, level_mark
 from pigaming_app.scenes.views.hud.parts import EDGE, number_bits, plate
-from pigaming_app.scenes.views.sprites.factory import TEAMS as COLORS
-from pigaming_app.scenes.views.sprites.factory import draw_crate, emblem
+from pigaming_app.scenes.views.sprites.factory import draw_crate
+from pigaming_app.scenes.views.sprites.teams import TEAMS as COLORS
+from pigaming_app.scenes.views.sprites.teams import emblem
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, number_width

@@ -12,6 +12,7 @@ from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import factory_signs as signs
 from pigaming_app.scenes.views.sprites import pickups as things
+from pigaming_app.scenes.views.sprites.teams import TEAMS as COLORS
 from pigaming_app.ui.draw import ALARM, FOCUS, PLAYERS, dim
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS
@@ -28,7 +29,7 @@ def jobs(seats: Sequence[int], state: Factory, notes: FactoryAnnouncements) -> I
                 yield partial(crates.crate, team, form, tenths)
         yield from (partial(crates.busy, team, kind) for kind in (A, B))
         yield from (partial(crates.count, number, team) for number in range(1, MAX_PALLETS + 1 - SHELVES))
-        yield from notes.jobs(("delivered", crates.TEAMS[team]))
+        yield from notes.jobs(("delivered", COLORS[team]))
     for working in (False, True):
         for stride in range(crates.STRIDE):
             for turn in range(crates.PERSON_TURNS):
@@ -58,11 +59,11 @@ def _moments(seats: Sequence[int], party: bool) -> Iterator[Job]:
     for seconds in range(1, 11):
         yield partial(crates.awaited, seconds)
     yield from (crates.exclaim, crates.cross)
-    for color in (*crates.TEAMS, ALARM, *([FOCUS] if party else []), crates.STATES[HALF], crates.STATES[DONE]):
+    for color in (*COLORS, ALARM, *([FOCUS] if party else []), crates.STATES[HALF], crates.STATES[DONE]):
         for size in effects.SPARK_SIZES:
             for turn in range(effects.SPARK_TURNS):
                 yield partial(effects.sparks, color, size, turn)
-    for color in crates.TEAMS:
+    for color in COLORS:
         for stage in range(effects.WAVE_STEPS):
             yield partial(effects.wave, color, stage)
         for level in range(effects.LIGHT_LEVELS, 0, -1):

@@ -41,6 +41,7 @@ from pigaming_app.scenes.views.particles import reel
 from pigaming_app.scenes.views.rumble import BLOCKED, DELIVERED, GIVEN, PICKED, TAKEN, rumbles
 from pigaming_app.scenes.views.sprites import factory as crates
 from pigaming_app.scenes.views.sprites import robot as tank
+from pigaming_app.scenes.views.sprites.teams import TEAMS as COLORS
 from pigaming_app.scenes.views.things.styles import WORKSHOP
 from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.sim.arena import Arena
@@ -101,9 +102,7 @@ class FactoryView(MatchView):
         self.particles.advance(seconds)
         for team in self.hud.show(state):
             if self.options.flashes != "off":
-                self.particles.bloom(
-                    PANELS[team], TOP_OF_PANELS, 0.4, reel(pulse, crates.TEAMS[team], PANEL_W, PANEL_H)
-                )
+                self.particles.bloom(PANELS[team], TOP_OF_PANELS, 0.4, reel(pulse, COLORS[team], PANEL_W, PANEL_H))
         under: Batch = []
         over: Batch = []
         light: Batch = []

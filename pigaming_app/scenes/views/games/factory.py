@@ -23,8 +23,8 @@ from pigaming_app.scenes.views.factory.view import FactoryView
 from pigaming_app.scenes.views.game_screens import GameScreens, Placed
 from pigaming_app.scenes.views.lesson import Actor, Lesson
 from pigaming_app.scenes.views.preview import fitted
-from pigaming_app.scenes.views.sprites.factory import TEAMS
 from pigaming_app.scenes.views.sprites.robot import robot
+from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.scenes.views.things.on_mat import black_out, draw_all
 from pigaming_app.scenes.views.things.styles import WORKSHOP
 from pigaming_app.sim.arena import Arena

@@ -9,12 +9,12 @@ import math
 import pygame
 
 from pigaming_app.games.factory.state import DAMAGED, DELIVERED, DONE, HALF, ICE, RAW, A
+from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.numbers import signed
 
-TEAMS: tuple[kit.Color, kit.Color] = ((70, 210, 255), (255, 150, 40))
 STATES: dict[int, kit.Color] = {
     RAW: (255, 84, 76),
     HALF: (84, 236, 120),
@@ -81,29 +81,6 @@ def crate(team: int, state: int, tenths: int = 10) -> Sprite:
     ink = kit.GlowCanvas(120, 120, 3).set_transform(60, 60)
     draw_crate(ink, team, state, 0, 0, size)
     return trim(ink.sprite(0.6), 60, 60)
-
-
-def emblem(ink: kit.GlowCanvas, team: int, x: float, y: float, r: float) -> None:
-    """Snowflake for ICE, flame for FIRE."""
-    color = TEAMS[team]
-    if team == ICE:
-        for k in range(6):
-            a = math.tau * k / 6 + math.pi / 2
-            ux, uy = math.cos(a), math.sin(a)
-            ink.line([(x, y), (x + r * ux, y + r * uy)], color, r * 0.16)
-            for side in (-1, 1):
-                b, qx, qy = a + 0.9 * side, x + 0.55 * r * ux, y + 0.55 * r * uy
-                ink.line([(qx, qy), (qx + 0.34 * r * math.cos(b), qy + 0.34 * r * math.sin(b))], color, r * 0.14)
-        return
-    ink.fill(flame(x, y, r), color)
-    ink.fill(flame(x, y + 0.38 * r, r * 0.5), (255, 226, 130))
-
-
-def flame(x: float, y: float, r: float) -> kit.Points:
-    """Outline of a flame."""
-    half = [(0.0, -1.05), (0.20, -0.62), (0.50, -0.25), (0.72, 0.22), (0.56, 0.74), (0.0, 1.0)]
-    left = [(-0.56, 0.74), (-0.72, 0.24), (-0.60, -0.18), (-0.36, -0.42), (-0.26, -0.12), (-0.14, -0.60)]
-    return [(x + r * u, y + r * v) for u, v in (*half, *left)]
 
 
 @cached

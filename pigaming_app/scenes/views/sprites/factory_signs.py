@@ -4,8 +4,9 @@ import math
 from itertools import pairwise
 
 from pigaming_app.games.factory.state import FIRE, ICE
-from pigaming_app.scenes.views.sprites.factory import COUNTS, CRATE, STATES, TEAMS, outline, state_icon
+from pigaming_app.scenes.views.sprites.factory import COUNTS, CRATE, STATES, outline, state_icon
 from pigaming_app.scenes.views.sprites.pickups import edged
+from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.sprites import Sprite, faded, trim
 from pigaming_app.ui.draw.surface_cache import cached

@@ -1,19 +1,36 @@
-"""Explanation of the factory brain: the utility of each kind of job, and the route to the chosen slot.
+"""Explanations of Robot Factory. Of the brains: the utility of each kind of job, and the route to the chosen slot.
 
 All values come from the brain's memory, its last observation and its own cost functions, without the noise and before
-the allocation between mates.
+the allocation between mates. Of networks: topics of their inputs, and the places of perceived things.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import pi, tau
 
 from pigaming_app.ai.brain.kind import NoWeights
-from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, PERSON, PETALS, WAY, Percept, Thoughts, blend, clamp, towards
+from pigaming_app.ai.brain.thoughts import (
+    GOAL,
+    MATE,
+    OPPONENT,
+    PERSON,
+    PETALS,
+    WAY,
+    Percept,
+    Thoughts,
+    blend,
+    clamp,
+    towards,
+)
 from pigaming_app.ai.factory.driving import LOOK, ROBOT_ROOM, free_distance
+from pigaming_app.ai.factory.foreman import think as foreman_think
 from pigaming_app.ai.factory.mind import STUCK_TICKS
+from pigaming_app.ai.factory.planner import think as planner_think
 from pigaming_app.ai.factory.task_allocation import NO, QUEUE, ForemanMind, cheapest_place, cost_of, distance_to
+from pigaming_app.ai.networks import factory as network
+from pigaming_app.ai.networks.subject import Sight, Subject, distance_of
 from pigaming_app.games.factory.observation import FactoryObservation, SlotView
 from pigaming_app.games.factory.state import DAMAGED, DONE, EXIT, HALF, INPUT, OUTPUT, RAW, B, Factory
+from pigaming_app.games.simple import MatchState
 
 DEAR = 2600.0  # cost of a job with utility 0, px
 FAR = 1600.0  # distance at which the utility of putting down falls to its minimum of 0.2, px
@@ -122,3 +139,41 @@ def _rose(obs: FactoryObservation, mind: ForemanMind, behaviour: str) -> list[fl
     if behaviour == "free":
         return blend(towards(0.0 if mind.escape > 0.0 else pi), blocked)
     return blend(towards(obs.waypoint_bearing), blocked)
+
+
+BY_THINK = dict.fromkeys((foreman_think, planner_think), explain)
+
+
+def in_factory(match: MatchState, inputs: Sequence[float]) -> Iterator[Sight]:
+    """The first target and the way to it, robots and people."""
+    k = network.TARGETS
+    if inputs[k]:
+        way = network.WAY
+        if not inputs[way + 2]:
+            yield Sight("target", WAY, 400.0 * inputs[way + 3], inputs[way], inputs[way + 1])
+        yield Sight("target", GOAL, distance_of(inputs[k + 2], network.NEAR), inputs[k + 3], inputs[k + 4])
+    for k in range(network.OTHERS, network.PEOPLE, network.OTHER):
+        if inputs[k]:
+            place = (distance_of(inputs[k + 1], network.NEAR), inputs[k + 2], inputs[k + 3])
+            yield Sight("others", MATE if inputs[k] > 0.0 else OPPONENT, *place)
+    for k in range(network.PEOPLE, network.ROOM, network.PERSON):
+        yield Sight("people", PERSON, distance_of(inputs[k], 150.0), inputs[k + 1], inputs[k + 2])
+
+
+SUBJECT = Subject(
+    {
+        "target": ("target", "way"),
+        "choices": ("second", "third"),
+        "machines": ("machines",),
+        "others": ("others",),
+        "people": ("people",),
+        "walls": ("place", "room"),
+        "load": ("motion", "load"),
+        "score": ("score", "rules"),
+    },
+    (-1.0, 0.0, 1.0),
+    network.TURNS,
+    "fork",
+    in_factory,
+    network.PLACE,
+)

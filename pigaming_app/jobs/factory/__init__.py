@@ -1,0 +1,1 @@
+"""Robot Factory needs no job."""
