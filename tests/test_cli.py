@@ -110,13 +110,6 @@ def test_a_duel_prints_one_object(capsys):
     assert told["wins"] + told["ties"] + told["losses"] == 4
 
 
-def test_the_doctor_speaks_json(capsys):
-    code = main(["doctor", "--json"])
-    lines = json.loads(capsys.readouterr().out)["lines"]
-    assert code == int(any(line["state"] == "problem" for line in lines))
-    assert {line["what"] for line in lines} >= {"Python", "pygame-ce", "displays", "engine"}
-
-
 @pytest.mark.parametrize(
     "arguments",
     [

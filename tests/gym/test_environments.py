@@ -1,9 +1,11 @@
-"""The environments pass the checkers of their libraries, and play the same matches in every face."""
+"""The environments pass the checkers of their libraries, and play the same matches in every face; an example."""
 
 import os
+import runpy
 import subprocess
 import sys
 import warnings
+from pathlib import Path
 
 import gymnasium
 import numpy as np
@@ -237,3 +239,14 @@ def test_without_the_extra_one_line_says_how_to_install_it():
 def test_every_encoding_has_an_environment():
     assert set(ENVIRONMENTS.values()) == set(ENCODINGS) == set(TALLIES)
     assert pigaming_app.gym.__doc__
+
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+
+
+def test_the_tank_written_by_hand_beats_the_weakest_machine():
+    agent = runpy.run_path(str(EXAMPLES / "hand_written_agent.py"))
+    result = agent["play"](seed=1, minutes=0.5, compiled=False)
+    assert result["win"] == 1.0
+    assert result["lead"] > 10.0
+    assert result["hits"] > result["taken"]

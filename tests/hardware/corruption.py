@@ -6,7 +6,7 @@ import numpy as np
 
 from pigaming_app.hardware.radio.packets import drive_packet
 from pigaming_app.hardware.signals import WheelCommand
-from tests.hardware.robot_packets import ARENA
+from tests.hardware.wire import ARENA
 
 GOOD = 500  # different packets before corruption
 BITS, EXCHANGE, LOSS, BURST, STEP, SPLICE = 0, 2, 3, 4, 5, 6  # ways; 1: another byte

@@ -1,12 +1,16 @@
-"""A plug-in in the editor and on the Ladder; one that fails there takes its game from the title alone."""
+"""A plug-in at every place, the editor and the Ladder too; one that fails there takes its game from the title alone."""
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from pigaming_app.storage.plugins.consent import switch
 from pigaming_app.storage.plugins.found import user_folder
-from tests.plugins.packages import changed, write_tag
+from tests.cases import repeated
+from tests.plugins.packages import ROOT, changed, install, write_tag
 from tests.processes import python
 
 SEEN = """
@@ -102,3 +106,19 @@ def test_a_game_that_asks_for_it_is_on_the_ladder(tag: Path, file: str, old: str
     tag_too = " tag" if file == "rules.py" and not reason else ""
     assert ended.stdout == f"pitanks factory race football{tag_too} | pitanks factory race football{tag_too}\n"
     assert (ended.stderr.count("\n"), f"is left out: {reason}" in ended.stderr) == (bool(reason), bool(reason))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("place", repeated(["installed", "user"]))  # the page of Tag walks through many in the folder
+def test_a_plug_in_appears_at_every_place(home: Path, tmp_path: Path, place: str) -> None:
+    site = tmp_path / "site"
+    if place == "user":
+        write_tag(user_folder() / "tag")
+        switch("tag", True)
+    else:
+        write_tag(install(site, "tag", "robot_tag.game"))
+        switch("tag@robot_tag.game", True)
+    command = [sys.executable, "-X", "pigaming", "-m", "tests.plugins.places", "tag", str(tmp_path)]
+    quiet = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYTHONPATH": str(site)}
+    ended = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, env=os.environ | quiet, timeout=1800)
+    assert ended.stdout.splitlines()[-1:] == ["all places"], ended.stderr[-3000:]

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from pigaming_app.hardware.radio import packets
 from pigaming_app.hardware.radio.packets import PacketDecoder, drive_packet
 from pigaming_app.hardware.signals import WheelCommand
-from tests.hardware.robot_packets import ARENA
+from tests.hardware.wire import ARENA
 
 HERE = Path(__file__).parent
 FIRMWARE = HERE.parents[2] / "pigaming_app" / "hardware" / "firmware"

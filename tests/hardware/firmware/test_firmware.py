@@ -13,7 +13,7 @@ from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, LOW, RESTARTED, 
 from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
 from pigaming_app.hardware.signals import WheelCommand
 from tests.hardware.firmware.board import AHEAD, BYTE, DRIVE_BYTES, REPORT_BYTES, Board, build, missing
-from tests.hardware.robot_packets import ARENA, drive_from, report_packet
+from tests.hardware.wire import ARENA, drive_from, report_packet
 
 pytestmark = pytest.mark.skipif(
     bool(missing()),

@@ -10,7 +10,7 @@ import pytest
 from pigaming_app.hardware.radio.packets import drive_packet
 from tests.hardware.corruption import corrupt_packets
 from tests.hardware.firmware.board import AHEAD, FIRMWARE, HERE
-from tests.hardware.robot_packets import ARENA
+from tests.hardware.wire import ARENA
 
 PACKETS = 3_000_000
 needs_gcc = pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc: apt-get install gcc")

@@ -15,9 +15,8 @@ from pigaming_app.hardware.radio.packets import RobotReport
 from pigaming_app.hardware.radio.xbee_frames import ReceivedPacket
 from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
 from pigaming_app.hardware.signals import Telemetry, WheelCommand
-from tests.hardware.robot_packets import ARENA, drive_from, report_packet
 from tests.hardware.sentences import sentence
-from tests.hardware.wire import Radio, Time, Wire, run
+from tests.hardware.wire import ARENA, Radio, Time, Wire, drive_from, report_packet, run
 
 ROOT = Path(__file__).parents[3]
 AHEAD, BACK = WheelCommand(1.0, 1.0), WheelCommand(-1.0, -1.0)

@@ -10,8 +10,7 @@ from pigaming_app.hardware.radio import packets
 from pigaming_app.hardware.radio.packets import LAST_ARENA, VERSION, PacketDecoder, RobotReport
 from pigaming_app.hardware.signals import WheelCommand
 from tests.hardware.corruption import GOOD, corrupt_packets, corrupted
-from tests.hardware.robot_packets import ARENA, Drive, drive_from, old_report, report_packet
-from tests.hardware.wire import heard
+from tests.hardware.wire import ARENA, Drive, drive_from, heard, old_report, report_packet
 
 AHEAD = WheelCommand(1.0, 1.0)
 speeds = st.integers(-63, 63).map(lambda step: step / 63)
@@ -101,7 +100,7 @@ def test_no_corrupt_packet_is_accepted():
     assert accepted(3000) == 0
 
 
-@pytest.mark.again  # through the robots: emulator/test_protocol.py
+@pytest.mark.again  # through the robots: emulator/test_radio.py
 @pytest.mark.long
 def test_of_three_million_corrupt_packets_none_is_accepted():
     assert sum(accepted(100_000, seed) for seed in range(30)) == 0

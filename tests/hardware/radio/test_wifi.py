@@ -11,7 +11,7 @@ from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.radio.packets import VERSION, RobotReport
 from pigaming_app.hardware.radio.wifi import GONE, MOST, SILENT, WifiNetwork, WifiProtocol
 from pigaming_app.hardware.signals import WheelCommand
-from tests.hardware.robot_packets import report_packet
+from tests.hardware.wire import report_packet
 
 ARENA, KEY = 77, bytes(range(16))
 GO = WheelCommand(0.5, 0.5)

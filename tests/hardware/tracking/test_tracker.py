@@ -75,6 +75,7 @@ def test_they_are_found_again_picture_after_picture_near_where_they_were():
     for step in range(12):
         driving = (300.0 + 8.0 * step, 200.0, 0.4)
         assert mat.show({0: driving, **dict(enumerate(POSES[1:], 1))}) == {0, 1, 2, 3}
+    assert mat.tracker.duplicates() == set()
     assert len(looks) <= 4  # 0.4 s, with one search of the whole image every 0.1 s
 
 
@@ -105,19 +106,6 @@ def test_a_marker_that_comes_twice_is_a_fault_within_a_fifth_of_a_second():
     assert mat.tracker.rejections[0] == "duplicate"
     mat.show({0: POSES[0]}, times=20)
     assert mat.tracker.duplicates() == set()
-
-
-def test_one_marker_is_never_counted_twice():
-    mat = Mat()
-    mat.show(dict(enumerate(POSES)), times=20)
-    assert mat.tracker.duplicates() == set()
-
-
-def test_a_marker_held_in_a_hand_is_refused_and_named():
-    mat = Mat()
-    mat.show({0: POSES[0]}, times=4, height=600.0)
-    assert mat.tracker.rejections == {0: "size"}
-    assert mat.tracker.sense(mat.clock.now)[0].age == 1e9
 
 
 def test_a_marker_in_a_hand_does_not_take_the_robot_along():
@@ -158,18 +146,6 @@ def test_an_old_picture_is_not_looked_at_twice():
     assert mat.tracker.correct(marks({0: POSES[0]}), 1.0)
     assert mat.tracker.last_captured == 1.0
     assert not mat.tracker.correct(marks({0: POSES[0]}), 1.0)
-
-
-def test_a_robot_that_drives_is_where_its_commands_have_brought_it():
-    """200 px/s with a fix 0.1 s old: the pose is predicted for now."""
-    mat = Mat()
-    mat.show({0: (300.0, 450.0, 0.0)}, times=2)
-    seen = mat.clock.now
-    for tick in range(6):
-        mat.tracker.record_commands(seen + tick * 0.02, [(200.0, 0.0), None, None, None])
-    ahead = mat.tracker.sense(seen + 0.1)[0]
-    assert 300.0 + 5.0 < ahead.x < 300.0 + 200.0 * 0.1
-    assert ahead.age == pytest.approx(0.1)
 
 
 def test_a_robot_that_drives_into_another_is_not_predicted_to_be_inside_of_it():
