@@ -142,12 +142,13 @@ class _PinholeModel:
         r1, r2, t = (rays / (0.5 * (np.linalg.norm(rays[:, 0]) + np.linalg.norm(rays[:, 1])))).T
         left, _, right = np.linalg.svd(np.stack([r1, r2, np.cross(r1, r2)], axis=1))
         eye = -(left @ right).T @ t
-        return np.array([*_vector(left @ right), eye[0] / 1000.0, eye[1] / 1000.0, log(focal)])
+        turn = opencv().Rodrigues(left @ right)[0].reshape(-1)
+        return np.array([*turn, eye[0] / 1000.0, eye[1] / 1000.0, log(focal)])
 
     def misses(self, camera: Matrix) -> Matrix:
         """Reprojection errors in mm on the mat, (2 n,)."""
         away = np.column_stack([self.places - camera[3:5] * 1000.0, np.full(len(self.places), self.height)])
-        seen = away @ _rotation(camera[:3]).T
+        seen = away @ opencv().Rodrigues(camera[:3])[0].T
         rays = exp(camera[5]) * seen[:, :2] / np.maximum(seen[:, 2:], 1.0)
         return np.asarray((rays - self.rays).reshape(-1) / self.fine)
 
@@ -165,13 +166,3 @@ def _mat_to_rays(ground: GroundPlane) -> Matrix:
     matrix = to_rays @ back @ np.diag([1.0 / ground.mm, 1.0 / ground.mm, 1.0])
     ahead = matrix[2] @ (WIDTH / 2.0 * ground.mm, HEIGHT / 2.0 * ground.mm, 1.0)
     return np.asarray(matrix if ahead > 0.0 else -matrix)
-
-
-def _rotation(vector: Matrix) -> Matrix:
-    """The rotation matrix of a rotation vector."""
-    return np.asarray(opencv().Rodrigues(vector)[0])
-
-
-def _vector(rotation: Matrix) -> Matrix:
-    """The rotation vector of a rotation matrix."""
-    return np.asarray(opencv().Rodrigues(rotation)[0]).reshape(-1)

@@ -20,7 +20,7 @@ PERIOD = 0.06  # s between two measurements: a drift beyond PAUSE pauses within 
 LOCAL_SEARCH = 0.06  # s between two searches near the last position of a missing marker
 FULL_SEARCH = 1.0  # s between two searches of the whole picture
 EDGE, QUIET = 84, 16  # canvas px: of a marker, and of its quiet zone
-PLACES = ((80, 84), (1840, 84), (1840, 996), (80, 996))  # canvas px: centres, in the margins beside the arena
+PLACES = ((80, 84), (1840, 84), (1840, 996), (80, 996))  # canvas px: centres, in the margins; between two px
 
 
 class DriftMonitor:
@@ -30,7 +30,7 @@ class DriftMonitor:
         self.ground = ground
         self._markers = MarkerDetector(CORNER_IDS)
         self._places = {
-            number: place - np.array(ARENA_AT) for number, place in zip(CORNER_IDS, _centres(), strict=True)
+            number: np.array(place) - 0.5 - ARENA_AT for number, place in zip(CORNER_IDS, PLACES, strict=True)
         }
         self._seen = {number: self._outline(number) for number in CORNER_IDS}  # last seen
         self._spots = {number: window_around(mark, 1.3) for number, mark in self._seen.items()}
@@ -96,8 +96,3 @@ def corner_markers() -> list[tuple[int, int, Image]]:
         tile[QUIET:-QUIET, QUIET:-QUIET] = np.minimum(cv.aruco.generateImageMarker(dictionary(cv), number, EDGE), LIGHT)
         tiles.append((x - EDGE // 2 - QUIET, y - EDGE // 2 - QUIET, tile))
     return tiles
-
-
-def _centres() -> Points:
-    """The centres of the markers, canvas px; an even number of px has its centre between two of them."""
-    return np.array(PLACES) - 0.5

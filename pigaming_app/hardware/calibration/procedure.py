@@ -5,7 +5,6 @@ after the projector's and camera's delay count.
 """
 
 from dataclasses import replace
-from enum import Enum, auto
 from math import inf
 
 from pigaming_app.hardware.calibration.boards import BOARD, FRAMES, HELD_OUT, BoardSamples, CalibrationBoard
@@ -23,16 +22,6 @@ TIMEOUT = 90.0  # s, for the whole procedure
 LIT = 0.4  # s from drawing a picture to its exposure by the camera, upper bound of all delays
 
 
-class CalibrationStage(Enum):
-    """Stages of a calibration."""
-
-    OPENING = auto()
-    LOOKING = auto()
-    VERIFYING = auto()
-    DONE = auto()
-    FAILED = auto()
-
-
 class Calibration(CameraTask):
     """One calibration of the camera on this display. It ends with `ground` and `residuals`, or with `fault`.
 
@@ -44,8 +33,7 @@ class Calibration(CameraTask):
     def __init__(self, site: CalibrationSite, number: int, measures: Measurements, display: str) -> None:
         super().__init__(site, number)
         self.measures, self.display = measures, display
-        self.stage = CalibrationStage.OPENING
-        self.board: CalibrationBoard | None = BOARD  # to project
+        self.board: CalibrationBoard | None = BOARD  # to project; HELD_OUT to verify; None: done, or failed
         self.ground: GroundPlane | None = None
         self.residuals: Residuals | None = None
         self.seen = 0  # markers in the newest picture
@@ -57,14 +45,12 @@ class Calibration(CameraTask):
     def progress(self) -> tuple[int, int]:
         """Pictures taken, and the total of both boards."""
         taken = min(self._samples.frames, FRAMES) if self._samples else 0
-        return {CalibrationStage.VERIFYING: FRAMES, CalibrationStage.DONE: 2 * FRAMES}.get(
-            self.stage, 0
-        ) + taken, 2 * FRAMES
+        return (0 if self.board is BOARD else FRAMES) + taken, 2 * FRAMES
 
     @property
     def finished(self) -> bool:
         """True when done or failed."""
-        return self.stage in (CalibrationStage.DONE, CalibrationStage.FAILED)
+        return self.board is None
 
     def mark_shown(self, board: CalibrationBoard) -> None:
         """Confirm that `board` is projected; call it with every frame."""
@@ -83,19 +69,17 @@ class Calibration(CameraTask):
         self._skipped += 1
         if self._skipped <= QUEUED:
             return
-        if self._samples is None:
-            self._samples = BoardSamples()
-            self.stage = CalibrationStage.LOOKING if self.stage is CalibrationStage.OPENING else self.stage
+        self._samples = self._samples or BoardSamples()
         self.seen = self._samples.add(frame)
         if self._samples.ready:
             try:
-                self._solve(self._samples) if self.stage is CalibrationStage.LOOKING else self._verify(self._samples)
+                self._solve(self._samples) if self.board is BOARD else self._verify(self._samples)
             except CalibrationError as error:
                 self.give_up(OperatorMessage("exposure_dark") if self.exposure.dark else error.message)
 
     def give_up(self, fault: OperatorMessage) -> None:
         super().give_up(fault)
-        self.stage, self.board = CalibrationStage.FAILED, None
+        self.board = None
 
     def _solve(self, samples: BoardSamples) -> None:
         measures = self.measures
@@ -103,7 +87,7 @@ class Calibration(CameraTask):
         ground = replace(ground, lid=measures.lid)
         self.ground = height_by_ruler(ground, measures.height) if measures.height else ground
         self._samples, self._shown, self._skipped = None, inf, 0
-        self.stage, self.board = CalibrationStage.VERIFYING, HELD_OUT
+        self.board = HELD_OUT
 
     def _verify(self, samples: BoardSamples) -> None:
         assert self.ground is not None
@@ -112,7 +96,7 @@ class Calibration(CameraTask):
             blur, edge = samples.blur(), self.ground.weakest_edge
             ground = replace(self.ground, quality=assessed(edge, blur, self.exposure))
             self.ground = with_verification(ground, self.residuals)
-        self.stage, self.board, self._samples = CalibrationStage.DONE, None, None
+        self.board = self._samples = None
 
     def end(self) -> None:
         super().end()

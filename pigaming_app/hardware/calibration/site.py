@@ -71,4 +71,4 @@ class RealCalibrationSite(CalibrationSite):
     def open(
         self, number: int, locks: bool = True, fresh: bool = False, kept: ExposureKept | None = None
     ) -> CameraSource:
-        return Camera(number, None, self.clock, self._open_capture, SETTLE if locks else inf, fresh, kept)
+        return Camera(number, self.clock, self._open_capture, SETTLE if locks else inf, fresh, kept)

@@ -10,10 +10,10 @@ from typing import Any
 
 from pigaming_app.hardware.control.moving_things import MovingThings, Things
 from pigaming_app.hardware.control.real_plant import RealPlant
-from pigaming_app.hardware.control.rig import Rig
+from pigaming_app.hardware.control.rig import Rig, RobotSnapshot
 from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.sim.contact import MOVED, ROUNDS, SLOP, limit_step, push_out_of_walls, put_back, separate
-from pigaming_app.sim.plant import Pose, Sighting, Twist
+from pigaming_app.sim.plant import Pose, Twist
 from pigaming_app.sim.robot import RADIUS, integrate
 from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import HEIGHT, WIDTH, World
@@ -34,17 +34,13 @@ class MixedPlant(RealPlant):
         """The things in play now; None: those of the arena."""
         return self.things.shown if self.things else None
 
-    def sense(self) -> list[Sighting]:
-        self._move_things()
-        return super().sense()
-
     def watch(self) -> list[Fault]:
         self._move_things()
         return super().watch()
 
-    def sense_all(self) -> dict[int, Pose]:
+    def _sense_tick(self) -> RobotSnapshot:
         self._move_things()
-        return super().sense_all()
+        return super()._sense_tick()
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
         """Drive real robots within walls and safety, and simulate the others."""

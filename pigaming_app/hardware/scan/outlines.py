@@ -48,7 +48,8 @@ def find_things(
     """Yields the things found so far after each slice of the work, of about 30 ms; the last list is complete."""
     things: list[Thing] = []
     cv, ground = opencv(), pictures.ground
-    height, lit, flat = surface.height, *_sorted_out(surface)
+    height, lit = surface.height, (surface.strength > FAINT) & (surface.misfit < MISFIT)
+    flat = lit & (np.abs(height) < LOWEST)  # the mat itself, or something flat
     yield things
     height = height - own_height(height, flat)
     yield things
@@ -91,12 +92,6 @@ def find_things(
 def robot_shadows(robots: Sequence[Place], ground: GroundPlane, projector: ProjectorPlace) -> Pixels:
     """Mask, on the canvas grid, of what robots hide from the camera or the projector."""
     return _hidden([(_disc(robot, ROBOT[0], ground), ROBOT[1]) for robot in robots], ground, projector)
-
-
-def _sorted_out(surface: Surface) -> tuple[Mask, Mask]:
-    """Where heights can be trusted, and where the mat itself, or something flat, is seen."""
-    lit = (surface.strength > FAINT) & (surface.misfit < MISFIT)
-    return lit, lit & (np.abs(surface.height) < LOWEST)
 
 
 def _dark(brightness: Map, robots: Pixels) -> Pixels:

@@ -7,8 +7,8 @@ because automatic corrections look to the tracker like changes of the arena; see
 
 import threading
 import time
-from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple, Self
+from collections.abc import Callable
+from typing import Any, Self
 
 from pigaming_app.hardware.signals import CameraFrame, Clock, ExposureKept, ExposureState, Image
 from pigaming_app.hardware.vision.discovery import unavailable_reason
@@ -16,20 +16,13 @@ from pigaming_app.hardware.vision.exposure import ExposureControl
 from pigaming_app.hardware.vision.markers import opencv
 from pigaming_app.storage.messages import OperatorMessage
 
+WIDTH, HEIGHT, FPS = 1920, 1080, 30  # requested format, px and frames/s; the camera may deliver another
 SETTLE = 2.0  # s after opening at which exposure, white balance, focus and gain are locked
 STALE = 1.0  # s without a frame after which the camera is reopened
 RETRY = 1.0  # s between two attempts to open
 PLAUSIBLE = 0.3  # s, largest plausible age of a driver's timestamp
 ASSUMED = 0.03  # s from exposure to delivery if the driver gives no plausible timestamp
 PATIENCE = 0.8  # s for which `close` waits for a hanging driver
-
-
-class CaptureSettings(NamedTuple):
-    """Requested format, px and frames/s; the camera may deliver another."""
-
-    width: int = 1920
-    height: int = 1080
-    fps: int = 30
 
 
 class Camera:
@@ -41,7 +34,6 @@ class Camera:
     def __init__(
         self,
         number: int,
-        wanted: CaptureSettings | None = None,
         clock: Clock = time.monotonic,
         open_capture: Callable[[int], Any] | None = None,
         settle: float = SETTLE,
@@ -49,14 +41,11 @@ class Camera:
         kept: ExposureKept | None = None,
     ) -> None:
         self._cv = opencv()
-        self.number, self.wanted, self.clock, self.settle = number, wanted or CaptureSettings(), clock, settle
-        self.fresh = (
-            fresh  # True: restart automatic exposure etc. and choose anew; False: keep what a calibration locked
-        )
+        self.number, self.clock, self.settle = number, clock, settle
+        self.fresh = fresh  # restart automatic exposure etc. and choose anew, else keep what a calibration locked
         self.kept = kept  # exposure of a calibration
         self.fault: OperatorMessage | None = OperatorMessage("yet", number=number)
         self.exposure = ExposureState()
-        self.unlocked: Sequence[str] = ()  # properties that could not be locked
         self._open_capture = open_capture or self._cv.VideoCapture
         self._newest: CameraFrame | None = None
         self._count = 0
@@ -105,11 +94,11 @@ class Camera:
         return None
 
     def _configure(self, capture: Any) -> None:
-        cv, wanted = self._cv, self.wanted
+        cv = self._cv
         capture.set(cv.CAP_PROP_FOURCC, cv.VideoWriter_fourcc(*"MJPG"))  # raw 1080p does not fit through USB 2
-        capture.set(cv.CAP_PROP_FRAME_WIDTH, wanted.width)
-        capture.set(cv.CAP_PROP_FRAME_HEIGHT, wanted.height)
-        capture.set(cv.CAP_PROP_FPS, wanted.fps)
+        capture.set(cv.CAP_PROP_FRAME_WIDTH, WIDTH)
+        capture.set(cv.CAP_PROP_FRAME_HEIGHT, HEIGHT)
+        capture.set(cv.CAP_PROP_FPS, FPS)
         capture.set(cv.CAP_PROP_BUFFERSIZE, 1)
 
     def _read(self, capture: Any) -> None:
@@ -125,7 +114,7 @@ class Camera:
             if ok and picture is not None and picture.size:
                 last = now
                 control.observe(self._store(capture, picture), now)
-                self.exposure, self.unlocked = control.state, control.unlocked
+                self.exposure = control.state
             elif now - last > STALE:
                 self.fault = OperatorMessage("stopped", number=self.number)
                 return

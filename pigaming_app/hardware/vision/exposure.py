@@ -43,7 +43,7 @@ def fraction(seconds: float) -> str:
 class ExposureControl:
     """Sets exposure and gain of an opened capture. `observe` every picture; `state` is the present state.
 
-    After `settle` s all automatics are locked; `unlocked` names those that refused. `fresh`: restart them first, then
+    After `settle` s all automatics are locked. `fresh`: restart them first, then
     limit the exposure to LONGEST and raise the gain if that is too dark. `kept` is set at once and again when locking.
     A locked exposure is read every CHECK s, and set again if it has become longer.
     """
@@ -54,7 +54,6 @@ class ExposureControl:
         self._cv, self._capture, self._lock_at, self._fresh = cv, capture, now + settle, fresh
         self._kept = None if fresh else kept
         self._power, self._counts = _units(capture)
-        self.unlocked: list[str] = []
         self.state = ExposureState()
         self._times: deque[float] = deque(maxlen=PICTURES)
         self._waiting: int | None = None  # pictures until the brightness is judged; None: not locked yet
@@ -84,7 +83,8 @@ class ExposureControl:
             self._check()
 
     def _lock(self) -> None:
-        self.unlocked, self._waiting = lock_exposure(self._cv, self._capture), DELAYED
+        lock_exposure(self._cv, self._capture)
+        self._waiting = DELAYED
         if self._kept is not None:
             self._restore(self._kept)
         self._read()
@@ -148,21 +148,18 @@ def restore_automatic(cv: Any, capture: Any) -> None:
         capture.set(name, on)
 
 
-def lock_exposure(cv: Any, capture: Any) -> list[str]:
-    """Lock exposure, white balance, focus and gain at their present values; returns those that stay automatic."""
-    unlocked = []
+def lock_exposure(cv: Any, capture: Any) -> None:
+    """Lock exposure, white balance, focus and gain at their present values, as far as the driver can."""
     gain = capture.get(cv.CAP_PROP_GAIN)
-    for name, automatic, off, value in (
-        ("exposure", cv.CAP_PROP_AUTO_EXPOSURE, _automatic(capture)[0], cv.CAP_PROP_EXPOSURE),
-        ("white balance", cv.CAP_PROP_AUTO_WB, 0.0, cv.CAP_PROP_WB_TEMPERATURE),
-        ("focus", cv.CAP_PROP_AUTOFOCUS, 0.0, cv.CAP_PROP_FOCUS),
+    for automatic, off, value in (
+        (cv.CAP_PROP_AUTO_EXPOSURE, _automatic(capture)[0], cv.CAP_PROP_EXPOSURE),
+        (cv.CAP_PROP_AUTO_WB, 0.0, cv.CAP_PROP_WB_TEMPERATURE),
+        (cv.CAP_PROP_AUTOFOCUS, 0.0, cv.CAP_PROP_FOCUS),
     ):
         now = capture.get(value)
-        if not capture.set(automatic, off):
-            unlocked.append(name)
+        capture.set(automatic, off)
         capture.set(value, now)
     capture.set(cv.CAP_PROP_GAIN, gain)
-    return unlocked
 
 
 def _units(capture: Any) -> tuple[bool, bool]:

@@ -129,7 +129,10 @@ def identify(options: FidelityOptions) -> dict[str, Any]:
     lines += [f"robot {robot + 1}  left out: it hardly moved, or its result is implausible" for robot in left_out]
     lines.append(f"kept in {out}")
     if options.plots:
-        lines += _draw(run, verdicts, options.plots)
+        from pigaming_app.hardware.sysid.plots import draw
+
+        with refused(OperatorError):
+            lines += [f"drawn: {path}" for path in draw(run, verdicts, options.plots)]
     robots = {
         str(verdict.robot + 1): {
             "before_mm": _finite(verdict.before.mm),
@@ -174,13 +177,6 @@ def _load(file: Path) -> Any:
 
     with refused(RecordingError):
         return load(file)
-
-
-def _draw(run: Any, verdicts: Any, folder: Path) -> list[str]:
-    from pigaming_app.hardware.sysid.plots import draw
-
-    with refused(OperatorError):
-        return [f"drawn: {path}" for path in draw(run, verdicts, folder)]
 
 
 STEPS = {"record": record, "identify": identify, "replay": replay}

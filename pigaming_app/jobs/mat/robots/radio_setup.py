@@ -54,9 +54,9 @@ def save_arena(options: RadioSetupOptions) -> Settings:
 
 def set_up(options: RadioSetupOptions, number: int, settings: Settings) -> int:
     """Write one XBee and read it back. Raises Refusal."""
-    from pigaming_app.hardware.radio.xbee_setup import XBeeSetup, network_of, parameters
+    from pigaming_app.hardware.radio.xbee_setup import MODES, XBeeSetup, network_of, parameters
 
-    if settings.radio not in ("api2", "api1", "transparent"):
+    if settings.radio not in MODES:
         raise Refusal(f"radio mode {settings.radio} uses no XBee")
     with refused(OperatorError, ValueError), robots_of(options) as session:
         arena = session.arena_id

@@ -8,6 +8,7 @@ import pygame
 from pigaming_app.hardware.radio.packets import LAST_ARENA
 from pigaming_app.hardware.radio.serial_line import BAUD
 from pigaming_app.hardware.radio.xbee_frames import CHANNELS
+from pigaming_app.hardware.radio.xbee_protocol import XBeeMode
 from pigaming_app.hardware.radio.xbee_setup import RadioNetwork, Steps, XBeeSetup, network_of, parameters
 from pigaming_app.hardware.robot_files import set_up_command
 from pigaming_app.hardware.robot_kinds import KINDS
@@ -27,7 +28,6 @@ from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-XBEE_MODES = ("api2", "api1", "transparent")
 RADIO_ROWS = ("channel", "module", "write")
 KIND_ROWS = ("robot", "kind")
 FACT_X, FACT_Y = dials.spots(("",))[0].rect.x + 40, 830  # px, start of the line with the command or the network
@@ -45,7 +45,7 @@ class RadioPage(SettingsPage):
     def __init__(self, context: Context) -> None:
         self.session = session_of(context)
         own = () if self.session.emulated else ("arena",)  # emulated robots were flashed with their arena's number
-        xbees = RADIO_ROWS if context.settings.radio in XBEE_MODES else ()
+        xbees = RADIO_ROWS if context.settings.radio in [*XBeeMode] else ()
         self.module = 0  # radio to be written: of the computer, or of robot 1 to 4
         self.arena, self.robot = 0, 1  # robot whose kind is shown
         self._steps: Steps[None] | None = None  # of the writing in progress
