@@ -146,7 +146,7 @@ def stand_ins() -> Iterator[None]:
 
 def press(arcade: Arcade, chance: random.Random, title: Title) -> None:
     """Press a button, and draw a frame of some length; begin again at the title where that ends the arcade."""
-    arcade.press(chance.choice(BUTTONS), chance.choice(KEYS[:2]))
+    arcade.press(chance.choice(BUTTONS), device=chance.choice(KEYS[:2]))
     if arcade.stack.scenes:
         arcade.frame(chance.choice((0.02, 0.1, 0.6)), draw=chance.random() < 0.3)
     else:

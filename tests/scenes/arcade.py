@@ -1,14 +1,16 @@
 """A headless arcade for scripted play: real controls and scenes, simulated time, recorded sounds."""
 
 from collections.abc import Callable
-from typing import TypeVar, cast
+from typing import TypeVar
 
 import pygame
 
-from pigaming_app.games.game import Seat, Setup
+from pigaming_app.games.game import Setup
 from pigaming_app.scenes.app import App
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, Stack, StackOperation
+from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
@@ -16,8 +18,10 @@ from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.window import Canvas
+from tests.matches import setup_of
 
 S = TypeVar("S")
+Opened = TypeVar("Opened", bound=Scene)
 KEYS = [Device("keys", number) for number in range(4)]
 
 
@@ -53,20 +57,23 @@ class Arcade:
 
     def __init__(self, controls: Controls, language: str = "en") -> None:
         pygame.font.init()
-        self.screen = pygame.display.set_mode((1920, 1080))
-        self.sounds = Noted()
-        nowhere = cast(Canvas, None)
-        self.context = Context(Settings(), Scores(), Words(language), controls, self.sounds, nowhere)
+        canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+        self.screen, self.sounds = canvas.screen, Noted()
+        self.context = Context(Settings(), Scores(), Words(language), controls, self.sounds, canvas)
         self.title, self.setup = Floor(), Floor()
         self.stack = Stack(self.title)
         self.stack.scenes.append(self.setup)
 
-    def open(self, scene: Scene) -> None:
+    def open(self, scene: Opened) -> Opened:
+        """Put a scene on top."""
         self.stack.scenes.append(scene)
         scene.on_enter()
+        return scene
 
-    def press(self, button: Button, device: Device = KEYS[0]) -> None:
-        self.stack.apply(self.stack.top.handle(InputEvent(button, device)))
+    def press(self, *buttons: Button, device: Device = KEYS[0]) -> None:
+        """Press buttons, each on the scene that is then on top."""
+        for button in buttons:
+            self.stack.apply(self.stack.top.handle(InputEvent(button, device)))
 
     def click(self, x: float, y: float) -> None:
         self.stack.apply(self.stack.top.handle(InputEvent(Button.CLICK, Device("mouse"), at=(x, y))))
@@ -93,6 +100,31 @@ class Arcade:
             self.frame()
         raise AssertionError(f"not so within {timeout} s; on top lies {type(self.stack.top).__name__}")
 
+    def reach(self, scene_class: type[S], timeout: float = 30.0) -> S:
+        """Run frames until a scene of this class is on top."""
+        self.until(lambda: isinstance(self.stack.top, scene_class), timeout)
+        return self.shown(scene_class)
+
+    def finish(self, *scores: int) -> MatchScene:
+        """Play the match on top to its end, with these scores, up to the winner's moment."""
+        scene = self.shown(MatchScene)
+        scene.opening.countdown.seconds_left = 0.05
+        self.until(lambda: not scene.opening.countdown.locked)
+        for robot, score in zip(scene.match.state.robots, scores, strict=False):
+            robot.score = score
+        scene.match.state.rules.ticks = scene.match.state.tick + 1
+        self.until(lambda: isinstance(self.stack.top, WinnersMoment))
+        return scene
+
+    def key(self, name: str, seconds: float = 0.0, letter: str = "") -> None:
+        """Hold a key, through the real controls, for `seconds` or one frame."""
+        codes = getattr(pygame, f"K_{name}"), getattr(pygame, f"KSCAN_{name.upper()}")
+        about = {"key": codes[0], "scancode": codes[1], "mod": 0, "unicode": letter}
+        pygame.event.post(pygame.Event(pygame.KEYDOWN, about))
+        self.wait(max(seconds, 1 / 30), draw=True)
+        pygame.event.post(pygame.Event(pygame.KEYUP, about))
+        self.frame()
+
     def shown(self, scene_class: type[S]) -> S:
         """The top scene, which must be of this class; drawn once, so that every scene of a story is drawn."""
         top = self.stack.top
@@ -108,5 +140,4 @@ def service_of(app: App, kind: type[S]) -> S:
 
 def setup(brains: str, minutes: float = 0.1, teams: tuple[int, ...] = (0, 1, 2, 3), seed: int = 3) -> Setup:
     """A match of PiTanks in the classic arena; `brains` such as "human human level1 off"."""
-    one, two, three, four = (Seat(brain, team) for brain, team in zip(brains.split(), teams, strict=True))
-    return Setup("pitanks", "classic", (one, two, three, four), minutes, seed, "plain")
+    return setup_of("pitanks", brains, "classic", minutes, seed, "plain", teams=teams)

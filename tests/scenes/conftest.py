@@ -20,9 +20,15 @@ def _usual_text() -> Iterator[None]:
 
 
 @pytest.fixture
-def arcade(controls: Controls, home: Path) -> Arcade:
+def language() -> str:
+    """The language of `arcade`: English, or the one for which a test is parametrised."""
+    return "en"
+
+
+@pytest.fixture
+def arcade(controls: Controls, home: Path, language: str) -> Arcade:
     """An arcade with folders of its own, `home`."""
-    return Arcade(controls)
+    return Arcade(controls, language)
 
 
 @pytest.fixture

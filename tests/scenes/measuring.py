@@ -172,6 +172,13 @@ def marks_of(ink: Any) -> list[Mark]:
     return found
 
 
+def lit_boxes(picture: pygame.Surface, above: int = 40) -> list[pygame.Rect]:
+    """The boxes of all parts of a picture that are brighter than so much."""
+    lit = pygame.mask.from_threshold(picture, (0, 0, 0), (above, above, above, 255))
+    lit.invert()
+    return lit.get_bounding_rects()
+
+
 def faults(screen: Screen, safe: pygame.Rect = SAFE) -> list[str]:
     """Overlaps, crossed outlines, texts too small to read, and marks outside of the safe area."""
     found = [f"{mark.text!r} is too small" for mark in screen.texts if _too_small(mark)]

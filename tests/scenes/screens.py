@@ -18,7 +18,7 @@ from pigaming_app.events.league_files import Ratings, Strength
 from pigaming_app.events.spec import Entrant, Format
 from pigaming_app.games.arenas import arenas, load, shipped_arenas
 from pigaming_app.games.drawing.values import drawing_of
-from pigaming_app.games.game import Outcome, Row, Seat, Setup
+from pigaming_app.games.game import Outcome, Row
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay
 from pigaming_app.hardware.scan.things import ThingKind
@@ -84,12 +84,13 @@ from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phones.network import NetworkInterface, PhonesUnavailable
-from tests.scenes.arcade import KEYS, Arcade
+from tests.matches import setup_of
+from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.events import drawn
 from tests.scenes.mat.calibration import drawn as calibration_drawn
 from tests.scenes.mat.robots import drawn as robots_drawn
 
-FACTS = {
+FACTS: dict[str, dict[str, float]] = {
     "pitanks": {"hits": 199, "taken": 299, "aim": 1.0},
     "factory": {"delivered": 9, "steps": 18, "bumps": 112, "stolen": 99, "stars": 3},
     "race": {"laps": 9, "best": 75.12, "total": 599.99},
@@ -112,14 +113,11 @@ class Ending:
     variant: str = ""  # empty: the game's last
 
     def results(self, arcade: Arcade, finished: bool = True) -> Results:
-        seats = [Seat(brain, team) for brain, team in zip(self.brains.split(), self.teams, strict=True)]
-        one, two, three, four = seats
-        game = games()[self.game]
-        variant = self.variant or list(game.variants)[-1]
-        goal = max(game.variants[variant].goals, default=0)
-        arena = max(arenas(self.game), key=len)
-        setup = Setup(self.game, arena, (one, two, three, four), 5.0, 1, variant, goal)
-        devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(seats)]
+        variants = games()[self.game].variants
+        variant = self.variant or list(variants)[-1]
+        goal, arena = max(variants[variant].goals, default=0), max(arenas(self.game), key=len)
+        setup = setup_of(self.game, self.brains, arena, 5.0, 1, variant, goal, self.teams)
+        devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(setup.seats)]
         recording = Replay(setup, "", b"", "", "")  # so that it can be saved
         ended = self.outcome()
         scene = Results(
@@ -187,9 +185,7 @@ def seats(game: str) -> LobbySeats:
 
 
 def match(arcade: Arcade) -> MatchScene:
-    one, two, three, four = (Seat("human", i) for i in range(4))
-    setup = Setup("pitanks", "classic", (one, two, three, four), 2.0, 3, "plain")
-    return MatchScene(arcade.context, setup, [*KEYS[:3], Device("pad", 77)])
+    return MatchScene(arcade.context, setup("human human human human", 2.0), [*KEYS[:3], Device("pad", 77)])
 
 
 def best(game: str) -> Callable[[Arcade], Scene]:
@@ -225,7 +221,7 @@ def climbers(arcade: Arcade) -> Climbers:
     return scene
 
 
-def ladder(said: str, **state: int) -> Callable[[Arcade], Scene]:
+def ladder(said: str, **state: Any) -> Callable[[Arcade], Scene]:
     climb = Climb("all", **state)
     return lambda arcade: LadderPage(arcade.context, Climber(climb, 1, KEYS[0]), said)
 
@@ -457,20 +453,6 @@ def fetch_page(arcade: Arcade, state: str) -> Scene:
 
 
 FETCH_STATES = ("fetching", "offline", "full", "restart", "foreign", "failed", "built")
-PROBLEMS = (
-    "gap",
-    "start",
-    "wall",
-    "corner",
-    "track",
-    "machine",
-    "warehouse",
-    "shared",
-    "worker",
-    "aisle",
-    "thing",
-    "x",
-)
 
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     **{f"editor {game}": editor(game) for game in EDITORS},
@@ -544,7 +526,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "operator day": lambda arcade: OperatorPage(arcade.context),
     "operator figures": figures,
     **{
-        f"options {section}": lambda arcade, section=section: OptionsPage(arcade.context, section=section)
+        f"options {section}": lambda arcade, section=section: OptionsPage(arcade.context, section=section)  # type: ignore[misc]
         for section in SECTIONS
     },
     "remap": lambda arcade: RemapPage(arcade.context),
@@ -562,7 +544,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     **{f"join by phone, {key}": partial(join_by_phone, trouble=key) for key in ("missing", "network_gone")},
     **{f"options of phones, {key}": partial(phones_page, trouble=key) for key in ("port_taken", "port_forbidden")},
     **{
-        f"lobby {game} with phones": lambda arcade, game=game: lobby(game, 0, 0)(with_phones(arcade))
+        f"lobby {game} with phones": lambda arcade, game=game: lobby(game, 0, 0)(with_phones(arcade))  # type: ignore[misc]
         for game in games()
     },
     "pause with phones": lambda arcade: Pause(match(with_phones(arcade)), KEYS[0]),

@@ -1,20 +1,23 @@
-"""The main loop: it starts, survives a failing scene, reports the error, and shuts down cleanly."""
+"""The main loop: it starts, survives a failing scene, whatever that did to the screen, and shuts down cleanly."""
 
 import json
 import os
 import signal
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
 from importlib.util import find_spec
+from itertools import product
 from pathlib import Path
 from time import monotonic, sleep
-from typing import Any
+from typing import Any, cast
 
 import pygame
 import pytest
 
 from pigaming_app.games.arenas import load
 from pigaming_app.games.drawing.values import drawing_of
+from pigaming_app.hardware.calibration.corner_pin import CornerPin
 from pigaming_app.scenes import app as app_module
 from pigaming_app.scenes.app import MAX_FAILURES, App
 from pigaming_app.scenes.editor.scene import Editor
@@ -24,15 +27,16 @@ from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.start import opened, run
+from pigaming_app.scenes.title import scene as title
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.widgets.notices import Notices
+from tests.cases import one_in
 from tests.scenes.arcade import Floor, setup
 
-NEEDS_OPENCV = pytest.mark.skipif(find_spec("cv2") is None, reason="OpenCV is not installed")
-
+MORE: list[dict[str, Any]] = [{"kiosk": True}, {"display": 0}, {"display": 1}, {"display": 63, "kiosk": True}]
+MORE += [{"emulator_seed": 1, "kiosk": True}] * (find_spec("cv2") is not None)
 pytestmark = pytest.mark.usefixtures("_cache_of_its_own")
-
 STEP = 1 / 60
 
 
@@ -64,15 +68,11 @@ class Broken(Quiet):
         raise ValueError("on purpose")
 
 
-def test_it_starts_with_the_title_and_keeps_its_settings(home: Path) -> None:
-    assert run(Options(headless=True, frames=3, step=STEP)) == 0
-    assert (home / "config" / "settings.toml").is_file()
-
-
-def test_a_picture_of_the_title(home: Path) -> None:
+def test_it_starts_with_the_title_of_which_a_picture_may_be_taken_and_keeps_its_settings(home: Path) -> None:
     picture = home / "title.png"
     assert run(Options(headless=True, screenshot=picture, step=STEP)) == 0
     assert picture.stat().st_size > 20_000
+    assert (home / "config" / "settings.toml").is_file()
 
 
 def test_a_scene_that_fails_gives_way_to_the_title_and_one_sentence(
@@ -93,6 +93,8 @@ def test_a_scene_that_fails_gives_way_to_the_title_and_one_sentence(
     assert set(said) == {"Something went wrong. Back to the title."}
     assert "on purpose" in (home / "data" / "pigaming.log").read_text()
     assert "Traceback" not in capsys.readouterr().err
+    (day,) = (home / "data" / "days").iterdir()
+    assert [line["what"] for line in map(json.loads, day.read_text().splitlines())] == ["start", "failure", "end"]
 
 
 def test_a_model_that_failed_in_a_match_is_named(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -117,7 +119,7 @@ def test_robots_stand_still_when_a_scene_fails_and_when_the_arcade_ends() -> Non
     stopped: list[int] = []
 
     def first(context: Context) -> Scene:
-        context.emergency_stops += [lambda: stopped.append(1), lambda: 1 / 0, lambda: stopped.append(2)]
+        context.emergency_stops += [lambda: stopped.append(1), lambda: [][1], lambda: stopped.append(2)]
         return Broken(context)
 
     assert run(Options(headless=True, first_scene=first, frames=3, step=STEP)) == 0
@@ -224,12 +226,6 @@ def test_a_pointer_that_lies_there_does_not_take_the_focus() -> None:
     assert titles[0].focus.name == "pitanks"
 
 
-def test_the_day_log_notes_start_failure_and_end(home: Path) -> None:
-    assert run(Options(headless=True, first_scene=Broken, frames=4, step=STEP)) == 0
-    (file,) = (home / "data" / "days").iterdir()
-    assert [line["what"] for line in map(json.loads, file.read_text().splitlines())] == ["start", "failure", "end"]
-
-
 def test_the_second_screen_follows_a_match(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     painted: list[int] = []
     show = OperatorDesk.show
@@ -253,18 +249,7 @@ def test_the_second_screen_follows_a_match(home: Path, monkeypatch: pytest.Monke
     assert painted[-1] > 0
 
 
-@pytest.mark.parametrize(
-    "more",
-    [
-        {"kiosk": True},
-        {"display": 0},
-        {"display": 1},
-        {"display": 63, "kiosk": True},
-        pytest.param({"emulator_seed": 1, "kiosk": True}, marks=NEEDS_OPENCV),
-    ],
-    ids=str,
-)
-@pytest.mark.parametrize("number", [1, 2, 16])
+@pytest.mark.parametrize(("number", "more"), one_in(3, product((1, 2, 16), MORE)), ids=str)
 def test_the_second_screen_goes_with_every_other_option(
     home: Path, capsys: pytest.CaptureFixture[str], number: int, more: dict[str, Any]
 ) -> None:
@@ -293,3 +278,147 @@ def test_it_gives_up_on_a_scene_that_fails_again_and_again_but_not_for_one_game_
         monkeypatch.setattr(app, "_frame", failing)
         ended = [app._frame_failed(STEP) and not app._recover() for _ in range(MAX_FAILURES + 2)]
     assert any(ended) != left_out
+
+
+QUARTER = pygame.Rect(0, 0, 960, 540)
+Damage = Callable[[Context, pygame.Surface], object]
+
+
+class Failing(Floor):
+    """A scene that damages the screen and fails while drawing."""
+
+    def __init__(self, context: Context, damage: Damage) -> None:
+        self.context, self.damage = context, damage
+
+    def draw(self, screen: pygame.Surface) -> None:
+        screen.fill("black")
+        kept = self.damage(self.context, screen)
+        raise ValueError(f"on purpose, with {type(kept)}")
+
+
+class Clinging(Failing):
+    """A scene that also fails in `on_leave`."""
+
+    def on_leave(self) -> None:
+        raise RuntimeError("it does not let go")
+
+
+def pictures(first: Callable[[Context], Scene], frames: int = 4) -> list[bytes]:
+    """Every picture of the arcade from the start; the pointer may leave the window."""
+    shown: list[bytes] = []
+
+    def over() -> bool:
+        assert not pygame.event.get_grab()
+        shown.append(pygame.image.tobytes(cast(pygame.Surface, pygame.display.get_surface()), "RGB"))
+        return len(shown) == frames
+
+    assert run(Options(headless=True, first_scene=first, frames=20, step=STEP, should_close=over)) == 0
+    return shown
+
+
+@cache
+def whole() -> list[bytes]:
+    """The pictures after a scene that failed without damage."""
+    return pictures(lambda context: Failing(context, lambda context, screen: None))
+
+
+def clip(context: Context, screen: pygame.Surface) -> None:
+    screen.set_clip(QUARTER)
+
+
+def clip_twice_removed(context: Context, screen: pygame.Surface) -> pygame.Surface:
+    screen.set_clip(QUARTER)
+    part = screen.subsurface(QUARTER)
+    part.set_clip((0, 0, 10, 10))
+    return part
+
+
+def locks(context: Context, screen: pygame.Surface) -> None:
+    for _ in range(3):
+        screen.lock()
+
+
+def pixels(context: Context, screen: pygame.Surface) -> object:
+    return [context, pygame.PixelArray(screen)]
+
+
+def transparency(context: Context, screen: pygame.Surface) -> None:
+    screen.set_alpha(80)
+    screen.set_colorkey("black")
+
+
+def cached_picture(context: Context, screen: pygame.Surface) -> None:
+    title.ground().fill("red", QUARTER)
+    title.ground().set_clip(QUARTER)
+
+
+def pinned(context: Context, screen: pygame.Surface) -> None:
+    context.canvas.pin(CornerPin((100, 100, 1800, 80, 1820, 1000, 80, 1020)))
+
+
+def grabbed(context: Context, screen: pygame.Surface) -> None:
+    pygame.event.set_grab(True)
+
+
+@pytest.mark.parametrize(
+    "damage", one_in(2, [clip, clip_twice_removed, locks, pixels, transparency, cached_picture, pinned, grabbed])
+)
+def test_the_title_is_intact_after_a_failure(damage: Damage) -> None:
+    assert pictures(lambda context: Failing(context, damage)) == whole()
+    assert not pygame.display.get_init() or not pygame.event.get_grab()
+
+
+def test_a_picture_in_pinned_corners_is_whole_too(home: Path) -> None:
+    (home / "config").mkdir()
+    (home / "config" / "settings.toml").write_text("corners = [96, 54, 1824, 60, 1800, 1026, 90, 1020]\n")
+    expected = pictures(lambda context: Failing(context, lambda context, screen: None))
+    assert expected != whole()
+    assert pictures(lambda context: Failing(context, clip)) == expected
+
+
+@pytest.mark.parametrize("under", [False, True])
+def test_a_scene_that_fails_in_left_does_not_stop_recovery(home: Path, under: bool) -> None:
+    class Opening(Failing):
+        """A scene that pushes another onto itself."""
+
+        def update(self, seconds: float) -> StackOperation:
+            return Push(Failing(self.context, clip))
+
+        def on_leave(self) -> None:
+            raise RuntimeError("it does not let go")
+
+    def first(context: Context) -> Scene:
+        return Opening(context, clip) if under else Clinging(context, clip)
+
+    assert pictures(first) == whole()
+    log = (home / "data" / "pigaming.log").read_text()
+    assert "on purpose" in log
+    assert "it does not let go" in log
+
+
+def test_all_scenes_are_closed_even_if_one_raises() -> None:
+    gone: list[str] = []
+
+    class Holding(Failing):
+        def on_leave(self) -> None:
+            gone.append("low")
+
+    class Bottom(Holding):
+        def update(self, seconds: float) -> StackOperation:
+            return Push(Clinging(self.context, clip))
+
+    pictures(lambda context: Bottom(context, clip))
+    assert gone == ["low"]
+
+
+def test_a_title_that_cannot_be_made_again_ends_the_arcade_in_one_line(
+    home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def broken(context: Context, screen: pygame.Surface) -> None:
+        monkeypatch.setattr(title.Title, "on_enter", lambda self: 1 / 0)
+
+    assert run(Options(headless=True, first_scene=lambda context: Failing(context, broken), frames=9, step=STEP)) == 1
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert "pigaming.log" in error
+    assert "ZeroDivisionError" in (home / "data" / "pigaming.log").read_text()

@@ -1,7 +1,6 @@
 """A whole evening: from the title through lobby, setup and match to the results, a rematch, and back."""
 
 from contextlib import ExitStack
-from pathlib import Path
 
 import pytest
 
@@ -13,16 +12,13 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.initials import Initials
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.title.scene import Title
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Device
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
 
 @pytest.mark.long
-def test_two_friends_and_a_loose_cable(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls)
+def test_two_friends_and_a_loose_cable(arcade: Arcade) -> None:
     arcade.context.settings.choice("pitanks").minutes = 1
     arcade.stack = Stack(Title(arcade.context))
 

@@ -12,8 +12,6 @@ import pygame
 import pytest
 
 from pigaming_app import ROOT
-from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Stack, StackOperation, Swap
@@ -27,30 +25,25 @@ from pigaming_app.scenes.views.sprites.effects import beam, wave
 from pigaming_app.ui.draw import PLAYERS, surface_cache
 from pigaming_app.ui.draw.frame_budget import Steps, Unfinished, budget, resumable
 from pigaming_app.ui.draw.surface_cache import CacheEntry, SurfaceCache, surfaces
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.bench.memory import press
 from tests.cases import one_in, repeated
+from tests.matches import setup_of
 from tests.scenes.arcade import Arcade, Floor
 
 pytestmark = pytest.mark.usefixtures("_cache_as_in_the_arcade")
 
 
 @pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls)
+def arcade(arcade: Arcade) -> Arcade:
     arcade.stack = Stack(Title(arcade.context))
     return arcade
 
 
 def match(arcade: Arcade, game: str) -> MatchScene:
     """A match of AIs with the longest goal."""
-    rules = games()[game]
-    one, two, three, four = (Seat("level3", team) for team in rules.default.teams)
-    goal = max(rules.default.goals, default=0)
-    setup = Setup(game, arenas(game)[0], (one, two, three, four), 2.0, 1, rules.default.name, goal)
-    return MatchScene(arcade.context, setup)
+    goal = max(games()[game].default.goals, default=0)
+    return MatchScene(arcade.context, setup_of(game, ["level3"] * 4, minutes=2.0, goal=goal))
 
 
 def warmed(arcade: Arcade, game: str) -> None:

@@ -2,9 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
-from pathlib import Path
 
-import pygame
 import pytest
 
 from pigaming_app.scenes.controls import pictures as gadgets
@@ -22,18 +20,16 @@ from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.replays.page import ReplaysPage
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views import game_tile
-from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import text as texts
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets import labels as page
 from pigaming_app.ui.widgets import player_card
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts, places
-from pigaming_app.ui.window import Canvas
 from tests.cases import one_in
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.cache import empty_cache
+from tests.scenes.measuring import lit_boxes
 from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
 
 SMALLEST = 0.8  # minimum scale of a text
@@ -63,19 +59,6 @@ PAGES: dict[str, Callable[[Arcade], Scene]] = {
 }
 
 
-@pytest.fixture(params=LANGUAGES)
-def language(request: pytest.FixtureRequest) -> str:
-    return str(request.param)
-
-
-@pytest.fixture
-def arcade(controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, language: str) -> Arcade:
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls, language)
-    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
-    return arcade
-
-
 def top(arcade: Arcade, name: str) -> Scene:
     """Put a page on a stack of its own."""
     arcade.context.kiosk = name == "operator"
@@ -83,7 +66,7 @@ def top(arcade: Arcade, name: str) -> Scene:
     return arcade.stack.top
 
 
-@pytest.mark.parametrize("language", one_in(2, LANGUAGES), indirect=True)
+@pytest.mark.parametrize("language", one_in(2, LANGUAGES))
 @pytest.mark.parametrize("name", PAGES)
 def test_every_page_survives_every_press_of_every_device(arcade: Arcade, name: str) -> None:
     with VirtualPad() as pad:
@@ -97,7 +80,7 @@ def test_every_page_survives_every_press_of_every_device(arcade: Arcade, name: s
         top(arcade, name).draw(arcade.screen)
 
 
-@pytest.mark.parametrize("language", one_in(2, LANGUAGES), indirect=True)
+@pytest.mark.parametrize("language", one_in(2, LANGUAGES))
 @pytest.mark.parametrize("name", PAGES)
 def test_a_mouse_may_click_anywhere(arcade: Arcade, name: str) -> None:
     for at in PLACES:
@@ -108,6 +91,7 @@ def test_a_mouse_may_click_anywhere(arcade: Arcade, name: str) -> None:
     scene.draw(arcade.screen)
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("name", one_in(2, PAGES))
 def test_every_text_fits_its_place(arcade: Arcade, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     shrunk: dict[str, float] = {}
@@ -136,6 +120,7 @@ def walk(arcade: Arcade, scene: Scene) -> None:
         scene.draw(arcade.screen)
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("name", ["lobby", "setup", "options", "padtest"])
 @pytest.mark.parametrize("kind", ["keys 0", "keys 1", "keys 3", "Xbox", "PlayStation", "Nintendo", "Joystick"])
 def test_the_hints_of_every_device_fit_beside_each_other(arcade: Arcade, name: str, kind: str) -> None:
@@ -178,7 +163,5 @@ def test_a_page_in_motion_is_painted_all_over_in_every_frame(arcade: Arcade, nam
     scene.draw(arcade.screen)
     corners = [(0, 0), (1919, 0), (0, 1079), (1919, 1079)]
     assert all(arcade.screen.get_at(at)[:3] != (200, 0, 0) for at in corners)
-    lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (40, 40, 40, 255))
-    lit.invert()
-    box = lit.get_bounding_rects()
+    box = lit_boxes(arcade.screen)
     assert sum(one.w * one.h for one in box) > 20_000

@@ -8,17 +8,11 @@ from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.setting_row import CENTRE
-from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 from tests.scenes.screens import SCREENS
 
 PAGES = ("operator", "operator day", "robots menu", "arena and radio", *(f"options {section}" for section in SECTIONS))
 SHARED = ("kind", "quiet_until", "fullscreen", "board")  # rows with the picture of the one above them
-
-
-@pytest.fixture(autouse=True)
-def _prepared(arcade: Arcade) -> None:
-    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
 
 
 def picture(page: SettingsPage, row: str) -> bytes:
@@ -45,8 +39,7 @@ def test_a_new_option_is_a_setting_a_row_and_a_picture(arcade: Arcade, monkeypat
     monkeypatch.setattr(words, "_texts", {**words._texts, "options.keypad": "Keypad", "options.keypad_line": "Keys."})
     monkeypatch.setitem(SECTIONS["ease"], "keypad", switch("keypad"))  # a setting that had no row
     arcade.open(OptionsPage(arcade.context, section="ease"))
-    arcade.press(Button.UP)
-    arcade.press(Button.RIGHT)
+    arcade.press(Button.UP, Button.RIGHT)
     assert Settings.load(folders().config)[0].keypad is True
     arcade.context.kiosk = True
     assert "keypad" in OptionsPage(arcade.context, section="ease").rows

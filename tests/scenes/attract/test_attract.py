@@ -26,19 +26,17 @@ from pigaming_app.scenes.results.high_scores import HighScores, high_score_table
 from pigaming_app.scenes.start import run
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from tests.cases import one_in, repeated
 from tests.scenes.arcade import KEYS, Arcade, setup
+from tests.scenes.measuring import lit_boxes
 
 LONGEST = 12.0  # s; the longest animation, machine A, then B, repeats after 9.1 s
 PHASES = 0.1  # s between two frames
 FASTEST = 0.08  # s per frame at which a match still runs at full speed
 
 
-@pytest.mark.parametrize("language", one_in(2, LANGUAGES))
 @pytest.mark.parametrize("game", taught())
-def test_every_picture_of_a_lesson_is_drawn_in_all_its_phases(controls: Controls, game: str, language: str) -> None:
-    arcade = Arcade(controls, language)
+def test_every_picture_of_a_lesson_is_drawn_in_all_its_phases(arcade: Arcade, game: str) -> None:
     lesson = HowTo(arcade.context, game)
     frames = set()
     for _ in range(round(LONGEST / PHASES)):
@@ -121,8 +119,7 @@ def until_clip(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> tuple[Attract
     monkeypatch.setattr("pigaming_app.scenes.attract.scene.MINUTES", 0.02)
     monkeypatch.setattr("pigaming_app.scenes.attract.scene.PAGE", 0.1)
     monkeypatch.setattr(MatchRunner, "prewarm", lambda runner, milliseconds: True)
-    attract = Attract(arcade.context)
-    arcade.open(attract)
+    attract = arcade.open(Attract(arcade.context))
     arcade.until(lambda: isinstance(attract.show, Clip), 60.0)
     assert isinstance(attract.show, Clip)
     return attract, attract.show
@@ -146,18 +143,15 @@ def test_a_highlight_follows_a_demonstration_match(
 
 @pytest.mark.parametrize("language", one_in(2, LANGUAGES))
 def test_the_caption_of_a_highlight_fits(
-    arcade: Arcade, replays: dict[str, Replay], monkeypatch: pytest.MonkeyPatch, language: str
+    arcade: Arcade, replays: dict[str, Replay], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    arcade.context.words.switch(language)
     for game, replay in replays.items():
         for kind in KINDS:
             clip = Clip(arcade.context, (replay, Moment(kind, 100, 3)))
             clip.runner = MatchRunner(arcade.context, clip.timeline.match_at(0))
             monkeypatch.setattr(clip.runner, "draw", lambda canvas: canvas.fill("black"))
             clip.draw(arcade.screen)
-            lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (40, 40, 40, 255))
-            lit.invert()
-            boxes = lit.get_bounding_rects()
+            boxes = lit_boxes(arcade.screen)
             assert pygame.Rect(160, 140, 1600, 130).contains(boxes[0].unionall(boxes)), (game, kind)
 
 
@@ -191,8 +185,7 @@ def test_saved_replays_are_shown_too_and_files_may_vanish(
 
 
 def test_a_match_just_played_is_kept_for_attract_mode(arcade: Arcade) -> None:
-    scene = MatchScene(arcade.context, setup("human idle off off", 0.02), KEYS[:1])
-    arcade.open(scene)
+    scene = arcade.open(MatchScene(arcade.context, setup("human idle off off", 0.02), KEYS[:1]))
     scene.opening.countdown.seconds_left = 0.05
     scene.match.series[0].append((0.5, 1))
     arcade.until(lambda: scene.match.over)

@@ -23,12 +23,10 @@ from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.record import digest
-from pigaming_app.ui.draw import ICONS
+from pigaming_app.ui.draw import BODY, ICONS, LABEL, text_width
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import LANGUAGES, texts
-from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Button, Device
-from pigaming_app.ui.widgets.labels import text_width
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.ai.networks.random_network import random_network
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
@@ -39,36 +37,32 @@ SEATS["football"] = ["level5", "net", "level1", "random"]
 READABLE = 0.85  # minimum horizontal scale of readable text
 
 
-def f4(arcade: Arcade) -> None:
-    """Press and release F4."""
-    for kind in (pygame.KEYDOWN, pygame.KEYUP):
-        pygame.event.post(pygame.Event(kind, key=pygame.K_F4, scancode=pygame.KSCAN_F4, mod=0, unicode=""))
-    arcade.frame(draw=True)
-
-
 def stage_of(arcade: Arcade, game: str, seed: int = 1) -> MatchRunner:
     brains = SEATS[game]
     wish = make_setup(game, brains, None, 1.0, seed, None, None, brains)
     return MatchRunner(arcade.context, new_match(wish), loud=False)
 
 
+def overlay_of(runner: MatchRunner) -> BrainOverlay:
+    assert isinstance(runner.brain, BrainOverlay)
+    return runner.brain
+
+
 def test_f4_cycles_through_the_ais_and_then_hides_the_overlay(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human level1 off level5", 1.0), KEYS[:1])
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup("human level1 off level5", 1.0), KEYS[:1]))
     shown = []
     for _ in range(4):
-        f4(arcade)
-        shown.append(match.runner.brain.seat)
+        arcade.key("F4")
+        shown.append(overlay_of(match.runner).seat)
     assert shown == [1, 3, None, 1]
     assert arcade.stack.top is match, "no pause, and the match went on to its countdown"
     assert arcade.context.controls.last == KEYS[0], "a look at an AI says nothing about what one plays with"
 
 
 def test_without_ais_a_notice_is_shown(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human human off off", 1.0), KEYS[:2])
-    arcade.open(match)
-    f4(arcade)
-    assert match.runner.brain.seat is None
+    match = arcade.open(MatchScene(arcade.context, setup("human human off off", 1.0), KEYS[:2]))
+    arcade.key("F4")
+    assert overlay_of(match.runner).seat is None
     assert match.runner.notice.box
 
 
@@ -78,27 +72,25 @@ def test_alt_and_f4_is_for_the_window_manager(arcade: Arcade) -> None:
 
 
 def test_the_overlay_closes_when_a_person_takes_the_seat(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human level1 off off", 1.0), [None])
-    arcade.open(match)
-    f4(arcade)
-    assert match.runner.brain.seat == 0, "an AI drives for somebody"
+    match = arcade.open(MatchScene(arcade.context, setup("human level1 off off", 1.0), [None]))
+    arcade.key("F4")
+    assert overlay_of(match.runner).seat == 0, "an AI drives for somebody"
     match.drivers.assign(0, KEYS[0])
     arcade.frame(draw=True)
-    assert match.runner.brain.seat is None
-    f4(arcade)
-    assert match.runner.brain.seat == 1
+    assert overlay_of(match.runner).seat is None
+    arcade.key("F4")
+    assert overlay_of(match.runner).seat == 1
 
 
 def test_in_a_pause_it_leads_back_into_the_match(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human level1 off off", 1.0), KEYS[:1])
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup("human level1 off off", 1.0), KEYS[:1]))
     arcade.wait(4.5)
     arcade.press(Button.START)
     page = arcade.shown(Pause)
     assert any("F4" in label for label, _ in page.prompts.labels)
-    f4(arcade)
+    arcade.key("F4")
     assert arcade.shown(MatchScene) is match
-    assert match.runner.brain.seat == 1
+    assert overlay_of(match.runner).seat == 1
 
 
 @pytest.mark.parametrize(
@@ -124,7 +116,7 @@ def test_a_pause_names_the_pads_own_button_for_it(arcade: Arcade, kind: str, usb
         pad.tap("y" if not plain else 3)
         arcade.wait(0.2)
         assert arcade.shown(MatchScene) is match
-        assert match.runner.brain.seat == 1
+        assert overlay_of(match.runner).seat == 1
 
 
 def test_f4_does_not_end_attract_mode(arcade: Arcade) -> None:
@@ -132,27 +124,19 @@ def test_f4_does_not_end_attract_mode(arcade: Arcade) -> None:
     assert isinstance(show.show, DemoMatch)
     arcade.open(show)
     for seat in (0, 1):
-        f4(arcade)
-        assert show.show.runner.brain.seat == seat
+        arcade.key("F4")
+        assert overlay_of(show.show.runner).seat == seat
         assert arcade.stack.top is show
     show._next()
-    assert isinstance(show.handle(press(Button.BRAIN)), Home), "over a page it counts like any other key"
+    assert isinstance(show.handle(InputEvent(Button.BRAIN, KEYS[0])), Home), "over a page it counts like any other key"
 
 
-def press(button: Button):
-    from pigaming_app.ui.input.events import InputEvent
-
-    return InputEvent(button, KEYS[0])
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("game", SEATS)
-def test_every_brain_is_drawn_and_the_match_plays_out_alike(controls: Controls, game: str, language: str) -> None:
-    arcade = Arcade(controls, language)
+def test_every_brain_is_drawn_and_the_match_plays_out_alike(arcade: Arcade, game: str) -> None:
     watched, alone = stage_of(arcade, game), stage_of(arcade, game)
     for frame in range(420):
         if frame % 80 == 0:
-            watched.brain.next()
+            overlay_of(watched).next()
         watched.advance(1 / 60)
         alone.advance(1 / 60)
         if frame % 7 == 0:
@@ -173,13 +157,13 @@ def test_the_overlay_is_visible_and_disappears_again(arcade: Arcade, game: str) 
     around.center = 160 + round(robot.x), 140 + round(robot.y)
     places = around.clip(arcade.screen.get_rect()), pygame.Rect(160, 0, 600, 130), clock.inflate(-60, -20)
     before = [pygame.image.tobytes(arcade.screen.subsurface(place), "RGB") for place in places]
-    stage.brain.next()
+    overlay_of(stage).next()
     stage.undrawn = 0.0
     stage.draw(arcade.screen)
     now = [pygame.image.tobytes(arcade.screen.subsurface(place), "RGB") for place in places]
     assert [old != new for old, new in zip(before, now, strict=True)] == [True, True, False]
     for _ in range(4):
-        stage.brain.next()
+        overlay_of(stage).next()
     stage.draw(arcade.screen)
     assert [pygame.image.tobytes(arcade.screen.subsurface(place), "RGB") for place in places[1:]] == before[1:]
 
@@ -187,7 +171,7 @@ def test_the_overlay_is_visible_and_disappears_again(arcade: Arcade, game: str) 
 def test_no_light_of_it_lies_on_a_robot(arcade: Arcade) -> None:
     """Neither on its own robot nor on others in the rose and across the lines of sight."""
     stage = stage_of(arcade, "pitanks")
-    state, overlay = stage.match.state, stage.brain
+    state, overlay = stage.match.state, overlay_of(stage)
     for _ in range(30):
         stage.advance(1 / 60)
     for robot, (x, y) in zip(state.robots, ((800, 450), (880, 450), (800, 540), (1100, 450)), strict=True):
@@ -227,7 +211,7 @@ def test_bars_follow_wishes_and_do_not_jump(arcade: Arcade) -> None:
     stage = stage_of(arcade, "pitanks")
     for _ in range(60):
         stage.advance(1 / 60)
-    overlay = stage.brain
+    overlay = overlay_of(stage)
     overlay.next()
     seen = []
     for _ in range(90):
@@ -249,7 +233,7 @@ def test_brains_are_queried_a_few_times_a_second_and_never_within_a_tick(
         return thoughts_of(match, seat)
 
     monkeypatch.setattr("pigaming_app.scenes.brain.overlay.thoughts_of", asking)
-    stage.brain.next()
+    overlay_of(stage).next()
     for _ in range(120):
         stage.advance(1 / 60)
         stage.draw(arcade.screen)
@@ -259,7 +243,7 @@ def test_brains_are_queried_a_few_times_a_second_and_never_within_a_tick(
 def test_seats_without_an_explaining_brain_are_skipped(arcade: Arcade) -> None:
     stage = stage_of(arcade, "pitanks")
     stage.match.sit(0, make_brain("pitanks", "idle", 1))
-    kind = stage.match.brains[0].kind
+    kind = stage.match.brains[0].kind  # type: ignore[attr-defined]
     object.__setattr__(stage.match.brains[0], "kind", type(kind)("mute", kind.mind, lambda *_: None, kind.reset))
     overlay = BrainOverlay(stage.match, stage.view, arcade.context.words)
     assert overlay.seats == [1, 2, 3]
@@ -269,7 +253,7 @@ def test_seats_without_an_explaining_brain_are_skipped(arcade: Arcade) -> None:
 def test_a_network_shows_what_matters_to_it_and_the_probabilities_of_its_choices(arcade: Arcade) -> None:
     stage = stage_of(arcade, "pitanks")
     stage.match.sit(0, BrainPlayer(brain_of(random_network()), 1))
-    overlay = stage.brain
+    overlay = overlay_of(stage)
     overlay.next()
     for _ in range(60):
         stage.advance(1 / 60)
@@ -290,7 +274,7 @@ def test_every_text_fits_its_box(language: str) -> None:
     for key, text in texts(language).items():
         if key.startswith("brain.") and key not in ("brain.nobody", "brain.sure"):
             said = text.format(player=4, count=12345, machine="A")
-            size, face = (cards.BODY, "body") if "because" in key else (cards.LABEL, "head")
+            size, face = (BODY, "body") if "because" in key else (LABEL, "head")
             room = 652 - cards.TEXT - 20
             if fit_size(said, size, room, face) < READABLE * size:
                 small[key] = text_width(said, size, face)
@@ -305,6 +289,7 @@ def test_every_wish_of_every_brain_has_a_sign(arcade: Arcade) -> None:
             stage.advance(1 / 60)
         for seat in range(4):
             told = thoughts_of(stage.match, seat)
+            assert told
             assert all(has_sign(game, name) for name in told.utilities if not told.moves)
 
 

@@ -41,11 +41,8 @@ def test_a_held_key_is_lit_until_it_is_let_go(arcade: Arcade) -> None:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_names_of_keys_are_set_in_the_usual_size(
-    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str
-) -> None:
+def test_names_of_keys_are_set_in_the_usual_size(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     """Also LEERTASTE: its cap is wider."""
-    arcade.context.words.switch(language)
     controls = arcade.context.controls
     labels = [controls.label(device, button) for device in KEYS for button in (Button.FIRE, Button.LEAVE_SEAT)]
     with measuring(monkeypatch) as screen:

@@ -65,8 +65,7 @@ def test_keys_of_the_menus_change_nothing(arcade: Arcade, code: int) -> None:
 
 def test_without_a_key_the_page_stops_waiting(arcade: Arcade) -> None:
     page = arcade.shown(RemapPage)
-    arcade.press(Button.DOWN)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.DOWN, Button.FIRE)
     assert page.awaited
     page.update(WAIT + 0.1)
     assert not page.awaited
@@ -84,8 +83,7 @@ def test_left_and_right_change_the_device(arcade: Arcade) -> None:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_nothing_overlaps(arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str) -> None:
-    arcade.context.words.switch(language)
+def test_nothing_overlaps(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     page = arcade.shown(RemapPage)
     for _ in page.focus.spots:
         with measuring(monkeypatch) as screen:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 import pygame
 
 from pigaming_app.scenes.editor.board import on_canvas
+from pigaming_app.scenes.editor.checker import CheckResult
 from pigaming_app.scenes.editor.pointer import GRID
 from pigaming_app.scenes.editor.scene import Editor
 from tests.scenes.arcade import Arcade
@@ -155,3 +156,10 @@ def checked(artist: Artist) -> Editor:
     wait_for(artist.arcade, lambda: bool(editor.bench.verdict and editor.bench.verdict.done))
     editor.bench.autosave.finish()
     return editor
+
+
+def verdict_of(artist: Artist) -> CheckResult:
+    """What the checks of the drawing found."""
+    verdict = checked(artist).bench.verdict
+    assert verdict
+    return verdict

@@ -1,8 +1,7 @@
 """What can be drawn in each game, by each device, and what is said about it."""
 
-from collections.abc import Iterator
-from contextlib import ExitStack
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -21,30 +20,10 @@ from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.editor.store import titled
 from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from tests.scenes.arcade import Arcade
-from tests.scenes.editor.artist import Artist, Gamer, Mouse, Typist, checked, wait_for
-from tests.ui.input.virtual_pad import VirtualPad
+from tests.scenes.editor.artist import Artist, Mouse, checked, verdict_of, wait_for
 
 pytestmark = pytest.mark.usefixtures("home")
-
-
-@pytest.fixture(params=["keys", "mouse", "pad"])
-def artist(request: pytest.FixtureRequest, controls: Controls) -> Iterator[Artist]:
-    arcade = Arcade(controls)
-    with ExitStack() as stack:
-        if request.param == "pad":
-            pad = stack.enter_context(VirtualPad())
-            arcade.frame()
-            yield Gamer(arcade, pad)
-        else:
-            yield Typist(arcade) if request.param == "keys" else Mouse(arcade)
-
-
-@pytest.fixture
-def mouse(controls: Controls) -> Mouse:
-    return Mouse(Arcade(controls))
 
 
 def opened(artist: Artist, game: str, arena: str = "") -> Editor:
@@ -81,7 +60,7 @@ def test_pitanks(artist: Artist) -> None:
     artist.click((800, 100))
     assert [part.get("solid") for part in bench.history.now.of("wall")[2:]] == [True, True]
     assert len(bench.history.now.of("thing")) == 2
-    assert not checked(artist).bench.verdict.blocked
+    assert not verdict_of(artist).blocked
 
 
 def test_factory(artist: Artist) -> None:
@@ -101,7 +80,7 @@ def test_factory(artist: Artist) -> None:
     artist.drag((75, 200), (150, 200))
     assert [one.get("at") for one in bench.history.now.of("warehouse")[::2]] == [(150, 100), (1450, 100)]
     artist.choose("undo")
-    verdict = checked(artist).bench.verdict
+    verdict = verdict_of(artist)
     assert not verdict.problems
     assert len(verdict.routes) == 6
 
@@ -113,7 +92,7 @@ def test_race(artist: Artist) -> None:
     artist.click((900, 150))
     assert [one.get("at") for one in bench.history.now.of("corner")][1] == (900, 150)
     artist.drag((900, 150), (900, 300))
-    corners = bench.history.now.of("corner")
+    corners: Any = bench.history.now.of("corner")
     assert corners[1].get("at") == (900, 300)
     assert all(one.get("radius") >= 90 for one in corners)
     read_course(TomlTable(bench.history.now.document()))
@@ -122,7 +101,7 @@ def test_race(artist: Artist) -> None:
     artist.choose("tool 1")
     artist.click((900, 150))
     assert [one.get("use") for one in bench.history.now.of("thing")] == ["mud"]
-    verdict = checked(artist).bench.verdict
+    verdict = verdict_of(artist)
     assert not verdict.problems
     assert len(verdict.routes[0]) > 300
 
@@ -136,7 +115,7 @@ def test_football(artist: Artist) -> None:
     assert bench.symmetry is Symmetry.FOUR
     artist.choose("tool 2")
     artist.click((100, 50))
-    ends = [{wall.get("from"), wall.get("to")} for wall in bench.history.now.of("wall")]
+    ends: list[Any] = [{wall.get("from"), wall.get("to")} for wall in bench.history.now.of("wall")]
     assert ends[0] == {(0, 130), (130, 0)}
     for turn in (lambda x, y: (1600 - x, y), lambda x, y: (x, 900 - y), lambda x, y: (1600 - x, 900 - y)):
         assert {turn(*end) for end in ends[0]} in ends[1:]
@@ -159,7 +138,7 @@ def test_football(artist: Artist) -> None:
     for _ in range(6):
         artist.choose("undo")
     assert bench.history.now == titled(EDITORS["football"].empty, "NEW")
-    verdict = checked(artist).bench.verdict
+    verdict = verdict_of(artist)
     assert not verdict.problems
     assert len(verdict.routes) == 6
 
@@ -181,16 +160,17 @@ def test_a_line_follows_the_pointer_along_the_road(mouse: Mouse) -> None:
     bench = opened(mouse, "race").bench
     tools = EDITORS["race"]
     line = next(item for item in tools.items(bench.history.now) if item.kind == "line")
-    at = tools.part(bench.history.now, line).get("at")
+    at: Any = tools.part(bench.history.now, line).get("at")
     mouse.drag(at, (900, 60))
-    x, y = tools.part(bench.history.now, line).get("at")
+    at = tools.part(bench.history.now, line).get("at")
+    x, y = at
     assert (abs(x - 900) < 12, abs(y - 150) < 2) == (True, True)
 
 
 def test_problems_are_shown_where_they_are_and_block_the_match(mouse: Mouse) -> None:
     editor = opened(mouse, "pitanks")
     mouse.drag((100, 50), (200, 150))
-    verdict = checked(mouse).bench.verdict
+    verdict = verdict_of(mouse)
     worst = verdict.problems[0]
     assert (worst.key, worst.x, worst.y, worst.blocks) == ("start[1]", 100, 100, True)
     assert editor.line[0] == editor.context.words("editor.problem_start")
@@ -200,7 +180,7 @@ def test_problems_are_shown_where_they_are_and_block_the_match(mouse: Mouse) -> 
     mouse.choose("undo")
     mouse.drag((500, 300), (700, 300))
     mouse.drag((500, 375), (700, 375))
-    verdict = checked(mouse).bench.verdict
+    verdict = verdict_of(mouse)
     assert [(one.key, one.blocks) for one in verdict.problems] == [("wall[2]", False)]
     assert verdict.arena
 
@@ -215,7 +195,7 @@ def test_problems_are_found_while_a_part_is_in_hand(mouse: Mouse) -> None:
     wait_for(mouse.arcade, lambda: bool(bench.verdict and bench.verdict.blocked))
     assert bench.hand
     mouse.arcade.press(Button.BACK)
-    assert not checked(mouse).bench.verdict.blocked
+    assert not verdict_of(mouse).blocked
 
 
 @pytest.mark.parametrize("button", [Button.BACK, Button.FIRE])
@@ -242,7 +222,7 @@ def test_a_course_over_itself_is_marked_at_the_crossing(mouse: Mouse) -> None:
     opened(mouse, "race")
     mouse.click((900, 150))
     mouse.drag((900, 150), (900, 750))
-    problems = checked(mouse).bench.verdict.problems
+    problems = verdict_of(mouse).problems
     assert problems
     assert all(one.key == "corner" and 300 < one.y < 900 and one.blocks for one in problems)
 
@@ -264,14 +244,13 @@ def test_whole_parts_stay_in_the_arena(game: str) -> None:
 def test_a_machine_in_a_corner_can_be_played(mouse: Mouse) -> None:
     """Its slots are then not at the rim, neither after a turn."""
     bench = opened(mouse, "factory", "yard").bench
-    at = bench.history.now.of("machine")[0].get("at")
-    assert isinstance(at, tuple)
+    at: Any = bench.history.now.of("machine")[0].get("at")
     mouse.drag(at, (at[0], 0))
     for _ in range(4):
         mouse.choose("dial 0")
         slots = _slots(bench.history.now.of("machine")[0])
         assert all(PALLET <= slot.x <= WIDTH - PALLET and PALLET <= slot.y <= HEIGHT - PALLET for slot in slots)
-    assert not checked(mouse).bench.verdict.blocked
+    assert not verdict_of(mouse).blocked
 
 
 def test_a_tool_without_room_for_more_is_dim(mouse: Mouse) -> None:
@@ -280,8 +259,7 @@ def test_a_tool_without_room_for_more_is_dim(mouse: Mouse) -> None:
     assert not editor.tiles["tool 1"].live
     mouse.choose("tool 1")
     assert editor.bench.tool == 0
-    at = shared[0].get("at")
-    assert isinstance(at, tuple)
+    at: Any = shared[0].get("at")
     mouse.click(at)
     mouse.choose("delete")
     mouse.choose("tool 1")
@@ -294,8 +272,8 @@ def test_mud_has_a_largest_size(mouse: Mouse) -> None:
     bench = opened(mouse, "race").bench
     mouse.choose("tool 1")
     mouse.drag((800, 450), (1400, 450))
-    (patch,) = bench.history.now.of("thing")
-    assert max(x for x, _ in patch.get("outline")) == 800 + RADII[-1]
+    outline: Any = bench.history.now.of("thing")[0].get("outline")
+    assert max(x for x, _ in outline) == 800 + RADII[-1]
 
 
 @pytest.mark.parametrize("game", EDITORS)

@@ -1,4 +1,4 @@
-"""Nothing that was drawn is lost: undo, drafts, full disks, damaged files; and the arenas of the gallery."""
+"""Nothing that was drawn is lost: undo, drafts, full disks, damaged files; the arenas of the gallery, and names."""
 
 import signal
 import subprocess
@@ -24,21 +24,20 @@ from pigaming_app.scenes.editor.naming import ArenaNamePage
 from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
+from pigaming_app.scenes.editor.toolbar import NAMES, RIGHT_COLUMN, W, box
 from pigaming_app.scenes.lobby.match_setup import PICTURE, MatchSetupPage, start_positions
+from pigaming_app.storage.safe_files import write_atomic
+from pigaming_app.ui.i18n import LANGUAGES, texts
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.cases import one_in
 from tests.disks import room_for
-from tests.scenes.arcade import Arcade
-from tests.scenes.editor.artist import Mouse, checked, wait_for
+from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.editor.artist import Mouse, checked, verdict_of, wait_for
+from tests.scenes.measuring import SAFE, measuring
 from tests.scenes.screens import seats
 
 pytestmark = pytest.mark.usefixtures("home")
-
-
-@pytest.fixture
-def mouse(controls: Controls) -> Mouse:
-    return Mouse(Arcade(controls))
 
 
 def empty(game: str) -> Drawing:
@@ -49,7 +48,7 @@ def empty(game: str) -> Drawing:
 def verdict_on(game: str, drawing: Drawing) -> CheckResult:
     """The whole verdict, in this thread."""
     checker = Checker(EDITORS[game], "new-1")
-    checker._asked, checker._planner.give = drawing, checker._plan  # type: ignore[method-assign]
+    checker._asked, checker._planner.give = drawing, checker._plan  # type: ignore[assignment, method-assign]
     checker._find((drawing, True))
     assert checker.verdict
     return checker.verdict
@@ -133,7 +132,7 @@ def test_a_killed_program_leaves_a_whole_draft(home: Path) -> None:
     found = store.opened("pitanks", "new-1")
     assert found
     assert len(found.of("wall")) == 400
-    assert len({str(wall.get("from")[1]) for wall in found.of("wall")}) == 1
+    assert len({str(wall.get("from")).split(", ")[1] for wall in found.of("wall")}) == 1
 
 
 def test_a_draft_is_there_again_after_the_program_has_ended(mouse: Mouse) -> None:
@@ -172,8 +171,7 @@ def test_a_damaged_draft_is_left_out_or_can_be_mended(mouse: Mouse, game: str) -
     store.drafts_folder(game).mkdir(parents=True)
     for i, text in enumerate(DAMAGED):
         store.draft_file(game, f"odd-{i}").write_text(text)
-    gallery = Gallery(mouse.arcade.context, game)
-    mouse.arcade.open(gallery)
+    gallery = mouse.arcade.open(Gallery(mouse.arcade.context, game))
     gallery.draw(mouse.arcade.screen)
     odd = [card for card in gallery.cards if card.own]
     assert len(odd) == len(DAMAGED) - 2, "no TOML, no tables"
@@ -182,18 +180,16 @@ def test_a_damaged_draft_is_left_out_or_can_be_mended(mouse: Mouse, game: str) -
         mouse.arcade.shown(DrawingPage)
         mouse.arcade.press(Button.FIRE)
         editor = checked(mouse)
-        assert editor.bench.verdict.blocked
+        assert verdict_of(mouse).blocked
         mouse.arcade.press(Button.START)
         assert mouse.arcade.stack.top is editor
-        mouse.arcade.press(Button.BACK)
-        mouse.arcade.press(Button.BACK)
+        mouse.arcade.press(Button.BACK, Button.BACK)
 
 
 @pytest.mark.parametrize("game", EDITORS)
 def test_a_surprise_draws_itself(mouse: Mouse, game: str) -> None:
     mouse.arcade.open(Gallery(mouse.arcade.context, game))
-    mouse.arcade.press(Button.RIGHT)
-    mouse.arcade.press(Button.FIRE)
+    mouse.arcade.press(Button.RIGHT, Button.FIRE)
     wait_for(mouse.arcade, lambda: isinstance(mouse.arcade.stack.top, Editor))
     editor = mouse.editor
     shown = []
@@ -202,7 +198,7 @@ def test_a_surprise_draws_itself(mouse: Mouse, game: str) -> None:
         mouse.arcade.wait(0.5)
         editor.draw(mouse.arcade.screen)
     assert shown[0] > shown[1] > shown[2] > 0.0
-    assert not checked(mouse).bench.verdict.blocked
+    assert not verdict_of(mouse).blocked
     assert store.is_draft(game, "new-1"), "it could not be made again"
 
 
@@ -210,30 +206,22 @@ def test_an_arena_is_played_renamed_shared_and_deleted(mouse: Mouse, home: Path)
     arcade = mouse.arcade
     store.save("race", "mine", store.titled(drawing_of(load("race", "classic").source), "MINE"), "new-1")
     arcade.open(Gallery(arcade.context, "race"))
-    for _ in range(2):
-        arcade.press(Button.RIGHT)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.RIGHT, Button.RIGHT, Button.FIRE)
     page = arcade.shown(DrawingPage)
-    arcade.press(Button.DOWN)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.DOWN, Button.FIRE)
     assert arcade.shown(PlayTest).match.arena.name == "mine"
-    arcade.press(Button.START)
-    arcade.press(Button.DOWN)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.START, Button.DOWN, Button.FIRE)
     naming = arcade.shown(ArenaNamePage)
     arcade.wait(0.5)
-    arcade.press(Button.UP)
-    arcade.press(Button.START)
+    arcade.press(Button.UP, Button.START)
     assert arcade.stack.top is page
     assert page.name == store.file_name(naming.name) != "mine"
     assert own_arenas("race") == [page.name]
-    arcade.press(Button.DOWN)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.DOWN, Button.FIRE)
     (shared,) = (home / "data" / "shared").glob("*.toml")
     assert shared.read_text() == load("race", page.name).source
     assert str(shared) in page.message
-    arcade.press(Button.DOWN)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.DOWN, Button.FIRE)
     assert own_arenas("race")
     arcade.press(Button.FIRE)
     assert own_arenas("race") == []
@@ -253,8 +241,7 @@ def test_in_a_kiosk_nothing_is_deleted_or_replaced(mouse: Mouse) -> None:
 
 @pytest.mark.parametrize("name", ["CLASSIC", "NEW 3", "CON"])
 def test_a_name_that_cannot_be_used_is_one_sentence_until_it_is_changed(mouse: Mouse, name: str) -> None:
-    naming = ArenaNamePage(mouse.arcade.context, "pitanks", "new-1", name, lambda name: None)
-    mouse.arcade.open(naming)
+    naming = mouse.arcade.open(ArenaNamePage(mouse.arcade.context, "pitanks", "new-1", name, lambda name: None))
     mouse.arcade.wait(0.5)
     mouse.arcade.press(Button.START)
     assert mouse.arcade.shown(ArenaNamePage) is naming
@@ -277,7 +264,7 @@ def test_a_new_name_never_mixes_two_drawings(mouse: Mouse) -> None:
 @pytest.mark.parametrize("game", EDITORS)
 def test_plans_of_ais_take_less_than_two_seconds_and_a_frame_never_waits(game: str) -> None:
     """Processor time, on an arena that no cache knows."""
-    drawing = drawing_of(games()[game].surprise(987_654))
+    drawing = drawing_of(games()[game].surprise(987_654))  # type: ignore[misc]
     begin = time.thread_time()
     assert verdict_on(game, drawing).routes
     assert time.thread_time() - begin < 2.0
@@ -302,3 +289,72 @@ def test_the_lobby_shows_an_arena_as_it_was_saved_last(mouse: Mouse) -> None:
         starts.append(start_positions(page._setup()))
     assert pictures[0] != pictures[1]
     assert starts[0] != starts[1]
+
+
+OWN = ("pitanks", "race", "factory")
+
+
+@pytest.mark.parametrize("game", OWN)
+def test_every_tile_is_named_with_the_focus_and_under_the_mouse(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, game: str
+) -> None:
+    drawing = drawing_of(load(game, shipped_arenas(game)[0]).source)
+    scene = Editor(arcade.context, game, "new-1", drawing)
+    scene.bench.close()
+    seen: dict[str, str] = {}
+    with measuring(monkeypatch) as screen:
+
+        def beside(tile: pygame.Rect) -> list[str]:
+            """The texts at the height of a tile, right of the bar."""
+            screen.marks.clear()
+            scene.draw(screen)
+            marks = [mark for mark in screen.texts if mark.box[0] > RIGHT_COLUMN + W and SAFE.right > mark.box[2]]
+            return [mark.text for mark in marks if abs(mark.box[1] + mark.box[3] - 2 * tile.centery) < 6]
+
+        for item in scene.tools.items(drawing):
+            scene.bench.selected = item
+            for name, tile in scene.tiles.items():
+                if tile.icon in seen:
+                    continue
+                at = box(NAMES.index(name))
+                assert beside(at) == []
+                scene.handle(InputEvent(Button.POINT, Device("mouse"), at=at.center))
+                (seen[tile.icon],) = beside(at)
+                scene.handle(InputEvent(Button.FOUND, KEYS[0]))
+                assert beside(at) == []
+                scene.bar.open = True
+                scene.bar.focus.move_to(name)
+                assert beside(at) == [seen[tile.icon]]
+                scene.bar.open = False
+    assert len(seen) > 10
+    assert len({*seen.values()}) == len(seen)
+    assert all({f"editor.tool_{icon}" for icon in seen} <= texts(language).keys() for language in LANGUAGES)
+
+
+@pytest.mark.parametrize("language", ["fr", "de"])
+@pytest.mark.parametrize("game", list(EDITORS))
+def test_an_empty_name_proposes_a_free_one(
+    controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, game: str, language: str
+) -> None:
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    arcade, entered = Arcade(controls, language), list[str]()
+    drawing = drawing_of(load(game, shipped_arenas(game)[0]).source)
+    for number in (1, 2):
+        page = arcade.open(ArenaNamePage(arcade.context, game, f"new-{number}", "", entered.append))
+        arcade.wait(0.5)
+        proposed = page.name
+        assert proposed.endswith(f" {number}")
+        assert page.is_possible(proposed)
+        page.spell("")
+        arcade.press(Button.START)
+        assert (page.name, entered, page.unusable) == (proposed, entered[: number - 1], False)
+        arcade.press(Button.START)
+        assert entered[number - 1] == proposed
+        write_atomic(store.draft_file(game, store.file_name(proposed)), drawing.text().encode())
+    assert len({*entered}) == 2
+
+
+def test_a_title_that_letters_cannot_spell_gets_a_proposal(controls: Controls) -> None:
+    context = Arcade(controls).context
+    assert ArenaNamePage(context, "race", "x", "Circuit", lambda name: None).name == "CIRCUIT"
+    assert ArenaNamePage(context, "race", "x", "Überhang", lambda name: None).name == "TRACK 1"

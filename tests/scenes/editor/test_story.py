@@ -19,9 +19,8 @@ from pigaming_app.storage.day_log import DayLog
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade
-from tests.scenes.editor.artist import Artist, Gamer, Mouse, Typist, checked
+from tests.scenes.editor.artist import Artist, Mouse, checked
 from tests.scenes.screens import seats
-from tests.ui.input.virtual_pad import VirtualPad
 
 pytestmark = pytest.mark.usefixtures("home")
 
@@ -34,8 +33,8 @@ def begin(arcade: Arcade) -> None:
     arcade.press(Button.FIRE)
 
 
-def story(artist: Artist) -> None:
-    """Draw a wall, undo and redo it, play, save, go back to the lobby."""
+def test_a_wall_is_drawn_undone_and_redone_played_and_saved(artist: Artist) -> None:
+    """By every device, from the set-up of a match and back to it."""
     arcade = artist.arcade
     begin(arcade)
     editor = artist.editor
@@ -56,8 +55,7 @@ def story(artist: Artist) -> None:
     artist.choose("save")
     page = arcade.shown(ArenaNamePage)
     arcade.wait(0.5)
-    arcade.press(Button.UP)
-    arcade.press(Button.START)
+    arcade.press(Button.UP, Button.START)
     assert artist.editor is editor
     assert own_arenas("pitanks") == [store.file_name(page.name)]
     assert len(load("pitanks", store.file_name(page.name)).walls) == 1
@@ -68,20 +66,6 @@ def story(artist: Artist) -> None:
             break
     setup = arcade.shown(MatchSetupPage)
     assert setup.chosen.arena == store.file_name(page.name)
-
-
-def test_by_keyboard(arcade: Arcade) -> None:
-    story(Typist(arcade))
-
-
-def test_by_mouse(arcade: Arcade) -> None:
-    story(Mouse(arcade))
-
-
-def test_by_pad(arcade: Arcade) -> None:
-    with VirtualPad() as pad:
-        arcade.frame()
-        story(Gamer(arcade, pad))
 
 
 def test_a_match_that_ends_leads_back_to_the_drawing_and_into_no_log(arcade: Arcade, home: Path) -> None:
@@ -100,8 +84,7 @@ def test_a_match_that_ends_leads_back_to_the_drawing_and_into_no_log(arcade: Arc
 
 
 def test_from_the_title(arcade: Arcade, home: Path) -> None:
-    title = Title(arcade.context)
-    arcade.open(title)
+    title = arcade.open(Title(arcade.context))
     title.focus.move_to("editor")
     arcade.press(Button.FIRE)
     assert arcade.shown(Gallery).game == "pitanks"
@@ -112,8 +95,7 @@ def test_from_the_title(arcade: Arcade, home: Path) -> None:
 def test_a_game_without_tools_has_no_editor(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     """Such as a plug-in may be; the gallery passes it over."""
     monkeypatch.delitem(cast(dict[str, object], EDITORS), "football")
-    page = MatchSetupPage(arcade.context, "football", seats("football"))
-    arcade.open(page)
+    page = arcade.open(MatchSetupPage(arcade.context, "football", seats("football")))
     assert Button.X not in page.prompts.buttons
     arcade.press(Button.X)
     assert arcade.stack.top is page
@@ -162,8 +144,7 @@ def test_a_match_on_a_drawing_is_driven_by_a_device_that_is_there(arcade: Arcade
 )
 def test_the_way_back_from_a_match_hides_no_robot_and_no_rules(arcade: Arcade, game: str, name: str) -> None:
     """On the islands robots start in the middle of each side."""
-    test = PlayTest(arcade.context, game, load(game, name), KEYS[0])
-    arcade.open(test)
+    test = arcade.open(PlayTest(arcade.context, game, load(game, name), KEYS[0]))
     arcade.frame(draw=True)
     box, shown = test.runner.notice.box, test.opening.card
     assert box

@@ -55,22 +55,9 @@ pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
 
 def at_next(arcade: Arcade, run: RunningEvent) -> NextMatch:
     """The page of the next match, ready for input."""
-    page = NextMatch(arcade.context, run)
-    arcade.open(page)
+    page = arcade.open(NextMatch(arcade.context, run))
     arcade.wait(INPUT_LOCKOUT + 0.1)
     return page
-
-
-def finish(arcade: Arcade, scores: tuple[int, ...]) -> None:
-    """Play the match on top to its end with these scores."""
-    scene = arcade.shown(MatchScene)
-    scene.opening.countdown.seconds_left = 0.05
-    arcade.until(lambda: not scene.opening.countdown.locked)
-    state = scene.match.state
-    for robot, score in zip(state.robots, scores, strict=False):
-        robot.score = score
-    state.rules.ticks = state.tick + 1
-    arcade.until(lambda: isinstance(arcade.stack.top, WinnersMoment))
 
 
 def test_an_event_is_set_up_by_pad_and_saved_before_its_first_match(arcade: Arcade) -> None:
@@ -84,20 +71,18 @@ def test_an_event_is_set_up_by_pad_and_saved_before_its_first_match(arcade: Arca
     arcade.press(Button.FIRE)
     letters = arcade.shown(LettersPage)
     arcade.wait(0.4)
-    for button in (Button.DOWN, *[Button.FIRE] * 3, *[Button.UP, Button.FIRE, Button.FIRE, Button.FIRE], Button.START):
-        arcade.press(button)
+    arcade.press(Button.DOWN, *[Button.FIRE] * 3, *[Button.UP, Button.FIRE, Button.FIRE, Button.FIRE], Button.START)
     assert letters.names() == ["BAA", "ZAA", "AAA"]
     arcade.press(Button.START)
     assert letters.refusal, "AAA is taken"
     arcade.press(Button.BACK)
     entrants = arcade.shown(EntrantsPage)
-    arcade.press(Button.RIGHT)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.RIGHT, Button.FIRE)
     assert entrants.draft.entrants[-1] == Entrant("BOT3", "level3")
     arcade.press(Button.START)
-    page = arcade.shown(NextMatch)
-    assert [entrant.name for entrant in saved(page.running).entrants] == ["BAA", "ZAA", "AAA", "BOT3"]
-    assert len(page.running.event.fixtures) == 6
+    run = arcade.shown(NextMatch).running
+    assert [entrant.name for entrant in saved(run).entrants] == ["BAA", "ZAA", "AAA", "BOT3"]
+    assert len(run.event.fixtures) == 6
 
 
 def test_games_and_arenas_take_turns_in_the_order_that_is_chosen(arcade: Arcade) -> None:
@@ -112,23 +97,17 @@ def test_games_and_arenas_take_turns_in_the_order_that_is_chosen(arcade: Arcade)
     while page.draft.order[:3] != ("race", "pitanks", "factory"):
         arcade.press(Button.RIGHT)
     page.draft.choose("rounds", 8)
-    arcade.press(Button.DOWN)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.DOWN, Button.FIRE)
     arenas = arcade.shown(ArenasPage)
     assert arenas.focus.name == "race classic"
-    arcade.press(Button.DOWN)
-    arcade.press(Button.FIRE)
-    arcade.press(Button.UP)
-    arcade.press(Button.FIRE)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.DOWN, Button.FIRE, Button.UP, Button.FIRE, Button.FIRE)
     assert page.draft.arenas("race") == ("hairpin", "classic")
     arcade.click(*arenas.focus.rect("factory hall").center)
     assert page.draft.arenas("factory") == ("hall",), "the only one stays"
     arcade.press(Button.BACK)
     page.draft.entrants += [Entrant(name) for name in ("ANA", "BEA", "EVA")]
     arcade.shown(SetupPage)
-    arcade.press(Button.START)
-    arcade.press(Button.START)
+    arcade.press(Button.START, Button.START)
     event = saved(arcade.shown(NextMatch).running)
     played = [(one.game, one.arena) for one in event.fixtures[:6] if one.game in OURS]
     assert played[:5] == [
@@ -141,15 +120,13 @@ def test_hammering_fire_enters_no_name(arcade: Arcade) -> None:
     page = LettersPage(arcade.context, lambda name: names.append(name) or "", lambda: names)  # type: ignore[func-returns-value]
     arcade.open(page)
     arcade.wait(0.4)
-    for _ in range(6):
-        arcade.press(Button.FIRE)
+    arcade.press(*[Button.FIRE] * 6)
     assert names == []
     assert page.refusal
 
 
 def test_a_list_is_pasted_or_dropped_and_a_bad_one_is_refused(arcade: Arcade, tmp_path: Path) -> None:
-    page = EntrantsPage(arcade.context, Draft(), lambda draft: "no")
-    arcade.open(page)
+    page = arcade.open(EntrantsPage(arcade.context, Draft(), lambda draft: "no"))
     page.add_list("Ana, Bea, Carla")
     page.add_list("Ana\nDuda=level2\nEva/Blue")
     assert [(one.name, one.brain, one.team) for one in page.draft.entrants] == [
@@ -194,9 +171,8 @@ def test_a_list_is_refused_as_a_whole_with_file_line_and_reason(
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_what_is_said_of_a_list_is_legible_on_the_page(arcade: Arcade, language: str) -> None:
+def test_what_is_said_of_a_list_is_legible_on_the_page(arcade: Arcade) -> None:
     """Long names of files, AIs, people and columns."""
-    arcade.context.words.switch(language)
     page = EntrantsPage(arcade.context, Draft(), lambda draft: "no")
     name = "Bernardino Albuquerque de Sousa"
     lists = (name, "Ana\nAna", f"Ana,a,b,{name}", f"Ana={name}", "\n".join(f"N{i}" for i in range(99)))
@@ -207,8 +183,7 @@ def test_what_is_said_of_a_list_is_legible_on_the_page(arcade: Arcade, language:
 
 
 def test_the_clipboard_may_be_empty(arcade: Arcade) -> None:
-    page = EntrantsPage(arcade.context, Draft(), lambda draft: "no")
-    arcade.open(page)
+    page = arcade.open(EntrantsPage(arcade.context, Draft(), lambda draft: "no"))
     page.focus.move_to("paste")
     arcade.press(Button.FIRE)
     assert page.draft.entrants == []
@@ -223,8 +198,7 @@ def test_too_few_entrants_do_not_begin(arcade: Arcade) -> None:
 
 
 def test_only_what_can_be_done_now_is_offered(arcade: Arcade) -> None:
-    page = EntrantsPage(arcade.context, Draft(Format.GRAND_PRIX), lambda draft: "")
-    arcade.open(page)
+    page = arcade.open(EntrantsPage(arcade.context, Draft(Format.GRAND_PRIX), lambda draft: ""))
     page.draw(arcade.screen)
     assert page.prompts.buttons == [Button.FIRE, Button.BACK]
     page.add_list("AAA\nBBB\nCCC")
@@ -240,8 +214,7 @@ def test_only_what_can_be_done_now_is_offered(arcade: Arcade) -> None:
 def test_every_row_of_the_set_up_has_a_picture_of_its_value(arcade: Arcade, form: Format) -> None:
     draft = Draft()
     draft.choose("format", form)
-    page = SetupPage(arcade.context, draft, lambda draft: "")
-    arcade.open(page)
+    page = arcade.open(SetupPage(arcade.context, draft, lambda draft: ""))
     pictures = set()
     for _ in page.focus.spots:
         page.update(1.0)
@@ -273,14 +246,14 @@ def test_people_take_the_seats_of_their_names_and_the_result_is_on_disk_at_once(
     page = at_next(arcade, run)
     fixture = page.fixture
     assert fixture
-    arcade.press(Button.FIRE, KEYS[0])
+    arcade.press(Button.FIRE, device=KEYS[0])
     assert page.seats.claims == {0: KEYS[0]}
-    arcade.press(Button.FIRE, KEYS[1])
+    arcade.press(Button.FIRE, device=KEYS[1])
     arcade.wait(ALL_READY + 0.2, draw=True)
     scene = arcade.shown(MatchScene)
     assert scene.devices[:2] == KEYS[:2]
     assert [seat.brain for seat in scene.setup.seats] == ["human", "human", "off", "off"]
-    finish(arcade, (5, 1))
+    arcade.finish(5, 1)
     assert saved(run).outcomes[fixture.number].places == ((fixture.entrants[0],), (fixture.entrants[1],))
     assert arcade.shown(WinnersMoment).name == f"{fixture.entrants[0]} wins!"
     arcade.wait(1.2)
@@ -314,10 +287,10 @@ def test_an_ai_that_wins_for_somebody_absent_is_called_one(arcade: Arcade) -> No
     page = at_next(arcade, running(an_event()))
     assert page.fixture
     absent = page.fixture.entrants[1]
-    arcade.press(Button.FIRE, KEYS[0])
+    arcade.press(Button.FIRE, device=KEYS[0])
     arcade.press(Button.Y)
     arcade.wait(ALL_READY + 0.2)
-    finish(arcade, (1, 5))
+    arcade.finish(1, 5)
     assert arcade.shown(WinnersMoment).name == f"The AI for {absent} wins!"
 
 
@@ -327,11 +300,11 @@ def test_each_pad_takes_its_own_seat_first(arcade: Arcade) -> None:
         page = at_next(arcade, running(an_event()))
         pads = arcade.context.controls.pads()
         assert {pad.number for pad in pads} == {one.number, two.number}
-        arcade.press(Button.FIRE, pads[1])
+        arcade.press(Button.FIRE, device=pads[1])
         assert page.seats.claims == {1: pads[1]}
-        arcade.press(Button.LEFT, pads[1])
+        arcade.press(Button.LEFT, device=pads[1])
         assert page.seats.claims == {0: pads[1]}
-        arcade.press(Button.BACK, pads[1])
+        arcade.press(Button.BACK, device=pads[1])
         assert page.seats.claims == {}
 
 
@@ -345,7 +318,7 @@ def test_a_phone_takes_a_seat_shows_it_and_frees_it_when_locked(
     numbers = [phones.connect(), phones.connect()]
     arcade.frame()
     two = Device("phone", numbers[1])
-    arcade.press(Button.FIRE, two)
+    arcade.press(Button.FIRE, device=two)
     assert page.seats.claims == {1: two}, "the second handheld has the second seat"
     page.draw(arcade.screen)
     assert page.seats._driver(1, "") == ("phone", "Phone")
@@ -356,8 +329,8 @@ def test_a_phone_takes_a_seat_shows_it_and_frees_it_when_locked(
     assert page.seats.claims == {}
     phones.connect(two.number)
     arcade.frame()
-    arcade.press(Button.FIRE, two)
-    arcade.press(Button.FIRE, Device("phone", numbers[0]))
+    arcade.press(Button.FIRE, device=two)
+    arcade.press(Button.FIRE, device=Device("phone", numbers[0]))
     arcade.wait(ALL_READY + 0.2)
     assert [device.number for device in arcade.shown(MatchScene).devices if device] == numbers
     for number in numbers:
@@ -369,18 +342,15 @@ def test_a_match_ended_by_hand_is_still_to_be_played(arcade: Arcade) -> None:
     page = at_next(arcade, run)
     fixture = page.fixture
     for device in KEYS[:2]:
-        arcade.press(Button.FIRE, device)
+        arcade.press(Button.FIRE, device=device)
     arcade.press(Button.START)
     arcade.shown(MatchScene).opening.countdown.seconds_left = 0.05
     arcade.wait(0.3)
     arcade.press(Button.START)
     pause = arcade.shown(Pause)
     assert "restart" not in [spot.name for spot in pause.focus.spots]
-    arcade.press(Button.UP)
-    for _ in range(2):
-        arcade.press(Button.FIRE)
-    arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
-    assert arcade.shown(NextMatch).fixture == fixture
+    arcade.press(Button.UP, Button.FIRE, Button.FIRE)
+    assert arcade.reach(NextMatch).fixture == fixture
     assert saved(run).outcomes == {}
 
 
@@ -393,13 +363,13 @@ def test_absent_people_are_skipped_or_replaced_and_may_come_back(arcade: Arcade)
     assert saved(run).open[-1] == first
     second = page.fixture
     assert second
-    arcade.press(Button.FIRE, KEYS[0])
+    arcade.press(Button.FIRE, device=KEYS[0])
     arcade.press(Button.START)
     assert isinstance(arcade.stack.top, NextMatch), "somebody is missing"
     arcade.press(Button.Y)
     assert (page.seats.claims, page.seats.waiting) == ({0: KEYS[0]}, [])
     assert run.brain(second.entrants[1]) == "level3"
-    arcade.press(Button.FIRE, KEYS[1])
+    arcade.press(Button.FIRE, device=KEYS[1])
     assert page.seats.claims == {0: KEYS[0], 1: KEYS[1]}
     assert saved(run).entrants == run.event.spec.entrants
 
@@ -418,7 +388,7 @@ def test_whoever_is_back_takes_a_seat_even_if_ais_have_all_of_them(arcade: Arcad
     assert fixture
     assert run.without_people(fixture)
     arcade.shown(NextMatch)
-    arcade.press(Button.FIRE, KEYS[2])
+    arcade.press(Button.FIRE, device=KEYS[2])
     assert page.seats.claims == {0: KEYS[2]}
     assert (run.brain(fixture.entrants[0]), run.brain(fixture.entrants[1])) == ("", "level3")
     assert saved(run) == run.event
@@ -431,8 +401,7 @@ def test_a_late_entrant_joins_before_round_two_only(arcade: Arcade) -> None:
     arcade.press(Button.DOWN)
     arcade.shown(LettersPage)
     arcade.wait(0.4)
-    for button in (Button.DOWN, Button.DOWN, Button.START, Button.BACK):
-        arcade.press(button)
+    arcade.press(Button.DOWN, Button.DOWN, Button.START, Button.BACK)
     assert "CAA" in [entrant.name for entrant in saved(run).entrants]
     run.change(lambda event: played(event, 3))
     assert not run.accepts_late
@@ -448,10 +417,7 @@ def test_a_result_is_corrected_with_a_note(arcade: Arcade) -> None:
     arcade.press(Button.FIRE)
     page = arcade.shown(Correction)
     before = run.event.outcomes[page.fixture.number]
-    arcade.press(Button.RIGHT)
-    arcade.press(Button.DOWN)
-    arcade.press(Button.LEFT)
-    arcade.press(Button.START)
+    arcade.press(Button.RIGHT, Button.DOWN, Button.LEFT, Button.START)
     arcade.shown(ResultsList)
     after = saved(run).outcomes[page.fixture.number]
     assert after.places == before.places[::-1]
@@ -491,7 +457,7 @@ def test_a_match_of_ais_is_a_show_and_the_next_one_begins_by_itself(arcade: Arca
     run = running(an_event(brains="level1"))
     at_next(arcade, run)
     arcade.press(Button.FIRE)
-    finish(arcade, (3, 1))
+    arcade.finish(3, 1)
     assert arcade.shown(WinnersMoment).name == f"AI {run.event.fixtures[0].entrants[0]} wins!"
     arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
     assert len(saved(run).outcomes) == 1
@@ -536,7 +502,7 @@ def test_a_result_that_cannot_be_saved_is_said_and_kept(arcade: Arcade, monkeypa
     arcade.press(Button.FIRE)
     with monkeypatch.context() as disk:
         disk.setattr(event_files, "write_with_backup", full)
-        finish(arcade, (3, 1))
+        arcade.finish(3, 1)
         arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
     assert arcade.shown(NextMatch).message == arcade.context.words("app.unsaved")
     assert len(run.event.outcomes) == 1
@@ -554,7 +520,7 @@ def test_two_processes_on_one_event_lose_and_double_nothing(arcade: Arcade) -> N
     second = other.event.open[1]
     assert other.change(lambda event: event.record(result_of(second)))
     assert run.event.outcomes == {}, "this process has read less"
-    finish(arcade, (3, 1))
+    arcade.finish(3, 1)
     assert sorted(saved(run).outcomes) == [1, second.number]
     arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
     arcade.wait(INPUT_LOCKOUT + 0.1)
@@ -566,9 +532,8 @@ def test_two_processes_on_one_event_lose_and_double_nothing(arcade: Arcade) -> N
     arcade.press(Button.FIRE)
     third = run.event.open[0]
     assert other.change(lambda event: event.record(result_of(third)))
-    finish(arcade, (3, 1))
-    arcade.until(lambda: isinstance(arcade.stack.top, NextMatch))
-    assert arcade.shown(NextMatch).message == arcade.context.words("events.elsewhere")
+    arcade.finish(3, 1)
+    assert arcade.reach(NextMatch).message == arcade.context.words("events.elsewhere")
     assert saved(run) == run.event == other.event
 
 

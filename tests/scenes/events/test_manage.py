@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import pygame
 import pytest
 
 from pigaming_app.events import event_files
@@ -23,33 +22,9 @@ from tests.ui.input.virtual_pad import VirtualPad
 
 
 def managed(arcade: Arcade, run: RunningEvent, row: str) -> EventPage:
-    page = EventPage(arcade.context, run.path, run, Pop())
-    arcade.open(page)
+    page = arcade.open(EventPage(arcade.context, run.path, run, Pop()))
     page.focus.move_to(row)
     return page
-
-
-def key(arcade: Arcade, name: str, letter: str = "") -> None:
-    """Tap a key."""
-    code = getattr(pygame, f"K_{name}")
-    scancode = getattr(pygame, f"KSCAN_{name.upper()}")
-    for kind in (pygame.KEYDOWN, pygame.KEYUP):
-        pygame.event.post(pygame.Event(kind, key=code, scancode=scancode, mod=0, unicode=letter))
-        arcade.frame()
-
-
-def hold(arcade: Arcade, name: str, seconds: float) -> None:
-    """Hold a key, through the real controls."""
-    event = {
-        "key": getattr(pygame, f"K_{name}"),
-        "scancode": getattr(pygame, f"KSCAN_{name}"),
-        "mod": 0,
-        "unicode": " ",
-    }
-    pygame.event.post(pygame.Event(pygame.KEYDOWN, event))
-    arcade.wait(seconds, draw=True)
-    pygame.event.post(pygame.Event(pygame.KEYUP, event))
-    arcade.frame()
 
 
 def test_an_event_is_deleted_with_its_backup_by_a_held_button(arcade: Arcade) -> None:
@@ -57,13 +32,12 @@ def test_an_event_is_deleted_with_its_backup_by_a_held_button(arcade: Arcade) ->
     run.change(lambda event: played(event, 1))
     assert backup_of(run.path).exists()
     arcade.open(EventsPage(arcade.context))
-    arcade.press(Button.DOWN)
-    arcade.press(Button.Y)
+    arcade.press(Button.DOWN, Button.Y)
     page = arcade.shown(EventPage)
     page.focus.move_to(DELETE)
-    hold(arcade, "SPACE", HOLD / 2)
+    arcade.key("SPACE", HOLD / 2)
     assert run.path.exists(), "released too early"
-    hold(arcade, "SPACE", HOLD + 0.2)
+    arcade.key("SPACE", HOLD + 0.2)
     assert [path.name for path in run.path.parent.iterdir()] == []
     assert arcade.shown(EventsPage).saved == []
 
@@ -74,7 +48,7 @@ def test_from_the_table_a_deleted_event_leads_to_the_title(arcade: Arcade) -> No
         arcade.open(page)
     arcade.press(Button.DOWN)
     arcade.shown(EventPage).focus.move_to(DELETE)
-    hold(arcade, "SPACE", HOLD + 0.2)
+    arcade.key("SPACE", HOLD + 0.2)
     assert arcade.stack.scenes == [arcade.title]
 
 
@@ -82,9 +56,9 @@ def test_in_a_kiosk_the_button_is_held_longer(arcade: Arcade) -> None:
     arcade.context.kiosk = True
     run = running(an_event())
     managed(arcade, run, DELETE)
-    hold(arcade, "SPACE", HOLD_IN_KIOSK - 0.5)
+    arcade.key("SPACE", HOLD_IN_KIOSK - 0.5)
     assert run.path.exists()
-    hold(arcade, "SPACE", HOLD_IN_KIOSK + 0.2)
+    arcade.key("SPACE", HOLD_IN_KIOSK + 0.2)
     assert not run.path.exists()
 
 
@@ -92,10 +66,9 @@ def test_a_damaged_event_can_only_be_deleted(arcade: Arcade) -> None:
     run = running(an_event())
     run.path.write_text("{", encoding="utf-8")
     arcade.open(EventsPage(arcade.context))
-    arcade.press(Button.DOWN)
-    arcade.press(Button.Y)
+    arcade.press(Button.DOWN, Button.Y)
     assert arcade.shown(EventPage).rows == (DELETE,)
-    hold(arcade, "SPACE", HOLD + 0.2)
+    arcade.key("SPACE", HOLD + 0.2)
     assert not run.path.exists()
 
 
@@ -105,7 +78,7 @@ def test_a_file_that_stays_is_said(arcade: Arcade, monkeypatch: pytest.MonkeyPat
 
     monkeypatch.setattr(event_files, "delete", kept)
     page = managed(arcade, running(an_event()), DELETE)
-    hold(arcade, "SPACE", HOLD + 0.2)
+    arcade.key("SPACE", HOLD + 0.2)
     assert page.message == arcade.context.words("events.undeleted")
     arcade.shown(EventPage)
 
@@ -114,11 +87,10 @@ def test_whoever_withdraws_is_chosen_and_the_opponent_wins(arcade: Arcade) -> No
     run = running(an_event(Format.ROUND_ROBIN))
     page = managed(arcade, run, WITHDRAW)
     second = page.present[1]
-    arcade.press(Button.RIGHT)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.RIGHT, Button.FIRE)
     arcade.frame()
     assert run.event.withdrawn == frozenset(), "only by holding"
-    hold(arcade, "SPACE", HOLD + 0.2)
+    arcade.key("SPACE", HOLD + 0.2)
     assert saved(run).withdrawn == {second}
     assert all(second not in fixture.entrants for fixture in run.event.open)
     assert second not in page.present
@@ -135,7 +107,7 @@ def test_a_withdrawal_by_pad_and_by_mouse(arcade: Arcade, monkeypatch: pytest.Mo
     monkeypatch.setattr(arcade.context.controls, "holds", lambda device, button: True)
     with VirtualPad() as pad:
         arcade.frame()
-        arcade.press(Button.FIRE, Device("pad", pad.number))
+        arcade.press(Button.FIRE, device=Device("pad", pad.number))
         arcade.wait(HOLD + 0.1)
     assert len(saved(run).withdrawn) == 1
     chosen = page.chosen
@@ -149,8 +121,7 @@ def test_a_withdrawal_by_pad_and_by_mouse(arcade: Arcade, monkeypatch: pytest.Mo
 
 def test_seats_are_free_again_after_somebody_has_withdrawn(arcade: Arcade) -> None:
     run = running(an_event(Format.SWISS, 6))
-    page = NextMatch(arcade.context, run)
-    arcade.open(page)
+    page = arcade.open(NextMatch(arcade.context, run))
     page.seats.claims = {0: Device("keys", 0)}
     run.change(lambda event: event.withdraw(event.open[0].entrants[0]))
     page.on_enter()
@@ -164,37 +135,33 @@ def test_a_title_is_typed(arcade: Arcade) -> None:
     page = arcade.shown(TextPage)
     arcade.wait(TextPage.lockout + 0.1)
     for _ in range(len("Open day")):
-        key(arcade, "BACKSPACE", "\b")
+        arcade.key("BACKSPACE", letter="\b")
     assert page.text == ""
     arcade.press(Button.START)
     assert page.refusal == arcade.context.words("events.no_title")
     for letter in "Wasd":
-        key(arcade, letter.lower(), letter)
-    key(arcade, "SPACE", " ")
-    key(arcade, "x", "é")
+        arcade.key(letter.lower(), letter=letter)
+    arcade.key("SPACE", letter=" ")
+    arcade.key("x", letter="é")
     assert page.text == "Wasd é", "keys of players are letters here"
-    key(arcade, "RETURN", "\r")
+    arcade.key("RETURN", letter="\r")
     arcade.shown(EventPage)
     assert (saved(run).spec.title, len(saved(run).outcomes)) == ("Wasd é", 1)
     assert arcade.context.controls.typist is None
-    key(arcade, "s", "s")
+    arcade.key("s", letter="s")
     assert arcade.shown(EventPage).focus.name == WITHDRAW
 
 
 def test_a_title_is_written_with_a_stick_or_the_mouse(arcade: Arcade) -> None:
-    page = TextPage(arcade.context, "Title", "", 3, lambda text: "")
-    arcade.open(page)
+    page = arcade.open(TextPage(arcade.context, "Title", "", 3, lambda text: ""))
     arcade.wait(TextPage.lockout + 0.1)
-    arcade.press(Button.FIRE)
-    arcade.press(Button.DOWN)
-    arcade.press(Button.RIGHT)
+    arcade.press(Button.FIRE, Button.DOWN, Button.RIGHT)
     arcade.click(960, 790)  # below the letter
     arcade.click(960, 600)
     assert page.text == "ABC"
     arcade.press(Button.FIRE)
     assert page.text == "ABC", "full"
-    arcade.press(Button.X)
-    arcade.press(Button.UP)
+    arcade.press(Button.X, Button.UP)
     assert page.text == "AB"
     assert page.picker.spelled == ALPHABET[1]
     arcade.press(Button.BACK)
@@ -203,8 +170,7 @@ def test_a_title_is_written_with_a_stick_or_the_mouse(arcade: Arcade) -> None:
 
 def test_a_correction_has_a_reason_in_own_words(arcade: Arcade) -> None:
     run = running(played(an_event(Format.ROUND_ROBIN), 1))
-    page = Correction(arcade.context, run, run.event.fixtures[0])
-    arcade.open(page)
+    page = arcade.open(Correction(arcade.context, run, run.event.fixtures[0]))
     arcade.press(Button.X)
     text = arcade.shown(TextPage)
     assert text.most == MAX_NOTE
@@ -220,8 +186,7 @@ def test_a_correction_has_a_reason_in_own_words(arcade: Arcade) -> None:
     page.focus.move_to(" note")
     arcade.press(Button.RIGHT)
     assert page.outcome.note == arcade.context.words(f"events.{NOTES[0]}")
-    arcade.press(Button.LEFT)
-    arcade.press(Button.START)
+    arcade.press(Button.LEFT, Button.START)
     assert saved(run).outcomes[1].note == "Cable torn"
 
 
@@ -229,9 +194,9 @@ def test_in_a_kiosk_visitors_read_the_results_but_do_not_change_them(arcade: Arc
     arcade.context.kiosk = True
     run = running(played(an_event(), 2))
     arcade.open(ResultsList(arcade.context, run))
-    hold(arcade, "SPACE", HOLD_IN_KIOSK - 0.5)
+    arcade.key("SPACE", HOLD_IN_KIOSK - 0.5)
     assert arcade.shown(ResultsList).message == arcade.context.words("events.hold")
-    hold(arcade, "SPACE", HOLD_IN_KIOSK + 0.2)
+    arcade.key("SPACE", HOLD_IN_KIOSK + 0.2)
     assert arcade.shown(Correction).fixture == run.event.fixtures[1]
 
 
@@ -239,7 +204,7 @@ def test_in_a_kiosk_visitors_do_not_change_the_title(arcade: Arcade) -> None:
     arcade.context.kiosk = True
     run = running(an_event())
     managed(arcade, run, RENAME)
-    hold(arcade, "SPACE", HOLD_IN_KIOSK - 0.5)
+    arcade.key("SPACE", HOLD_IN_KIOSK - 0.5)
     arcade.shown(EventPage)
-    hold(arcade, "SPACE", HOLD_IN_KIOSK + 0.2)
+    arcade.key("SPACE", HOLD_IN_KIOSK + 0.2)
     arcade.shown(TextPage)

@@ -71,9 +71,8 @@ def test_the_hud_has_the_name_of_everybody(
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_pages_over_a_match_name_those_who_play(arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str) -> None:
+def test_pages_over_a_match_name_those_who_play(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     """Who paused, who chooses first, and whose pad is gone."""
-    arcade.context.words.switch(language)
     scene = a_match(arcade, "pitanks", 4, "party")
     seat = scene.names.index("Maximilian v. Hohenstein")
     paused, rejected = Pause(scene, KEYS[seat]), Pause(scene, KEYS[seat])
@@ -119,9 +118,8 @@ def test_a_result_is_one_line_of_large_type() -> None:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_the_order_of_the_games_is_legible(arcade: Arcade, language: str) -> None:
+def test_the_order_of_the_games_is_legible(arcade: Arcade) -> None:
     """The row has what fits in type of 40 px, the line beside it the whole order."""
-    arcade.context.words.switch(language)
     draft = Draft(game=BY_TURNS)
     page = SetupPage(arcade.context, draft, lambda draft: "")
     for order in draft.options("order"):

@@ -1,6 +1,6 @@
 """Tables, brackets and posters of every size: everybody is on a page, nothing lies outside."""
 
-from collections import Counter
+from collections import Counter, defaultdict
 from itertools import pairwise
 
 import pygame
@@ -89,7 +89,7 @@ def test_names_are_known_as_soon_as_the_matches_before_are_decided() -> None:
     for fixture in event.open[:2]:
         event = event.record(ranked(fixture, *sorted(fixture.entrants)))
     boxes = [box for page in overview(Words("en"), event).bracket for column in page for box in column.boxes]
-    names = {(box.stage, box.round): [] for box in boxes}
+    names = defaultdict[tuple[str, int], list[tuple[str, ...]]](list)
     for box in boxes:
         names[box.stage, box.round].append(tuple(sorted(box.names)))
     assert names["winners", 2] == [("P1", "P4"), ("", "")]

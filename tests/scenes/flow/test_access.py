@@ -58,17 +58,8 @@ def tap(arcade: Arcade, pad: VirtualPad, *buttons: str) -> None:
         arcade.frame()
 
 
-def key(arcade: Arcade, scancode: int, seconds: float = 0.0) -> None:
-    """Hold a key for `seconds`."""
-    pygame.event.post(pygame.Event(pygame.KEYDOWN, key=0, scancode=scancode, mod=0))
-    arcade.wait(max(seconds, 1 / 30))
-    pygame.event.post(pygame.Event(pygame.KEYUP, key=0, scancode=scancode, mod=0))
-    arcade.frame()
-
-
 def running(arcade: Arcade, brains: str, devices: list[Device], minutes: float = 3.0) -> MatchScene:
-    match = MatchScene(arcade.context, setup(brains, minutes), devices)
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup(brains, minutes), devices))
     arcade.wait(RUNNING)
     return match
 
@@ -76,14 +67,17 @@ def running(arcade: Arcade, brains: str, devices: list[Device], minutes: float =
 # ---- lobby and setup
 
 
+def lobby_of(arcade: Arcade) -> Lobby:
+    """A lobby right above the title."""
+    arcade.stack.scenes[1:] = []
+    return arcade.open(Lobby(arcade.context, "pitanks"))
+
+
 def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade, pads: ExitStack) -> None:
     _, first = plug(arcade, pads)
     guest, device = plug(arcade, pads)
-    arcade.stack.scenes[1:] = []
-    page = Lobby(arcade.context, "pitanks")
-    arcade.open(page)
-    arcade.press(Button.FIRE, first)
-    arcade.press(Button.Y, first)
+    page = lobby_of(arcade)
+    arcade.press(Button.FIRE, Button.Y, device=first)
     before = [(place.kind, place.device, place.strength, place.ready) for place in page.seats.places]
     for _ in range(3):
         tap(arcade, guest, *BUTTONS[:1], *BUTTONS[2:])
@@ -100,53 +94,48 @@ def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade, pads:
 
 
 def test_in_a_full_lobby_a_free_pad_gets_only_a_notice(arcade: Arcade) -> None:
-    arcade.stack.scenes[1:] = []
-    page = Lobby(arcade.context, "pitanks")
-    arcade.open(page)
+    page = lobby_of(arcade)
     for device in KEYS:
-        arcade.press(Button.FIRE, device)
+        arcade.press(Button.FIRE, device=device)
     seats = [place.device for place in page.seats.places]
     for act in (Button.FIRE, *EVERY):
         page.now.message = ""
-        arcade.press(act, Device("pad", 9))
-        assert [place.device for place in page.seats.places] == seats
+        arcade.press(act, device=Device("pad", 9))
+        assert [place.device for place in page.seats.places] == seats == KEYS
+        assert act is not Button.FIRE or arcade.sounds.heard[-1] == "error"
         if act in (Button.FIRE, Button.START, Button.BACK):
             assert page.now.message == arcade.context.words("lobby.full")
 
 
 def test_while_nobody_is_seated_any_device_begins_a_match_of_ais_or_goes_back(arcade: Arcade) -> None:
-    arcade.stack.scenes[1:] = []
-    arcade.open(Lobby(arcade.context, "pitanks"))
-    arcade.press(Button.Y, KEYS[2])
-    arcade.press(Button.Y, KEYS[3])
-    arcade.press(Button.START, KEYS[1])
+    lobby_of(arcade)
+    arcade.press(Button.Y, device=KEYS[2])
+    arcade.press(Button.Y, device=KEYS[3])
+    arcade.press(Button.START, device=KEYS[1])
     arcade.shown(MatchSetupPage)
-    arcade.press(Button.BACK, KEYS[3])
+    arcade.press(Button.BACK, device=KEYS[3])
     arcade.shown(Lobby)
-    arcade.press(Button.BACK, KEYS[0])
+    arcade.press(Button.BACK, device=KEYS[0])
     assert arcade.stack.top is arcade.title
 
 
 def test_an_operator_holds_escape_to_leave_a_lobby_that_others_sit_in(arcade: Arcade, pads: ExitStack) -> None:
     _, first = plug(arcade, pads)
-    arcade.stack.scenes[1:] = []
-    arcade.open(Lobby(arcade.context, "pitanks"))
-    arcade.press(Button.FIRE, first)
-    key(arcade, pygame.KSCAN_ESCAPE, 0.3)
+    lobby_of(arcade)
+    arcade.press(Button.FIRE, device=first)
+    arcade.key("ESCAPE", 0.3)
     arcade.shown(Lobby)
-    key(arcade, pygame.KSCAN_ESCAPE, ESCAPE_SECONDS + 0.2)
+    arcade.key("ESCAPE", ESCAPE_SECONDS + 0.2)
     assert arcade.stack.top is arcade.title
 
 
 def test_a_shared_key_counts_for_the_seated_half_of_the_keyboard(arcade: Arcade) -> None:
-    arcade.stack.scenes[1:] = []
-    page = Lobby(arcade.context, "pitanks")
-    arcade.open(page)
-    key(arcade, pygame.KSCAN_SPACE)
-    key(arcade, pygame.KSCAN_SPACE)
-    key(arcade, pygame.KSCAN_UP)  # a key of an unseated cluster
+    page = lobby_of(arcade)
+    arcade.key("SPACE")
+    arcade.key("SPACE")
+    arcade.key("UP")  # a key of an unseated cluster
     assert page.seats.places[0].ready
-    key(arcade, pygame.KSCAN_ESCAPE)
+    arcade.key("ESCAPE")
     assert not page.seats.places[0].ready
 
 
@@ -168,15 +157,14 @@ def test_in_setup_only_seated_devices_choose(arcade: Arcade) -> None:
     page = Lobby(arcade.context, "pitanks")
     page.seats.join(KEYS[0])
     page.seats.add_ai()
-    scene = MatchSetupPage(arcade.context, "pitanks", page.seats)
-    arcade.open(scene)
+    scene = arcade.open(MatchSetupPage(arcade.context, "pitanks", page.seats))
     arcade.wait(1.0)
     before = (scene.chosen, scene.focus.name)
     for act in (Button.FIRE, *EVERY):
-        arcade.press(act, KEYS[1])
+        arcade.press(act, device=KEYS[1])
         assert arcade.shown(MatchSetupPage) is scene
         assert (scene.chosen, scene.focus.name) == before
-    arcade.press(Button.FIRE, KEYS[0])
+    arcade.press(Button.FIRE, device=KEYS[0])
     arcade.shown(MatchScene)
 
 
@@ -188,8 +176,7 @@ def test_in_a_match_nothing_on_a_free_pad_pauses(arcade: Arcade, pads: ExitStack
     guest, _ = plug(arcade, pads)
     match = running(arcade, "human level1 off off", [first])
     tap(arcade, guest, *BUTTONS, "a")
-    arcade.press(Button.BACK, KEYS[0])
-    arcade.press(Button.START, KEYS[0])
+    arcade.press(Button.BACK, Button.START, device=KEYS[0])
     arcade.frame()
     assert arcade.shown(MatchScene) is match
     assert match.devices == [first, None, None, None]
@@ -198,15 +185,15 @@ def test_in_a_match_nothing_on_a_free_pad_pauses(arcade: Arcade, pads: ExitStack
 def test_an_operator_holds_escape_to_pause_pads_and_to_take_a_pause_over(arcade: Arcade, pads: ExitStack) -> None:
     pad, first = plug(arcade, pads)
     match = running(arcade, "human level1 off off", [first])
-    key(arcade, pygame.KSCAN_ESCAPE, 0.4)
+    arcade.key("ESCAPE", 0.4)
     assert arcade.stack.top is match
-    key(arcade, pygame.KSCAN_ESCAPE, ESCAPE_SECONDS + 0.2)
+    arcade.key("ESCAPE", ESCAPE_SECONDS + 0.2)
     assert arcade.shown(Pause).access.owner.kind == "keys"
-    key(arcade, pygame.KSCAN_ESCAPE)
+    arcade.key("ESCAPE")
     assert arcade.stack.top is match
     tap(arcade, pad, "start")
     assert arcade.shown(Pause).access.owner == first
-    key(arcade, pygame.KSCAN_ESCAPE, ESCAPE_SECONDS + 0.2)
+    arcade.key("ESCAPE", ESCAPE_SECONDS + 0.2)
     assert arcade.shown(Pause).access.owner.kind == "keys"
 
 
@@ -222,26 +209,24 @@ def test_while_ais_play_alone_any_device_pauses(arcade: Arcade, pads: ExitStack)
 
 def test_a_pause_belongs_to_its_owner_for_twenty_seconds(arcade: Arcade) -> None:
     match = running(arcade, "human human off off", KEYS[:2])
-    arcade.press(Button.START, KEYS[1])
+    arcade.press(Button.START, device=KEYS[1])
     page = arcade.shown(Pause)
     for act in (Button.FIRE, *EVERY):
         for device in (KEYS[0], KEYS[3]):
-            arcade.press(act, device)
+            arcade.press(act, device=device)
             assert arcade.shown(Pause) is page
             assert page.focus.name == "continue"
-    arcade.press(Button.DOWN, KEYS[1])
-    arcade.press(Button.DOWN, KEYS[1])
-    arcade.press(Button.FIRE, KEYS[1])
-    arcade.press(Button.BACK, KEYS[0])
+    arcade.press(Button.DOWN, Button.DOWN, Button.FIRE, device=KEYS[1])
+    arcade.press(Button.BACK, device=KEYS[0])
     arcade.shown(DeviceTable)
     arcade.wait(OWNER_SECONDS + 0.2)
-    arcade.press(Button.BACK, KEYS[3])
+    arcade.press(Button.BACK, device=KEYS[3])
     arcade.shown(DeviceTable)
-    arcade.press(Button.BACK, KEYS[0])
+    arcade.press(Button.BACK, device=KEYS[0])
     assert arcade.shown(Pause) is page
-    arcade.press(Button.START, KEYS[3])
+    arcade.press(Button.START, device=KEYS[3])
     assert arcade.shown(Pause) is page
-    arcade.press(Button.START, KEYS[0])
+    arcade.press(Button.START, device=KEYS[0])
     assert arcade.stack.top is match
 
 
@@ -250,11 +235,12 @@ def test_f4_of_the_keyboard_works_in_any_match_but_ends_no_pause_of_another_devi
 ) -> None:
     pad, first = plug(arcade, pads)
     match = running(arcade, "human level1 off off", [first])
-    key(arcade, pygame.KSCAN_F4)
+    arcade.key("F4")
+    assert match.runner.brain
     assert match.runner.brain.seats == [1]
     tap(arcade, pad, "start")
     page = arcade.shown(Pause)
-    key(arcade, pygame.KSCAN_F4)
+    arcade.key("F4")
     assert arcade.shown(Pause) is page
 
 
@@ -263,11 +249,11 @@ def test_an_unplugged_pad_owns_no_pause(arcade: Arcade, pads: ExitStack) -> None
     running(arcade, "human human off off", [first, second])
     tap(arcade, two, "start")
     page = arcade.shown(Pause)
-    arcade.press(Button.START, first)
+    arcade.press(Button.START, device=first)
     assert arcade.shown(Pause) is page
     two.unplug()
     arcade.frame()
-    arcade.press(Button.START, first)
+    arcade.press(Button.START, device=first)
     assert arcade.stack.top is not page
 
 
@@ -276,15 +262,11 @@ def test_restart_and_end_ask_once(arcade: Arcade, name: str, downs: int) -> None
     match = running(arcade, "human level1 off off", KEYS[:1])
     arcade.press(Button.START)
     page = arcade.shown(Pause)
-    for _ in range(downs):
-        arcade.press(Button.DOWN)
+    arcade.press(*[Button.DOWN] * downs)
     assert page.focus.name == name
     arcade.press(Button.FIRE)
     arcade.wait(CONFIRM_SECONDS + 0.2, draw=True)
-    arcade.press(Button.FIRE)
-    arcade.press(Button.UP)
-    arcade.press(Button.DOWN)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE, Button.UP, Button.DOWN, Button.FIRE)
     assert arcade.shown(Pause) is page, "time and another item take the question back"
     assert not match.restart_requested
     assert not match.stop_requested
@@ -391,7 +373,7 @@ def test_when_all_are_idle_the_match_asks_and_the_first_press_returns_its_seat(
     match = running(arcade, "human human off off", KEYS[:2], 5.0)
     arcade.until(lambda: isinstance(arcade.stack.top, StillThere), 70.0)
     assert match.devices[:2] == [None, None]
-    arcade.press(Button.LEFT, KEYS[1])
+    arcade.press(Button.LEFT, device=KEYS[1])
     assert arcade.stack.top is match
     assert match.devices[:2] == [None, KEYS[1]]
 
@@ -412,7 +394,7 @@ def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(ar
     tap(arcade, guest, "start")
     arcade.shown(Pause)
     match.restart()
-    arcade.press(Button.START, device)
+    arcade.press(Button.START, device=device)
     arcade.frame()
     again = arcade.shown(MatchScene)
     assert again.devices == [first, None, device, None]
@@ -423,10 +405,8 @@ def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(ar
 
 
 def ended(arcade: Arcade, brains: str, devices: list[Device]) -> Results:
-    match = MatchScene(arcade.context, setup(brains, 0.02), devices, game_choice=game_choice)
-    arcade.open(match)
-    arcade.until(lambda: isinstance(arcade.stack.top, Results))
-    return arcade.shown(Results)
+    arcade.open(MatchScene(arcade.context, setup(brains, 0.02), devices, game_choice=game_choice))
+    return arcade.reach(Results)
 
 
 def test_b_leaves_the_results_only_late_and_held(arcade: Arcade, pads: ExitStack) -> None:
@@ -462,7 +442,7 @@ def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade, pad
     arcade.wait(TAKE_SECONDS + 0.2, draw=True)
     guest.release("a")
     assert results.ballot.votes == {1}
-    arcade.press(Button.FIRE, first)
+    arcade.press(Button.FIRE, device=first)
     arcade.frame()
     match = arcade.shown(MatchScene)
     assert match.devices[:2] == [first, device]
@@ -472,15 +452,14 @@ def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade, pad
 def test_change_game_keeps_all_seats(arcade: Arcade) -> None:
     ended(arcade, "human off human level5", [KEYS[2], None, KEYS[0], None])  # type: ignore[list-item]
     arcade.wait(3.0)
-    arcade.press(Button.X, KEYS[1])
+    arcade.press(Button.X, device=KEYS[1])
     arcade.shown(Results)
-    arcade.press(Button.X, KEYS[0])
+    arcade.press(Button.X, device=KEYS[0])
     page = arcade.shown(GameChoice)
     assert page.focus.name != "pitanks"
-    for act in (Button.FIRE, *EVERY):
-        arcade.press(act, KEYS[1])
+    arcade.press(Button.FIRE, *EVERY, device=KEYS[1])
     assert arcade.shown(GameChoice) is page
-    arcade.press(Button.FIRE, KEYS[2])
+    arcade.press(Button.FIRE, device=KEYS[2])
     there = arcade.shown(Lobby)
     assert there.game == "factory"
     assert [place.device for place in there.seats.places] == [KEYS[2], None, KEYS[0], None]
@@ -490,8 +469,7 @@ def test_change_game_keeps_all_seats(arcade: Arcade) -> None:
 
 def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads, name="PS4 Controller", usb=PLAYSTATION)
-    scene = Title(arcade.context)
-    arcade.open(scene)
+    scene = arcade.open(Title(arcade.context))
     assert scene.call_text == ("Press {button} to play", "SPACE")
     tap(arcade, pad, "down")
     assert arcade.context.controls.last == device
@@ -506,9 +484,7 @@ def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(ar
 
 def test_four_mashers_and_a_guest_change_only_their_own_seats(arcade: Arcade) -> None:
     chance = random.Random(9)
-    arcade.stack.scenes[1:] = []
-    page = Lobby(arcade.context, "pitanks")
-    arcade.open(page)
+    page = lobby_of(arcade)
     acts = [
         act
         for act in Button
@@ -519,7 +495,7 @@ def test_four_mashers_and_a_guest_change_only_their_own_seats(arcade: Arcade) ->
         device, act = chance.choice([*KEYS, Device("pad", 7)]), chance.choice(acts)
         people = [place.device for place in page.seats.places]
         before = {place.device: (i, place.ready) for i, place in enumerate(page.seats.places) if place.kind == HUMAN}
-        arcade.press(act, device)
+        arcade.press(act, device=device)
         after = {place.device: (i, place.ready) for i, place in enumerate(page.seats.places) if place.kind == HUMAN}
         for other in people:
             if other and other != device:
@@ -535,7 +511,7 @@ def test_thousands_of_presses_by_everybody_on_every_screen(arcade: Arcade) -> No
     for i in range(3000):
         if len(arcade.stack.scenes) == 1:
             arcade.open(Lobby(arcade.context, ("pitanks", "factory", "race")[i % 3]))
-        arcade.press(chance.choice(acts), chance.choice([*KEYS, Device("pad", 7)]))
+        arcade.press(chance.choice(acts), device=chance.choice([*KEYS, Device("pad", 7)]))
         top = arcade.stack.top
         seen.add(type(top).__name__)
         if isinstance(top, MatchScene):

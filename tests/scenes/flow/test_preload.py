@@ -35,6 +35,13 @@ def until(true: Callable[[], bool]) -> None:
         time.sleep(0.01)
 
 
+def loaded(preloader: Preloader) -> Preloader:
+    """The preloader after all of its work."""
+    preloader.start()
+    until(lambda: not preloader.busy)
+    return preloader
+
+
 @pytest.fixture
 def prepared(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str]]:
     """The arenas in the order of preparation, without the work."""
@@ -49,8 +56,7 @@ def test_every_arena_gets_ready_and_then_the_next_thing_begins(prepared: list[tu
     preloader.on_done = lambda: after.append(len(prepared))
     assert preloader.ready("race", "classic"), "without the thread nothing is waited for"
     preloader.start()
-    preloader.start()
-    until(lambda: not preloader.busy)
+    loaded(preloader)
     assert prepared == arena_jobs.every_arena()
     assert after == [len(prepared)]
     assert all(preloader.ready(*one) for one in prepared)
@@ -59,9 +65,7 @@ def test_every_arena_gets_ready_and_then_the_next_thing_begins(prepared: list[tu
 def test_the_engine_is_hashed_for_every_game_before_the_first_replay_is_saved(prepared: list[tuple[str, str]]) -> None:
     """Football has rules outside the engine, whose hash took 0.3 s at the end of the first match."""
     engine_hash._hash.cache_clear()
-    preloader = Preloader()
-    preloader.start()
-    until(lambda: not preloader.busy)
+    loaded(Preloader())
     hashed = engine_hash._hash.cache_info().misses
     assert "football" in games()
     assert len({engine_hash.engine_hash(game) for game in games()}) == hashed == 2
@@ -72,9 +76,7 @@ def test_a_failing_preload_does_not_block_matches(monkeypatch: pytest.MonkeyPatc
         raise MemoryError("no more")
 
     monkeypatch.setattr(arena_jobs, "every_arena", broken)
-    preloader = Preloader()
-    preloader.start()
-    until(lambda: not preloader.busy)
+    preloader = loaded(Preloader())
     assert preloader.ready("race", "classic")
 
 
@@ -90,8 +92,7 @@ def test_a_game_that_fails_does_not_keep_the_others_waiting(
     monkeypatch.setattr(arena_jobs, "prepare", prepare)
     preloader, after = Preloader(), list[int]()
     preloader.on_done = lambda: after.append(1)
-    preloader.start()
-    until(lambda: not preloader.busy)
+    loaded(preloader)
     assert {"pitanks", "race"} <= {game for game, _ in prepared}
     assert after
 
@@ -107,19 +108,15 @@ def test_a_game_that_never_starts_does_not_keep_the_others_waiting(
     monkeypatch.setattr(preload, "LOADING", 0.02)
     monkeypatch.setattr(arena_jobs, "every_arena", lambda: [("pitanks", "classic"), ("race", "classic")])
     monkeypatch.setattr(arena_jobs, "prepare", prepare)
-    preloader = Preloader()
-    preloader.start()
-    until(lambda: not preloader.busy)
+    loaded(Preloader())
     assert prepared == [("race", "classic")]
 
 
-def test_a_match_waits_on_its_page_until_its_arena_is_ready(controls: object, home: Path) -> None:
-    arcade = Arcade(controls)  # type: ignore[arg-type]
+def test_a_match_waits_on_its_page_until_its_arena_is_ready(arcade: Arcade) -> None:
     seats = LobbySeats("level3")
     seats.join(KEYS[0])
     seats.add_opponents()
-    page = MatchSetupPage(arcade.context, "pitanks", seats)
-    arcade.open(page)
+    page = arcade.open(MatchSetupPage(arcade.context, "pitanks", seats))
     arcade.wait(1.0)
 
     class Busy(Preloader):
@@ -129,8 +126,7 @@ def test_a_match_waits_on_its_page_until_its_arena_is_ready(controls: object, ho
             return self.done
 
     arcade.context.preloader = busy = Busy()
-    arcade.press(Button.FIRE)
-    arcade.press(Button.RIGHT)
+    arcade.press(Button.FIRE, Button.RIGHT)
     arcade.wait(0.5)
     assert arcade.stack.top is page, "nothing else can be chosen meanwhile"
     busy.done = True

@@ -31,6 +31,7 @@ from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.button_prompts import ROOM, places
 from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.measuring import lit_boxes
 from tests.ui.input.virtual_pad import VirtualPad
 
 SAFE = pygame.Rect(96, 54, 1728, 972)
@@ -142,10 +143,7 @@ def test_painting_changes_nothing_of_what_is_learned(arcade: Arcade) -> None:
 def test_a_knob_is_taken_turned_and_let_go(arcade: Arcade) -> None:
     here = lab(arcade)
     here.focus.move_to("still")
-    arcade.press(Button.FIRE)
-    for _ in range(3):
-        arcade.press(Button.LEFT)
-    arcade.press(Button.UP)
+    arcade.press(Button.FIRE, *[Button.LEFT] * 3, Button.UP)
     assert here.table.recipe.still == -2.0
     assert lab(arcade).held == "still"
     arcade.press(Button.BACK)
@@ -159,17 +157,14 @@ def test_a_knob_is_taken_turned_and_let_go(arcade: Arcade) -> None:
 
 def test_with_a_knob_in_hand_one_can_play_at_once(arcade: Arcade) -> None:
     lab(arcade).focus.move_to("hit")
-    arcade.press(Button.FIRE)
-    arcade.press(Button.X)
+    arcade.press(Button.FIRE, Button.X)
     arcade.shown(Challenge)
 
 
 @pytest.mark.parametrize(("button", "end"), [(Button.RIGHT, 10.0), (Button.LEFT, -10.0)])
 def test_a_knob_stops_at_its_ends(arcade: Arcade, button: Button, end: float) -> None:
     lab(arcade).focus.move_to("miss")
-    arcade.press(Button.FIRE)
-    for _ in range(25):
-        arcade.press(button)
+    arcade.press(Button.FIRE, *[button] * 25)
     assert lab(arcade).table.recipe.miss == end
 
 
@@ -206,7 +201,7 @@ def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
     here = lab(arcade)
     here.name = "ZUMI"
     experiences = here.table.training.experiences
-    arcade.press(Button.X, KEYS[1])
+    arcade.press(Button.X, device=KEYS[1])
     fight = arcade.shown(Challenge)
     assert fight.inner.devices[0] == KEYS[1]
     assert fight.inner.runner.driver(ROBOT, None) == ("ZUMI", "ai")
@@ -220,9 +215,9 @@ def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
     arcade.shown(ChallengeResult)
     assert here.table.training.experiences == experiences, "training is paused"
     assert here.table.join()
-    for kind, seconds in ((pygame.KEYDOWN, 0.2), (pygame.KEYUP, 5.0), (pygame.KEYDOWN, 0.8), (pygame.KEYUP, 0.1)):
-        pygame.event.post(pygame.Event(kind, key=0, scancode=pygame.KSCAN_ESCAPE, mod=0))
-        arcade.wait(seconds)
+    arcade.key("ESCAPE", 0.2)
+    arcade.wait(5.0)
+    arcade.key("ESCAPE", 0.8)
     assert lab(arcade) is here
     arcade.wait(0.5)
     assert here.table.training.experiences > experiences
@@ -237,6 +232,7 @@ def test_one_can_look_into_the_brain_that_one_plays_against(arcade: Arcade, monk
     before = digest(fight.inner.match.state)
     arcade.press(Button.BRAIN)
     arcade.shown(Challenge)
+    assert fight.inner.runner.brain
     assert fight.inner.runner.brain.seats == [ROBOT]
     assert digest(fight.inner.match.state) == before
 
@@ -254,15 +250,13 @@ def test_once_more_and_an_early_end(arcade: Arcade) -> None:
     arcade.wait(0.2)
     arcade.press(Button.START)
     arcade.shown(Pause).focus.move_to("restart")
-    arcade.press(Button.FIRE)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE, Button.FIRE)
     arcade.wait(0.1)
     third = arcade.shown(Challenge)
     assert third is not second
     arcade.press(Button.START)
     arcade.shown(Pause).focus.move_to("end")
-    arcade.press(Button.FIRE)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE, Button.FIRE)
     arcade.wait(0.1)
     lab(arcade)
 
@@ -338,9 +332,8 @@ def test_the_line_through_the_dots_moves_part_of_the_way_to_each() -> None:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_labels_fit_their_boxes(language: str, controls: Controls, home: Path) -> None:
+def test_labels_fit_their_boxes(arcade: Arcade, language: str) -> None:
     words = Words(language)
-    arcade = Arcade(controls, language)
     there = Lab(arcade.context, fast=False)
     for there.held in ("", KNOB_NAMES[0]):
         row = there.prompts
@@ -375,9 +368,7 @@ def test_the_line_about_warming_up_stays_in_its_panel_and_off_the_match(
     controls: Controls, language: str, key: str
 ) -> None:
     lit = warming(Words(language)(key))
-    box = pygame.mask.from_threshold(lit.image, (0, 0, 0), (40, 40, 40, 255))
-    box.invert()
-    rects = box.get_bounding_rects()
+    rects = lit_boxes(lit.image)
     line = rects[0].unionall(rects[1:]).move(lit.at)
     assert CURVE.contains(line)
     assert line.right < PLOT.right, "the notice overlaps the percentage"

@@ -39,8 +39,7 @@ BROKEN = (sys.executable, "-c", "exit(1)")
 
 
 @pytest.fixture
-def arcade(controls: Controls, home: Path) -> Iterator[Arcade]:
-    arcade = Arcade(controls)
+def arcade(arcade: Arcade) -> Iterator[Arcade]:
     arcade.context.shared(LabBackground).network_compiler = Compiler(NOTHING)
     lab = Lab(arcade.context, fast=False)
     lab.network = NetworkTrainer(5, arcade.context.shared(LabBackground).network_compiler, PLAIN)
@@ -114,6 +113,7 @@ def test_the_network_is_chosen_learns_is_measured_played_against_saved_and_opene
     assert (robot.x, robot.y, robot.heading) != (start.x, start.y, start.heading), "the robot moves"
     arcade.press(Button.BRAIN)
     arcade.shown(Challenge)
+    assert fight.inner.runner.brain
     assert fight.inner.runner.brain.seats == [ROBOT]
     fight.inner.stop_requested = True
     arcade.frame()
@@ -137,16 +137,18 @@ def test_the_network_is_chosen_learns_is_measured_played_against_saved_and_opene
 
 
 @needs_numba
-def test_turning_a_knob_reaches_the_process_and_a_mouse_goes_back_to_the_table(arcade: Arcade) -> None:
-    trainer = learn(arcade)
-    here = lab(arcade)
+def test_a_training_is_steered_paused_compared_killed_and_left(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A knob, the mouse on the switch, the table of robots, a process that starts again where it was, and an end."""
+    monkeypatch.setattr("pigaming_app.scenes.lab.pages.compare_page.MINUTES", 0.02)
+    monkeypatch.setattr("pigaming_app.scenes.lab.pages.compare_page.SLICE", 0.2)
+    trainer, here = learn(arcade), lab(arcade)
     here.focus.move_to("still")
-    arcade.press(Button.FIRE)
-    arcade.press(Button.LEFT)
+    arcade.press(Button.FIRE, Button.LEFT)
     assert trainer.recipe.still == -1.0
     arcade.frame()
     assert trainer._sent[0].recipe.still == -1.0
     arcade.press(Button.BACK)
+
     experiences = here.table.training.experiences
     box = kind_rect(arcade.context.words)
     arcade.click(box.left + 20, box.centery)
@@ -160,12 +162,6 @@ def test_turning_a_knob_reaches_the_process_and_a_mouse_goes_back_to_the_table(a
     assert here.kind == NETWORK
     learn(arcade, updates + 2)
 
-
-@needs_numba
-def test_checkpoints_of_a_network_play_in_the_table_of_robots(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pigaming_app.scenes.lab.pages.compare_page.MINUTES", 0.02)
-    monkeypatch.setattr("pigaming_app.scenes.lab.pages.compare_page.SLICE", 0.2)
-    trainer = learn(arcade)
     wait(arcade, lambda: trainer.snapshot.matches >= 1)
     arcade.press(Button.START)
     arcade.shown(LabMenu).focus.move_to("compare")
@@ -174,19 +170,23 @@ def test_checkpoints_of_a_network_play_in_the_table_of_robots(arcade: Arcade, mo
     assert [player.own for player in table.players] == [True, True, False]
     arcade.until(lambda: not table.pairs, 600.0)
     assert {player.won + player.tied + player.lost for player in table.players} == {4}
+    arcade.press(Button.BACK)
 
-
-@needs_numba
-def test_a_process_that_is_killed_starts_again_where_it_was_and_the_page_shows_one_sentence(arcade: Arcade) -> None:
-    trainer = learn(arcade)
     number, updates = pid_of(trainer), trainer.trained("").updates
     os.kill(number, signal.SIGKILL)
     wait(arcade, lambda: pid_of(trainer) != number)
-    here = lab(arcade)
+    assert lab(arcade) is here
     assert (here.wrong, here.message) == (True, arcade.context.words("lab.interrupted"))
     assert trainer.trained("").updates >= updates
     learn(arcade, updates + 2)
     assert here.kind == NETWORK
+
+    number = pid_of(trainer)
+    arcade.context.idle = Lab.idle + 1.0
+    arcade.frame()
+    assert arcade.stack.top is arcade.title
+    assert not runs(number)
+    assert (here.kind, trainer.trained("").updates, trainer.progress.measures) == (TABLE, 0, [])
 
 
 @needs_numba
@@ -213,8 +213,7 @@ def test_without_numba_the_switch_fetches_it_and_tells_what_to_do(
     monkeypatch.setattr("pigaming_app.scenes.lab.network.trainer.can_compile", lambda: False)
     arcade = Arcade(controls, "pt")
     arcade.context.shared(LabBackground).network_fetch = fetching("print('offline')")
-    here = Lab(arcade.context, fast=False)
-    arcade.open(here)
+    here = arcade.open(Lab(arcade.context, fast=False))
     arcade.wait(0.5)
     switch(arcade)
     assert here.kind == TABLE
@@ -232,20 +231,18 @@ def fetching(program: str) -> ExtraFetch:
 
 
 def test_after_a_failure_another_try_fetches_it_and_the_network_half_opens(
-    controls: Controls, home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    arcade: Arcade, home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It is fetched in the background, once: the page may be left, and found again."""
     there, online = tmp_path / "there", tmp_path / "online"
     monkeypatch.setattr("pigaming_app.scenes.lab.network.trainer.can_compile", there.exists)
-    arcade = Arcade(controls)
     program = (
         f"import pathlib, time\nif not pathlib.Path({str(online)!r}).exists(): print('full'); raise SystemExit\n"
         f"print('0.250', flush=True)\nwhile pathlib.Path({str(online)!r}).read_text() != 'go': time.sleep(0.01)\n"
         f"pathlib.Path({str(there)!r}).touch(); print('done')"
     )
     fetch = arcade.context.shared(LabBackground).network_fetch = fetching(program)
-    here = Lab(arcade.context, fast=False)
-    arcade.open(here)
+    here = arcade.open(Lab(arcade.context, fast=False))
     arcade.wait(0.5)
     switch(arcade)
     page = arcade.shown(FetchPage)
@@ -290,17 +287,6 @@ def test_in_another_language_the_switch_has_another_width(arcade: Arcade) -> Non
     here.on_enter()
     lab(arcade)
     assert here.focus.rect("kind") == kind_rect(arcade.context.words) != before
-
-
-@needs_numba
-def test_when_nobody_is_there_the_process_ends_and_the_next_visitors_begin_with_a_table(arcade: Arcade) -> None:
-    trainer = learn(arcade)
-    number, here = pid_of(trainer), lab(arcade)
-    arcade.context.idle = Lab.idle + 1.0
-    arcade.frame()
-    assert arcade.stack.top is arcade.title
-    assert not runs(number)
-    assert (here.kind, trainer.trained("").updates, trainer.progress.measures) == (TABLE, 0, [])
 
 
 CRASHING = f"""

@@ -12,10 +12,8 @@ from pigaming_app.scenes.lab.pages.menu import LabMenu, RobotNamePage
 from pigaming_app.scenes.lab.pages.open_page import COLUMNS, ROWS, OpenPage
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.sim.record import digest
-from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button
 from tests import tags
-from tests.cases import one_in
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -127,16 +125,14 @@ def test_a_mouse_spells_too(arcade: Arcade) -> None:
 
 @pytest.mark.parametrize(
     ("number", "key"),
-    one_in(2, [(errno.ENOSPC, "lab.disk_full"), (errno.EACCES, "lab.no_writing"), (errno.EIO, "lab.no_writing")]),
+    [(errno.ENOSPC, "lab.disk_full"), (errno.EACCES, "lab.no_writing"), (errno.EIO, "lab.no_writing")],
 )
-@pytest.mark.parametrize("language", LANGUAGES)
 def test_a_full_disk_is_one_sentence_and_the_training_goes_on(
-    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, number: int, key: str, language: str
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, number: int, key: str
 ) -> None:
     def fail(*_: object) -> None:
         raise OSError(number, "no")
 
-    arcade.context.words.switch(language)
     monkeypatch.setattr("pigaming_app.scenes.lab.saved_robots.save_table", fail)
     experiences = lab(arcade).table.training.experiences
     save(arcade, "ROBI")
@@ -166,9 +162,7 @@ def test_a_damaged_file_is_one_sentence_and_the_robot_of_the_moment_stays(arcade
     assert here.table.training is before
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_a_robot_of_another_engine_is_opened_and_that_is_said(arcade: Arcade, language: str) -> None:
-    arcade.context.words.switch(language)
+def test_a_robot_of_another_engine_is_opened_and_that_is_said(arcade: Arcade) -> None:
     trained = decode((tags.FOLDER / "2.0.0" / "ROBI.npz").read_bytes(), "")
     robots.folder().mkdir(parents=True)
     robots.file_of("ROBI").write_bytes(encode(replace(trained, engine="another")))

@@ -19,7 +19,6 @@ from pigaming_app.scenes.ladder.summit import Summit
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.initials import Initials
-from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.events import Button, Device
@@ -42,21 +41,16 @@ def begin(arcade: Arcade, device: Device = KEYS[0]) -> MatchScene:
     """From the ladder into the match."""
     arcade.shown(LadderPage)
     arcade.wait(LadderPage.lockout + 0.1)
-    arcade.press(Button.FIRE, device)
+    arcade.press(Button.FIRE, device=device)
     return arcade.shown(MatchScene)
 
 
 def play(arcade: Arcade, own: int, other: int, device: Device = KEYS[0]) -> None:
     """A match of PiTanks with this score, and the winner's moment."""
-    scene = begin(arcade, device)
-    scene.opening.countdown.seconds_left = 0.05
-    arcade.until(lambda: not scene.opening.countdown.locked)
-    state = scene.match.state
-    state.robots[0].score, state.robots[1].score = own, other
-    state.rules.ticks = state.tick + 1
-    arcade.until(lambda: isinstance(arcade.stack.top, WinnersMoment))
+    begin(arcade, device)
+    arcade.finish(own, other)
     arcade.wait(1.2)
-    arcade.press(Button.FIRE, device)
+    arcade.press(Button.FIRE, device=device)
 
 
 def play_unseen(arcade: Arcade, own: int, other: int) -> None:
@@ -89,8 +83,7 @@ def test_a_climb_from_the_first_rung_to_the_letters_and_the_table(arcade: Arcade
     arcade.press(Button.FIRE)
     arcade.shown(Initials)
     arcade.wait(0.6)
-    for button in (Button.DOWN, Button.START):
-        arcade.press(button)
+    arcade.press(Button.DOWN, Button.START)
     table = arcade.shown(Climbers)
     assert [(row.initials, row.score) for row in table.fresh] == [("BAA", worth(Climb("pitanks", beaten=5, lost=2)))]
     assert saved() == [], "it has ended"
@@ -141,9 +134,7 @@ def test_a_match_ended_by_hand_is_lost_and_cannot_be_restarted(arcade: Arcade) -
     arcade.wait(1.0)
     arcade.press(Button.START)
     assert "restart" not in [spot.name for spot in arcade.shown(Pause).focus.spots]
-    arcade.press(Button.UP)
-    for _ in range(2):
-        arcade.press(Button.FIRE)
+    arcade.press(Button.UP, Button.FIRE, Button.FIRE)
     arcade.until(lambda: isinstance(arcade.stack.top, LadderPage))
     assert (page(arcade).said, page(arcade).climb.lost) == ("ended", 1)
 
@@ -170,7 +161,7 @@ def test_only_the_climber_acts_until_the_pad_is_pulled(arcade: Arcade) -> None:
     mine = page(arcade).climber.device
     assert mine.kind == "pad"
     arcade.wait(LadderPage.lockout + 0.1)
-    arcade.press(Button.FIRE, KEYS[1])
+    arcade.press(Button.FIRE, device=KEYS[1])
     arcade.shown(LadderPage)
     pad.unplug()
     arcade.wait(0.1)
@@ -187,8 +178,7 @@ def test_a_climb_that_was_left_goes_on_and_one_that_ends_without_stars_is_gone(a
     assert page(arcade).climb == Climb("pitanks", wins=1)
     assert [spot.name for spot in page(arcade).focus.spots] == ["play", "anew", "stop"]
     arcade.wait(LadderPage.lockout + 0.1)
-    arcade.press(Button.UP)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.UP, Button.FIRE)
     assert arcade.shown(LadderChoice).saved.keys() == {"race"}
     arcade.context.idle = 61.0
     arcade.frame()

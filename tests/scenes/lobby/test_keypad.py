@@ -32,7 +32,7 @@ def seen(monkeypatch: pytest.MonkeyPatch, scene: Scene) -> tuple[str, set[str]]:
     drawn: set[str] = set()
     with monkeypatch.context() as patch:
         for name, draw in icons.ICONS.items():
-            patch.setitem(icons.ICONS, name, lambda pen, name=name, draw=draw: drawn.add(name) or draw(pen))
+            patch.setitem(icons.ICONS, name, lambda pen, name=name, draw=draw: drawn.add(name) or draw(pen))  # type: ignore[func-returns-value, misc]
         with measuring(patch) as screen:
             scene.draw(screen)
             return " ".join(mark.text for mark in screen.texts), drawn
@@ -40,9 +40,8 @@ def seen(monkeypatch: pytest.MonkeyPatch, scene: Scene) -> tuple[str, set[str]]:
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_it_is_a_picture_and_words_wherever_it_is_shown(
-    controls: Controls, monkeypatch: pytest.MonkeyPatch, language: str
+    arcade: Arcade, controls: Controls, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    arcade = Arcade(controls, language)
     words = arcade.context.words("devices.Keypad")
     controls.presses([key(KP5), key(KP5, down=False)])
     assert controls.last == KEYS[3]
@@ -60,9 +59,8 @@ def test_it_is_a_picture_and_words_wherever_it_is_shown(
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_where_none_was_ever_pressed_pads_and_phones_are_offered_instead(
-    controls: Controls, monkeypatch: pytest.MonkeyPatch, language: str
+    arcade: Arcade, controls: Controls, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    arcade = Arcade(controls, language)
     lobby = Lobby(arcade.context, "pitanks")
     words = arcade.context.words
     texts, signs = seen(monkeypatch, lobby)
@@ -77,9 +75,8 @@ def test_where_none_was_ever_pressed_pads_and_phones_are_offered_instead(
 
 
 def test_the_seats_that_no_free_device_can_take_are_offered_to_pads_and_phones(
-    controls: Controls, monkeypatch: pytest.MonkeyPatch
+    arcade: Arcade, controls: Controls, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    arcade = Arcade(controls)
     lobby = Lobby(arcade.context, "pitanks")
     for device in KEYS[:3]:
         lobby.handle(InputEvent(Button.FIRE, device))

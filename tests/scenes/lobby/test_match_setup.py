@@ -48,8 +48,7 @@ def test_every_arena_comes_by_and_the_first_again(arcade: Arcade) -> None:
 
 def test_the_selection_is_played_and_remembered_if_choices_are_kept(arcade: Arcade, home: Path) -> None:
     arcade.context.settings.keep_choices = True
-    for button in (Button.RIGHT, Button.DOWN, Button.RIGHT, Button.DOWN, Button.DOWN, Button.RIGHT):
-        arcade.press(button)
+    arcade.press(Button.RIGHT, Button.DOWN, Button.RIGHT, Button.DOWN, Button.DOWN, Button.RIGHT)
     arena, minutes, variant = page(arcade).chosen.arena, page(arcade).chosen.minutes, page(arcade).chosen.variant
     assert (minutes, variant) == (3, list(games()["pitanks"].variants)[1])
     arcade.press(Button.FIRE)
@@ -70,8 +69,7 @@ def test_minutes_end_at_the_last_and_the_first(arcade: Arcade) -> None:
         (Button.RIGHT, max(games()["pitanks"].default.minutes)),
         (Button.LEFT, min(games()["pitanks"].default.minutes)),
     ):
-        for _ in range(6):
-            arcade.press(button)
+        arcade.press(*[button] * 6)
         assert page(arcade).chosen.minutes == last
 
 
@@ -185,8 +183,7 @@ def test_best_of_three_is_offered_where_the_game_has_rounds(arcade: Arcade) -> N
 def test_best_of_three_plays_rounds_of_one_minute_and_is_remembered(arcade: Arcade) -> None:
     here = page(arcade)
     here.focus.move_to("rounds")
-    arcade.press(Button.RIGHT)
-    arcade.press(Button.UP)
+    arcade.press(Button.RIGHT, Button.UP)
     assert here.focus.name == "minutes"
     minutes = here.chosen.minutes
     arcade.press(Button.RIGHT)
@@ -214,17 +211,6 @@ def test_a_click_chooses_the_rounds(arcade: Arcade) -> None:
     assert here.chosen.rounds == 1
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("game", list(games()))
-def test_the_sentence_of_every_rule_set_fits_its_row(arcade: Arcade, game: str, language: str) -> None:
-    words = Words(language)
-    for variant in games()[game].variants.values():
-        sizes = row_sizes(games()[game], variant)
-        sentence = words(f"rules.{game}_{variant.name}")
-        _, lines = fit_lines(sentence, W - 2 * PAD, 2, range(sizes.small, SMALLEST, -2))
-        assert len(lines) <= 2, sentence
-
-
 def test_other_rules_bring_their_own_length_and_the_same_length_stays() -> None:
     for game, before, after in (
         ("race", (10, 4), (10, 5)),
@@ -235,3 +221,12 @@ def test_other_rules_bring_their_own_length_and_the_same_length_stays() -> None:
         choice = Choice(minutes=before[0], variant=next(iter(rules.variants)), goal=before[1])
         change_rules(rules, choice, "party")
         assert (choice.variant, choice.minutes, choice.goal) == ("party", *after)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("game", list(games()))
+def test_the_sentence_of_every_rule_set_fits_its_row(game: str, language: str) -> None:
+    for variant in games()[game].variants.values():
+        sentence = Words(language)(f"rules.{game}_{variant.name}")
+        sizes = range(row_sizes(games()[game], variant).small, SMALLEST, -2)
+        assert len(fit_lines(sentence, W - 2 * PAD, 2, sizes)[1]) <= 2, sentence

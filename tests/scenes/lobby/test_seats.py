@@ -1,5 +1,7 @@
 """Seat rules of the lobby, without the scene."""
 
+from typing import Any
+
 import pytest
 
 from pigaming_app.ai.game_ai import LEVELS
@@ -10,6 +12,14 @@ from pigaming_app.ui.input.events import Device
 ANA, BEN, CARLA, DAVID, EVA = (Device("pad", number) for number in range(5))
 
 
+def seated(*devices: Device, **rules: Any) -> LobbySeats:
+    """Seats that these devices have joined."""
+    seats = LobbySeats(**rules)
+    for device in devices:
+        seats.join(device)
+    return seats
+
+
 def test_the_first_to_join_is_player_1() -> None:
     seats = LobbySeats()
     assert [seats.join(device) for device in (BEN, ANA)] == [0, 1]
@@ -18,16 +28,13 @@ def test_the_first_to_join_is_player_1() -> None:
 
 
 def test_a_seat_that_was_left_is_the_next_to_be_taken() -> None:
-    seats = LobbySeats()
-    for device in (ANA, BEN, CARLA):
-        seats.join(device)
+    seats = seated(ANA, BEN, CARLA)
     seats.leave(1)
     assert seats.join(DAVID) == 1
 
 
 def test_an_ai_makes_room_for_a_person_and_four_people_for_nobody() -> None:
-    seats = LobbySeats()
-    seats.join(ANA)
+    seats = seated(ANA)
     assert [seats.add_ai() for _ in range(4)] == [1, 2, 3, None]
     assert seats.join(BEN) == 3
     assert seats.join(CARLA) == 2
@@ -38,8 +45,7 @@ def test_an_ai_makes_room_for_a_person_and_four_people_for_nobody() -> None:
 
 @pytest.mark.parametrize("teams", [False, True])
 def test_one_person_alone_gets_ais_on_all_seats_in_even_teams(teams: bool) -> None:
-    seats = LobbySeats(teams=teams)
-    seats.join(ANA)
+    seats = seated(ANA, teams=teams)
     assert seats.add_opponents() == [1, 2, 3]
     assert [place.team for place in seats.places].count(0) == 2
     assert seats.add_opponents() == []
@@ -47,8 +53,7 @@ def test_one_person_alone_gets_ais_on_all_seats_in_even_teams(teams: bool) -> No
 
 
 def test_two_people_play_alone_unless_they_ask_for_ais() -> None:
-    seats = LobbySeats()
-    seats.join(ANA)
+    seats = seated(ANA)
     seats.add_opponents()
     assert seats.join(BEN) == 1
     assert seats.of_kind(AI) == [], "nobody has asked for them"
@@ -59,8 +64,7 @@ def test_two_people_play_alone_unless_they_ask_for_ais() -> None:
 
 
 def test_ais_that_nobody_asked_for_leave_with_the_last_person() -> None:
-    seats = LobbySeats()
-    seats.join(ANA)
+    seats = seated(ANA)
     seats.add_opponents()
     seats.leave(0)
     assert seats.robots == 0
@@ -71,8 +75,7 @@ def test_ais_that_nobody_asked_for_leave_with_the_last_person() -> None:
 
 
 def test_a_person_alone_keeps_one_opponent_when_the_others_go() -> None:
-    seats = LobbySeats(team_mode=PAIRS)
-    seats.join(ANA)
+    seats = seated(ANA, team_mode=PAIRS)
     seats.change_team(0)
     seats.add_opponents()
     assert seats.remove_ais() == 1
@@ -81,8 +84,7 @@ def test_a_person_alone_keeps_one_opponent_when_the_others_go() -> None:
 
 
 def test_the_rows_of_a_card_are_those_that_can_be_changed() -> None:
-    seats = LobbySeats(teams=True, mat=True)
-    seats.join(ANA)
+    seats = seated(ANA, teams=True, mat=True)
     assert seats.rows(0) == [REAL, TEAM, DRIVE]
     assert seats.row(0) == TEAM
     seats.add_ai()
@@ -97,9 +99,7 @@ def test_the_rows_of_a_card_are_those_that_can_be_changed() -> None:
 
 
 def test_a_new_player_joins_the_smaller_team() -> None:
-    seats = LobbySeats(teams=True)
-    for device in (ANA, BEN, CARLA):
-        seats.join(device)
+    seats = seated(ANA, BEN, CARLA, teams=True)
     seats.places[1].team = 0
     assert [place.team for place in seats.places[:3]] == [0, 0, 0]
     assert seats.one_team
@@ -131,9 +131,7 @@ def test_one_ai_goes_round_and_leaves_the_others_as_they_are() -> None:
 
 
 def test_sending_the_ais_away_leaves_the_people() -> None:
-    seats = LobbySeats()
-    for device in (ANA, BEN):
-        seats.join(device)
+    seats = seated(ANA, BEN)
     seats.add_ai()
     assert seats.remove_ais() is None
     assert (seats.of_kind(HUMAN), seats.of_kind(AI), seats.of_kind(EMPTY)) == ([0, 1], [], [2, 3])
@@ -156,16 +154,13 @@ def test_in_a_game_of_pairs_people_come_to_both_sides_and_nobody_is_alone() -> N
 
 
 def test_one_person_alone_gets_a_mate_and_two_rivals() -> None:
-    seats = LobbySeats(team_mode=PAIRS)
-    seats.join(ANA)
+    seats = seated(ANA, team_mode=PAIRS)
     assert seats.add_opponents() == [1, 2, 3]
     assert sorted(team_of(seats)) == [0, 0, 1, 1]
 
 
 def test_a_side_never_holds_three_robots_and_the_ai_changes_sides() -> None:
-    seats = LobbySeats(team_mode=PAIRS)
-    for device in (ANA, BEN):
-        seats.join(device)
+    seats = seated(ANA, BEN, team_mode=PAIRS)
     seats.add_ai()
     seats.add_ai()
     assert team_of(seats) == [0, 1, 0, 1]
@@ -174,8 +169,7 @@ def test_a_side_never_holds_three_robots_and_the_ai_changes_sides() -> None:
 
 
 def test_in_a_race_everyone_drives_alone_against_three() -> None:
-    seats = LobbySeats(team_mode=ALONE, teams=True)
-    seats.join(ANA)
+    seats = seated(ANA, team_mode=ALONE, teams=True)
     assert seats.add_opponents() == [1, 2, 3]
     assert [seat.team for seat in seats.seats()] == [0, 1, 2, 3]
     assert not seats.one_team
@@ -192,25 +186,16 @@ def test_a_game_with_more_rivals_offers_them_after_the_strongest() -> None:
 
 
 def test_among_allies_all_are_in_one_team_and_a_person_alone_gets_mates() -> None:
-    seats = LobbySeats(team_mode=ALLIES)
-    seats.join(ANA)
+    seats = seated(ANA, team_mode=ALLIES)
     assert not seats.one_team, "no opponents are missing"
     assert seats.add_opponents() == [1, 2, 3]
     assert [seat.team for seat in seats.seats()] == [0, 0, 0, 0]
     assert not seats.teams
-
-
-def test_two_allies_need_nobody_else() -> None:
-    seats = LobbySeats(team_mode=ALLIES)
-    seats.join(ANA)
-    seats.join(BEN)
-    assert not seats.add_opponents()
+    assert not seated(ANA, BEN, team_mode=ALLIES).add_opponents(), "two allies need nobody else"
 
 
 def test_with_the_rule_set_the_seats_change_from_pairs_to_allies_and_back() -> None:
-    seats = LobbySeats(team_mode=PAIRS)
-    for device in (ANA, BEN):
-        seats.join(device)
+    seats = seated(ANA, BEN, team_mode=PAIRS)
     seats.change_mode(ALLIES)
     assert [seat.team for seat in seats.seats()[:2]] == [0, 0]
     assert seats.robots == 2, "allies need no opponents"
@@ -219,8 +204,7 @@ def test_with_the_rule_set_the_seats_change_from_pairs_to_allies_and_back() -> N
 
 
 def test_allies_who_become_pairs_are_two_on_each_side() -> None:
-    seats = LobbySeats(team_mode=ALLIES)
-    seats.join(ANA)
+    seats = seated(ANA, team_mode=ALLIES)
     seats.add_opponents()
     for place in seats.places:
         place.team = 0
@@ -230,16 +214,14 @@ def test_allies_who_become_pairs_are_two_on_each_side() -> None:
 
 
 def test_one_ally_alone_gets_opponents_with_another_rule_set() -> None:
-    seats = LobbySeats(team_mode=ALLIES)
-    seats.join(ANA)
+    seats = seated(ANA, team_mode=ALLIES)
     seats.change_mode(PAIRS)
     assert seats.robots == 4
     assert sorted(team_of(seats)) == [0, 0, 1, 1]
 
 
 def test_the_same_team_mode_changes_nothing() -> None:
-    seats = LobbySeats(team_mode=FREE, teams=True)
-    seats.join(ANA)
+    seats = seated(ANA, team_mode=FREE, teams=True)
     seats.change_mode(FREE)
     assert seats.teams
     assert seats.robots == 1

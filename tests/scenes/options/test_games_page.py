@@ -14,18 +14,15 @@ from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.plugins import consent
 from pigaming_app.storage.plugins.consent import is_on, switch
 from pigaming_app.storage.plugins.found import Plugin, found, user_folder
-from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets import setting_row
 from pigaming_app.ui.widgets.button_prompts import places
-from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
 
 @pytest.fixture(autouse=True)
 def _prepared(arcade: Arcade) -> None:
-    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     write(user_folder() / "tag", "tag")
 
 
@@ -47,13 +44,10 @@ def opened(arcade: Arcade) -> GamesPage:
     return page
 
 
-def test_the_options_lead_to_it_and_in_a_kiosk_the_operators_alone(arcade: Arcade) -> None:
+def test_the_options_lead_to_it(arcade: Arcade) -> None:
     arcade.open(OptionsPage(arcade.context, section="games"))
     arcade.press(Button.FIRE)
     arcade.shown(GamesPage)
-    arcade.context.kiosk = True
-    assert "games" not in OptionsPage(arcade.context).rows
-    assert "games" in OptionsPage(arcade.context, operator=True).rows
 
 
 @pytest.mark.parametrize("device", ["keys", "pad", "mouse"])
@@ -148,7 +142,7 @@ def test_many_are_on_pages_that_go_round(arcade: Arcade, monkeypatch: pytest.Mon
         seen += [plugin.name for plugin in page.plugins.values()]
         while page.focus.name != "more":
             arcade.press(Button.DOWN)
-        arcade.press(Button.FIRE, Device("keys", 0))
+        arcade.press(Button.FIRE, device=Device("keys", 0))
     assert seen == [plugin.name for plugin in many]
     assert arcade.shown(GamesPage).first == 0
 
@@ -165,8 +159,7 @@ def test_one_that_failed_is_shown_with_its_reason(arcade: Arcade) -> None:
     write(user_folder() / "football", "football")
     twin = next(plugin for plugin in found() if plugin.fault)
     assert why(twin) == f"there is one in {found()[0].folder} already"
-    page = GamesPage(arcade.context)
-    arcade.open(page)
+    page = arcade.open(GamesPage(arcade.context))
     while page.plugins[page.focus.name] != twin:
         arcade.press(Button.DOWN)
     assert page.line(page.focus.name) == arcade.context.words("plugins.failed_line")

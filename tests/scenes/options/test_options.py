@@ -2,6 +2,7 @@
 
 import tomllib
 from datetime import datetime
+from itertools import chain
 from pathlib import Path
 
 import pygame
@@ -9,6 +10,7 @@ import pytest
 
 from pigaming_app.scenes.controls.controls_test import ControlsTest
 from pigaming_app.scenes.controls.remap_page import RemapPage
+from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.options.page import SECTIONS, OptionsPage, options_of
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores, ScoreTable
@@ -17,7 +19,6 @@ from pigaming_app.ui.draw import BODY, readable
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -27,7 +28,6 @@ TABLE = ScoreTable("pitanks", "classic", "points", rules="plain", length=2, peop
 
 @pytest.fixture(autouse=True)
 def _prepared(arcade: Arcade) -> None:
-    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     arcade.stack.scenes[1:] = []
     arcade.open(OptionsPage(arcade.context))
 
@@ -59,11 +59,9 @@ def test_the_language_changes_immediately(arcade: Arcade, home: Path) -> None:
 
 def test_volumes_go_from_0_to_10_and_no_further(arcade: Arcade, home: Path) -> None:
     go(arcade, "music")
-    for _ in range(12):
-        arcade.press(Button.LEFT)
+    arcade.press(*[Button.LEFT] * 12)
     assert arcade.context.settings.music == 0
-    for _ in range(12):
-        arcade.press(Button.RIGHT)
+    arcade.press(*[Button.RIGHT] * 12)
     assert kept(home)["music"] == 10
 
 
@@ -92,8 +90,7 @@ def test_a_mouse_sets_a_volume_and_a_switch_where_it_clicks(arcade: Arcade) -> N
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_all_toggles_end_within_their_row(arcade: Arcade, language: str) -> None:
-    arcade.context.words.switch(language)
+def test_all_toggles_end_within_their_row(arcade: Arcade) -> None:
     arcade.context.kiosk = True
     for page in (OptionsPage(arcade.context, operator=True, section=section) for section in ("", *SECTIONS)):
         for value in map(page.value, page.rows):
@@ -189,11 +186,8 @@ def test_a_failed_save_is_reported_and_the_change_still_applies(
 def rows_of(arcade: Arcade, operator: bool) -> set[str]:
     """All rows of the options and of the sections that they lead to."""
     main = OptionsPage(arcade.context, operator).rows
-    return {*main, *(row for name in main for row in rows_of_section(arcade, operator, name))}
-
-
-def rows_of_section(arcade: Arcade, operator: bool, name: str) -> tuple[str, ...]:
-    return OptionsPage(arcade.context, operator, name).rows if name in SECTIONS else ()
+    sections = [OptionsPage(arcade.context, operator, name).rows for name in main if name in SECTIONS]
+    return {*main, *chain(*sections)}
 
 
 def test_children_in_a_kiosk_find_neither_volume_nor_display_nor_the_way_out(arcade: Arcade) -> None:
@@ -207,12 +201,13 @@ def test_children_in_a_kiosk_find_neither_volume_nor_display_nor_the_way_out(arc
     assert arcade.stack.scenes == []
 
 
-def test_the_test_of_the_controls_is_one_press_away(arcade: Arcade) -> None:
-    go(arcade, "padtest")
+@pytest.mark.parametrize(("row", "page"), [("padtest", ControlsTest), ("remap", RemapPage)])
+def test_pages_of_the_controls_are_one_press_away(arcade: Arcade, row: str, page: type[Scene]) -> None:
+    go(arcade, row)
     arcade.press(Button.FIRE)
-    arcade.shown(ControlsTest)
+    arcade.shown(page)
     arcade.press(Button.BACK)
-    assert arcade.shown(OptionsPage).focus.name == "padtest"
+    assert arcade.shown(OptionsPage).focus.name == row
 
 
 def test_rumbling_can_be_switched_off_and_on_again_with_a_sample(arcade: Arcade, home: Path) -> None:
@@ -242,15 +237,3 @@ def test_what_makes_it_easier_has_a_page_of_its_own(arcade: Arcade, home: Path) 
     assert (kept(home)["calm"], kept(home)["large_text"]) == (True, True)
     arcade.press(Button.LEFT)
     assert readable(BODY) == BODY
-
-
-@pytest.mark.parametrize("operator", [False, True])
-def test_in_a_kiosk_only_the_operator_changes_the_controls(arcade: Arcade, operator: bool) -> None:
-    arcade.context.kiosk = True
-    arcade.open(OptionsPage(arcade.context, operator))
-    if not operator:
-        assert "remap" not in rows_of(arcade, operator)
-        return
-    go(arcade, "remap")
-    arcade.press(Button.FIRE)
-    arcade.shown(RemapPage)

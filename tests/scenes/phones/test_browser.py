@@ -14,7 +14,6 @@ from typing import Any, TypeVar
 
 import pytest
 
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import JoinByPhone
@@ -26,6 +25,7 @@ from pigaming_app.sim.world import HZ
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Device, StickState
 from pigaming_app.ui.input.phones import connection
+from tests.matches import setup_of
 from tests.scenes.arcade import Arcade
 from tests.scenes.phones.browser import LONG, PORTRAIT, Browser, Page, browsing, chromium, running_browser
 
@@ -159,13 +159,11 @@ async def steer(page: Page, x: float, y: float) -> None:
 def test_four_pages_play_a_whole_match(day: OpenDay) -> None:
     arcade = day.arcade
     controls = arcade.context.controls
-    lobby = Lobby(arcade.context, "pitanks")
-    arcade.open(lobby)
+    lobby = arcade.open(Lobby(arcade.context, "pitanks"))
     matches: list[MatchScene] = []
 
     def begin() -> MatchScene:
-        one, two, three, four = (Seat("human", seat) for seat in range(4))
-        setup = Setup("pitanks", "classic", (one, two, three, four), LONGEST / 60, 5, "plain")
+        setup = setup_of("pitanks", ["human"] * 4, "classic", LONGEST / 60, 5, "plain")
         matches.append(MatchScene(arcade.context, setup, lobby.seats.devices()))
         arcade.open(matches[0])
         return matches[0]
@@ -201,10 +199,10 @@ def test_four_pages_play_a_whole_match(day: OpenDay) -> None:
             await page.touch(1, *await page.middle("turbo"))
             await day.drives(device, lambda state: state.turbo and not state.fire)
         for robot, start in zip(robots, starts, strict=True):
-            await day.until(lambda r=robot, s=start: (r.x, r.y, r.heading) != s, "movement")
+            await day.until(lambda r=robot, s=start: (r.x, r.y, r.heading) != s, "movement")  # type: ignore[misc]
         await pages[2].value(WATCH_FLASH)
         for target in (0, 2):  # feel a hit, with and without vibration
-            await day.between_frames(lambda hit=devices[target]: controls.rumble(hit, 0.9, 0.6, 0.28))
+            await day.between_frames(lambda hit=devices[target]: controls.rumble(hit, 0.9, 0.6, 0.28))  # type: ignore[misc]
         await pages[0].until("window.shaken.includes(280)")
         await pages[2].until("window.flashed")
         can_fill = [await page.value("document.getElementById('full').offsetWidth > 0") for page in pages]

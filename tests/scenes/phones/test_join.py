@@ -7,10 +7,8 @@ from pathlib import Path
 import pygame
 import pytest
 
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import CODE_SECONDS, Lobby
-from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import JoinByPhone
 from pigaming_app.scenes.phones.link import TALLY_SECONDS, PhoneLink
@@ -24,6 +22,7 @@ from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.input.phone_messages import BITS, SeatView, Touches
 from pigaming_app.ui.input.phone_pads import Phones
+from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade
 
 MOUSE = Device("mouse")
@@ -51,8 +50,7 @@ def tap(arcade: Arcade, device: Device, button: Button) -> None:
 
 
 def lobby_of(arcade: Arcade) -> Lobby:
-    lobby = Lobby(arcade.context, "pitanks")
-    arcade.open(lobby)
+    lobby = arcade.open(Lobby(arcade.context, "pitanks"))
     return lobby
 
 
@@ -109,7 +107,7 @@ def test_a_click_on_the_small_code_shows_the_large_one(open_to_phones: Arcade) -
     open_to_phones.frame()
     open_to_phones.press(Button.BACK)
     lobby.draw(open_to_phones.screen)
-    open_to_phones.press(Button.POINT, MOUSE)
+    open_to_phones.press(Button.POINT, device=MOUSE)
     open_to_phones.click(*next(spot.rect.center for spot in lobby.focus.spots if spot.name.startswith("code")))
     open_to_phones.shown(JoinByPhone)
     open_to_phones.click(960, 540)
@@ -147,10 +145,8 @@ def test_a_locked_phone_frees_its_seat_in_the_lobby(open_to_phones: Arcade) -> N
 
 
 def match_with(arcade: Arcade, *devices: Device | None) -> MatchScene:
-    brains = ["human" if device else "idle" for device in devices] + ["off"] * (4 - len(devices))
-    one, two, three, four = (Seat(brain, seat) for seat, brain in enumerate(brains))
-    match = MatchScene(arcade.context, Setup("pitanks", "classic", (one, two, three, four), 2, 1, "plain"), devices)
-    arcade.open(match)
+    setup = setup_of("pitanks", ["human" if device else "idle" for device in devices], "classic", 2, variant="plain")
+    match = arcade.open(MatchScene(arcade.context, setup, devices))
     while match.opening.countdown.locked:
         arcade.frame()
     return match
@@ -327,15 +323,8 @@ def test_the_link_follows_the_settings(arcade: Arcade) -> None:
     assert host.server is None
 
 
-def test_only_the_operator_switches_phones_in_a_kiosk(arcade: Arcade) -> None:
-    arcade.context.kiosk = True
-    assert "phones" not in OptionsPage(arcade.context, section="controls").rows
-    assert "phones" in OptionsPage(arcade.context, operator=True, section="controls").rows
-
-
 def test_the_operators_page_changes_and_keeps_the_settings(arcade: Arcade, home: Path) -> None:
-    page = PhonesPage(arcade.context)
-    arcade.open(page)
+    page = arcade.open(PhonesPage(arcade.context))
     page.draw(arcade.screen)
     arcade.press(Button.RIGHT)
     assert arcade.context.settings.phones
@@ -343,14 +332,11 @@ def test_the_operators_page_changes_and_keeps_the_settings(arcade: Arcade, home:
     arcade.press(Button.FIRE)
     assert not arcade.context.settings.phones
     if page.networks:
-        arcade.press(Button.DOWN)
-        arcade.press(Button.RIGHT)
+        arcade.press(Button.DOWN, Button.RIGHT)
         assert arcade.context.settings.phones_network == page.networks[0].name
         arcade.press(Button.LEFT)
         assert arcade.context.settings.phones_network == ""
-    arcade.press(Button.UP)
-    arcade.press(Button.UP)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.UP, Button.UP, Button.FIRE)
     assert arcade.stack.top is page, "phones are off: there is no code"
     assert page.message
     page.draw(arcade.screen)

@@ -24,8 +24,7 @@ def notes(folder: Path) -> list[PlayedMatch]:
 
 
 def test_a_match_is_noted_as_soon_as_it_is_over(arcade: Arcade, tmp_path: Path) -> None:
-    scene = MatchScene(arcade.context, setup("human level1 level1 off", minutes=0.05), [KEYS[0]])
-    arcade.open(scene)
+    scene = arcade.open(MatchScene(arcade.context, setup("human level1 level1 off", minutes=0.05), [KEYS[0]]))
     arcade.until(lambda: scene.ending.begun)
     (found,) = notes(tmp_path)
     assert (found.game, found.people, found.ais, found.robots, found.complete) == ("pitanks", 1, 2, "simulated", True)
@@ -35,12 +34,10 @@ def test_a_match_is_noted_as_soon_as_it_is_over(arcade: Arcade, tmp_path: Path) 
 
 
 def test_a_match_that_is_left_is_noted_as_such(arcade: Arcade, tmp_path: Path) -> None:
-    scene = MatchScene(arcade.context, setup("level1 level1 off off"))
-    arcade.open(scene)
+    scene = arcade.open(MatchScene(arcade.context, setup("level1 level1 off off")))
     arcade.stack.apply(Home())
     assert notes(tmp_path) == []  # it had not begun
-    scene = MatchScene(arcade.context, setup("level1 level1 off off"))
-    arcade.open(scene)
+    scene = arcade.open(MatchScene(arcade.context, setup("level1 level1 off off")))
     arcade.until(lambda: scene.match.state.tick > 10)
     arcade.stack.apply(Home())
     (found,) = notes(tmp_path)

@@ -104,8 +104,7 @@ def test_any_press_skips_it_after_half_a_second(arcade: Arcade) -> None:
     arcade.frame()
     assert isinstance(arcade.stack.top, MatchScene)
     arcade.until(lambda: again.seconds > 0.6)
-    for button in (Button.POINT, Button.LOST):
-        arcade.press(button)
+    arcade.press(Button.POINT, Button.LOST)
     arcade.frame()
     assert isinstance(arcade.stack.top, MatchScene)
     arcade.press(Button.LEFT)
@@ -121,8 +120,7 @@ def test_without_a_hit_or_by_other_rules_the_results_follow_at_once(arcade: Arca
 
 
 def test_a_stopped_match_shows_nothing_again(arcade: Arcade) -> None:
-    scene = MatchScene(arcade.context, party(1.0))
-    arcade.open(scene)
+    scene = arcade.open(MatchScene(arcade.context, party(1.0)))
     arcade.until(lambda: not scene.opening.countdown.locked)
     strike(scene.match, 0, 1)
     arcade.wait(0.5)

@@ -9,7 +9,6 @@ import pytest
 
 from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer, OneButtonPlayer
 from pigaming_app.ai.game_ai import ONE_BUTTON, TURN
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.play.countdown import CENTRE, clear_of
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.pause import Pause
@@ -20,7 +19,9 @@ from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.ui.input.events import Button, Device
+from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade, setup
+from tests.scenes.measuring import lit_boxes
 from tests.ui.input.virtual_pad import VirtualPad
 
 COUNTDOWN = 3.8  # seconds until GO
@@ -41,16 +42,14 @@ def plug(arcade: Arcade, pads: ExitStack) -> tuple[VirtualPad, Device]:
 def two_pads(arcade: Arcade, pads: ExitStack, minutes: float = 1.0) -> tuple[MatchScene, VirtualPad, VirtualPad]:
     """A match of two pads, running."""
     (one, first), (two, second) = plug(arcade, pads), plug(arcade, pads)
-    match = MatchScene(arcade.context, setup("human human off off", minutes), [first, second])
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup("human human off off", minutes), [first, second]))
     arcade.wait(COUNTDOWN + 0.1)
     return match, one, two
 
 
 def test_nothing_moves_before_go_and_everything_after(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads)
-    match = MatchScene(arcade.context, setup("human level5 off off", 1.0), [device, None, None, None])
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup("human level5 off off", 1.0), [device, None, None, None]))
     pad.stick(0.0, -1.0)
     arcade.wait(COUNTDOWN - 0.1, draw=True)
     assert match.match.state.tick == 0
@@ -75,8 +74,7 @@ def test_a_pad_that_points_drives_where_the_stick_points_also_after_it_was_replu
 ) -> None:
     pad, device = plug(arcade, pads)
     arcade.context.driving.change(device, "pitanks", "plain", 1)
-    match = MatchScene(arcade.context, setup("human level1 off off", 5.0), [device])
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup("human level1 off off", 5.0), [device]))
     assert match.runner.driver(0, device)[1] == "point"
     arcade.wait(COUNTDOWN + 0.1)
     pad.stick(0.0, 1.0)
@@ -97,8 +95,7 @@ def test_a_pad_that_points_drives_where_the_stick_points_also_after_it_was_replu
 
 
 def test_time_is_up_then_the_results(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human level1 level5 off"), [KEYS[0], None, None, None])
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup("human level1 level5 off"), [KEYS[0], None, None, None]))
     arcade.until(lambda: match.match.over)
     assert arcade.sounds.heard.count("tick") == 6
     last = match.match.state.tick
@@ -109,8 +106,7 @@ def test_time_is_up_then_the_results(arcade: Arcade) -> None:
 
 
 def test_a_suspended_machine_causes_no_burst_of_ticks(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("level1 level5 off off", 1.0))
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup("level1 level5 off off", 1.0)))
     arcade.wait(COUNTDOWN + 0.2)
     before = match.match.state.tick
     arcade.frame(60.0)
@@ -119,14 +115,13 @@ def test_a_suspended_machine_causes_no_burst_of_ticks(arcade: Arcade) -> None:
 
 @pytest.mark.parametrize("act", [Button.START, Button.BACK])
 def test_a_pause_freezes_and_a_short_countdown_leads_back(arcade: Arcade, act: Button) -> None:
-    match = MatchScene(arcade.context, setup("human human off off", 1.0), KEYS)
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup("human human off off", 1.0), KEYS))
     arcade.wait(COUNTDOWN + 1.0)
-    arcade.press(act, KEYS[1])
+    arcade.press(act, device=KEYS[1])
     assert arcade.shown(Pause).player == 1
     before = match.match.state.tick
     arcade.wait(5.0)
-    arcade.press(act, KEYS[1])
+    arcade.press(act, device=KEYS[1])
     assert arcade.shown(MatchScene) is match
     arcade.wait(1.3, draw=True)
     assert match.match.state.tick == before
@@ -142,17 +137,11 @@ def test_turbo_on_a_pad_is_not_a_pause(arcade: Arcade, pads: ExitStack) -> None:
 
 
 def test_the_pause_menu_restarts_shows_the_controls_and_ends(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human level1 off off", 1.0), KEYS[:1])
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup("human level1 off off", 1.0), KEYS[:1]))
     arcade.wait(COUNTDOWN + 1.0)
-    arcade.press(Button.START)
-    arcade.press(Button.DOWN)
-    arcade.press(Button.DOWN)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.START, Button.DOWN, Button.DOWN, Button.FIRE)
     arcade.shown(DeviceTable)
-    arcade.press(Button.BACK)
-    arcade.press(Button.UP)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.BACK, Button.UP, Button.FIRE)
     arcade.shown(Pause)
     arcade.press(Button.FIRE)
     arcade.frame()
@@ -161,13 +150,10 @@ def test_the_pause_menu_restarts_shows_the_controls_and_ends(arcade: Arcade) -> 
     assert fresh.match.state.tick == 0
     assert fresh.setup.seed != match.setup.seed
     assert fresh.devices[0] == KEYS[0]
-    arcade.press(Button.START)
-    arcade.press(Button.UP)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.START, Button.UP, Button.FIRE)
     arcade.shown(Pause)
     arcade.press(Button.FIRE)
-    arcade.until(lambda: isinstance(arcade.stack.top, Results))
-    assert not arcade.shown(Results).page.finished
+    assert not arcade.reach(Results).page.finished  # type: ignore[attr-defined]
     assert len(arcade.stack.scenes) == 3
 
 
@@ -203,11 +189,11 @@ def test_a_key_cluster_may_take_over_and_an_ai_at_once(arcade: Arcade, pads: Exi
     arcade.frame()
     arcade.frame()
     assert arcade.shown(Reconnect).seat == 0
-    arcade.press(Button.FIRE, KEYS[2])
+    arcade.press(Button.FIRE, device=KEYS[2])
     arcade.frame()
     assert arcade.shown(Reconnect).seat == 1, "one after the other"
     arcade.wait(1.1)
-    arcade.press(Button.X, KEYS[2])
+    arcade.press(Button.X, device=KEYS[2])
     arcade.frame()
     arcade.shown(MatchScene)
     assert match.devices[:2] == [KEYS[2], None]
@@ -238,8 +224,7 @@ def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade
 def test_with_one_button_the_robot_drives_by_itself_and_sets_no_record(arcade: Arcade, pads: ExitStack) -> None:
     pad, device = plug(arcade, pads)
     arcade.context.driving.chosen[device] = ONE_BUTTON
-    match = MatchScene(arcade.context, setup("human human off off", 1.0), [device, KEYS[0]])
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup("human human off off", 1.0), [device, KEYS[0]]))
     assert isinstance(match.match.brains[0], OneButtonPlayer)
     assert isinstance(match.match.brains[1], HumanPlayer)
     assert (match.drivers.people, match.drivers.assisted) == ([0, 1], {0})
@@ -272,8 +257,7 @@ def test_a_mashed_button_does_not_give_the_seat_to_an_ai(arcade: Arcade, pads: E
 
 
 def test_a_match_without_input_asks_and_then_returns_to_the_title(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human level1 off off", 5.0), KEYS[:1])
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup("human level1 off off", 5.0), KEYS[:1]))
     arcade.until(lambda: isinstance(arcade.stack.top, StillThere), 70.0)
     assert match.match.seconds == pytest.approx(60.0, abs=1.0)
     arcade.shown(StillThere)
@@ -291,18 +275,16 @@ def test_a_held_stick_counts_as_input(arcade: Arcade, pads: ExitStack) -> None:
 
 
 def test_a_match_of_ais_never_asks(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("level1 level1 off off", 1.2))
-    arcade.open(match)
+    arcade.open(MatchScene(arcade.context, setup("level1 level1 off off", 1.2)))
     arcade.until(lambda: isinstance(arcade.stack.top, Results), 85.0)
 
 
 def test_a_seat_without_a_device_is_driven_by_an_ai_that_gives_way(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("human human off off", 1.0), [KEYS[0], None])
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup("human human off off", 1.0), [KEYS[0], None]))
     assert match.drivers.replaced == [1]
-    arcade.press(Button.FIRE, KEYS[0])
+    arcade.press(Button.FIRE, device=KEYS[0])
     assert match.drivers.replaced == [1]
-    arcade.press(Button.FIRE, KEYS[3])
+    arcade.press(Button.FIRE, device=KEYS[3])
     assert match.devices[1] == KEYS[3]
 
 
@@ -316,20 +298,17 @@ def test_the_numbers_before_a_match_stand_where_they_hide_no_robot() -> None:
 
 @pytest.mark.parametrize(("speed", "records"), [(1.0, 1), (0.5, 0), (2.0, 0)])
 def test_only_a_match_at_real_speed_sets_records(arcade: Arcade, speed: float, records: int) -> None:
-    scene = MatchScene(arcade.context, setup("human level3 off off", 0.05), [KEYS[0]], speed)
-    arcade.open(scene)
+    scene = arcade.open(MatchScene(arcade.context, setup("human level3 off off", 0.05), [KEYS[0]], speed))
     arcade.until(lambda: scene.match.state.tick > 100)
     scene.match.state.robots[0].score = 9
     arcade.until(lambda: scene.ending.next is not None)
     assert scene.ending.next
-    assert len(scene.ending.next.claims) == records
+    assert len(scene.ending.next.claims) == records  # type: ignore[attr-defined]
 
 
 def race(arcade: Arcade) -> MatchScene:
     """A race of a person and an AI, before its countdown."""
-    one, two, three, four = Seat("human", 0), Seat("random", 1), Seat("off", 2), Seat("off", 3)
-    setup = Setup("race", "classic", (one, two, three, four), 1.0, 1, "standard", 1)
-    return MatchScene(arcade.context, setup, [KEYS[0]])
+    return MatchScene(arcade.context, setup_of("race", "human random", "classic", 1.0, goal=1), [KEYS[0]])
 
 
 def test_hints_are_drawn_from_go_to_the_end(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -372,7 +351,5 @@ def drawn_hints(arcade: Arcade, match: MatchScene) -> pygame.Rect:
     """The part of the screen that the hints take."""
     arcade.screen.fill("black")
     match.runner.draw_hints(arcade.screen, match.devices)
-    lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (8, 8, 8, 255))
-    lit.invert()
-    boxes = lit.get_bounding_rects()
+    boxes = lit_boxes(arcade.screen, 8)
     return boxes[0].unionall(boxes[1:]) if boxes else pygame.Rect(0, 0, 0, 0)

@@ -18,16 +18,16 @@ from pigaming_app.scenes.replays.watch import IDLE, LINE_LEFT, LINE_RIGHT, LINE_
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button, Device, InputEvent
+from tests.matches import finished
 from tests.scenes.arcade import Arcade, setup
 from tests.scenes.attract.test_attract import scores_of
-from tests.scenes.measuring import faults, measuring
+from tests.scenes.measuring import faults, lit_boxes, measuring
 
 
 def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) -> None:
     for game in games():
         scores_of(arcade.context, game)
-    attract = Attract(arcade.context)
-    arcade.open(attract)
+    attract = arcade.open(Attract(arcade.context))
     assert isinstance(attract.show, DemoMatch)
     assert attract.show.runner.match.setup.minutes <= 2.0
     arcade.until(lambda: not isinstance(attract.show, DemoMatch), 125.0)
@@ -47,22 +47,20 @@ def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) 
 def test_any_input_ends_it(arcade: Arcade, button: Button) -> None:
     arcade.open(Attract(arcade.context))
     arcade.wait(0.2, draw=True)
-    arcade.press(button, Device("mouse") if button in (Button.POINT, Button.CLICK) else Device("keys"))
+    arcade.press(button, device=Device("mouse") if button in (Button.POINT, Button.CLICK) else Device("keys"))
     assert arcade.stack.top is arcade.title
 
 
-@pytest.fixture
-def recorded(tmp_path: Path) -> tuple[Path, str]:
-    match = new_match(setup("level5 level1 level3 off", 0.1))
-    while not match.over:
-        match.tick()
-    save_replay(match, tmp_path / "match.replay")
-    return tmp_path / "match.replay", digest(match.state)
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """A file with a match of 6 s, and the digest of its end."""
+    match = finished(new_match(setup("level5 level1 level3 off", 0.1)))
+    save_replay(match, file := tmp_path_factory.mktemp("replay") / "match.replay")
+    return file, digest(match.state)
 
 
 def test_a_replay_plays_out_as_the_match_did(arcade: Arcade, recorded: tuple[Path, str]) -> None:
-    scene = ReplayScene(arcade.context, load_replay(recorded[0]))
-    arcade.open(scene)
+    scene = arcade.open(ReplayScene(arcade.context, load_replay(recorded[0])))
     taken = arcade.until(lambda: scene.ended)
     assert taken == pytest.approx(6.0, abs=0.1)
     assert digest(scene.runner.match.state) == recorded[1]
@@ -70,15 +68,13 @@ def test_a_replay_plays_out_as_the_match_did(arcade: Arcade, recorded: tuple[Pat
 
 
 def test_a_replay_pauses_speeds_up_and_restarts(arcade: Arcade, recorded: tuple[Path, str]) -> None:
-    scene = ReplayScene(arcade.context, load_replay(recorded[0]))
-    arcade.open(scene)
+    scene = arcade.open(ReplayScene(arcade.context, load_replay(recorded[0])))
     arcade.wait(1.0, draw=True)
     arcade.press(Button.FIRE)
     before = scene.runner.match.state.tick
     arcade.wait(1.0, draw=True)
     assert scene.runner.match.state.tick == before
-    for button in (Button.FIRE, Button.Y, Button.Y):
-        arcade.press(button)
+    arcade.press(Button.FIRE, Button.Y, Button.Y)
     arcade.wait(1.0, draw=True)
     assert scene.runner.match.state.tick - before == pytest.approx(200, abs=5)
     arcade.press(Button.Y)
@@ -98,9 +94,7 @@ def test_a_replay_pauses_speeds_up_and_restarts(arcade: Arcade, recorded: tuple[
 @pytest.fixture(scope="module")
 def long() -> Replay:
     """A replay of 20 s."""
-    match = new_match(setup("level5 level1 level3 off", 1 / 3))
-    while not match.over:
-        match.tick()
+    match = finished(new_match(setup("level5 level1 level3 off", 1 / 3)))
     return recording_of(match)
 
 
@@ -109,8 +103,7 @@ def tick(scene: ReplayScene) -> int:
 
 
 def test_left_and_right_jump_by_five_seconds_to_the_same_states(arcade: Arcade, long: Replay) -> None:
-    scene = ReplayScene(arcade.context, long)
-    arcade.open(scene)
+    scene = arcade.open(ReplayScene(arcade.context, long))
     arcade.wait(8.0)
     arcade.press(Button.FIRE)
     here, state = tick(scene), digest(scene.runner.match.state)
@@ -119,11 +112,9 @@ def test_left_and_right_jump_by_five_seconds_to_the_same_states(arcade: Arcade, 
     arcade.shown(ReplayScene)
     arcade.press(Button.RIGHT)
     assert (tick(scene), digest(scene.runner.match.state)) == (here, state)
-    for _ in range(3):
-        arcade.press(Button.LEFT)
+    arcade.press(*[Button.LEFT] * 3)
     assert tick(scene) == 0
-    for _ in range(5):
-        arcade.press(Button.RIGHT)
+    arcade.press(*[Button.RIGHT] * 5)
     assert tick(scene) == 1000
     assert scene.ended
     assert digest(scene.runner.match.state) == long.digest
@@ -135,8 +126,7 @@ def test_left_and_right_jump_by_five_seconds_to_the_same_states(arcade: Arcade, 
 
 
 def test_a_click_on_the_timeline_jumps_there(arcade: Arcade, long: Replay) -> None:
-    scene = ReplayScene(arcade.context, long)
-    arcade.open(scene)
+    scene = arcade.open(ReplayScene(arcade.context, long))
     arcade.click((LINE_LEFT + LINE_RIGHT) / 2, LINE_Y + 5)
     assert tick(scene) == 500
     arcade.click(LINE_RIGHT + 100, LINE_Y)
@@ -146,8 +136,7 @@ def test_a_click_on_the_timeline_jumps_there(arcade: Arcade, long: Replay) -> No
 
 
 def test_an_abandoned_replay_returns_to_the_title_once_it_stands_still(arcade: Arcade, long: Replay) -> None:
-    scene = ReplayScene(arcade.context, long)
-    arcade.open(scene)
+    scene = arcade.open(ReplayScene(arcade.context, long))
     arcade.context.idle = IDLE + 1.0
     arcade.frame()
     assert arcade.stack.top is scene, "it is being watched"
@@ -157,8 +146,7 @@ def test_an_abandoned_replay_returns_to_the_title_once_it_stands_still(arcade: A
 
 
 def test_a_jump_takes_less_than_50_ms(arcade: Arcade, long: Replay) -> None:
-    scene = ReplayScene(arcade.context, long)
-    arcade.open(scene)
+    arcade.open(ReplayScene(arcade.context, long))
     arcade.wait(2.0)
     durations = []
     for button in (Button.RIGHT, Button.RIGHT, Button.LEFT, Button.RIGHT, Button.LEFT):
@@ -171,9 +159,8 @@ def test_a_jump_takes_less_than_50_ms(arcade: Arcade, long: Replay) -> None:
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("paused", [False, True])
 def test_the_bar_of_a_replay_stands_beside_the_arena(
-    arcade: Arcade, recorded: tuple[Path, str], monkeypatch: pytest.MonkeyPatch, language: str, paused: bool
+    arcade: Arcade, recorded: tuple[Path, str], monkeypatch: pytest.MonkeyPatch, paused: bool
 ) -> None:
-    arcade.context.words.switch(language)
     scene = ReplayScene(arcade.context, load_replay(recorded[0]))
     arena = pygame.Rect(160, 136, 1600, 908)
     with measuring(monkeypatch) as screen:
@@ -184,9 +171,7 @@ def test_the_bar_of_a_replay_stands_beside_the_arena(
         scene.draw(screen)
         assert len(screen.texts) >= 8, "it is measured"
         assert faults(screen, pygame.Rect(4, 16, 1912, 1048)) == []
-        lit = pygame.mask.from_threshold(screen, "black", (12, 12, 12, 255))
-        lit.invert()
-        assert not [box for box in lit.get_bounding_rects() if arena.colliderect(box)]
+        assert not [box for box in lit_boxes(screen, 12) if arena.colliderect(box)]
     for button, box in zip(scene.prompts.buttons, boxes(scene.prompts.labels), strict=True):
         assert scene.hints.as_button(InputEvent(Button.CLICK, Device("mouse"), at=box.center)).button is button
         left = scene.hints.as_button(InputEvent(Button.CLICK, Device("mouse"), at=(box.left + 1, box.centery))).button
@@ -195,11 +180,9 @@ def test_the_bar_of_a_replay_stands_beside_the_arena(
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_replay_of_another_engine_plays_with_a_notice(
-    arcade: Arcade, recorded: tuple[Path, str], monkeypatch: pytest.MonkeyPatch, language: str
+    arcade: Arcade, recorded: tuple[Path, str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    arcade.context.words.switch(language)
-    scene = ReplayScene(arcade.context, replace(load_replay(recorded[0]), engine="another"))
-    arcade.open(scene)
+    scene = arcade.open(ReplayScene(arcade.context, replace(load_replay(recorded[0]), engine="another")))
     notice = arcade.context.words("replay.other_engine")
     with measuring(monkeypatch) as screen:
         scene.draw(screen)
@@ -213,8 +196,7 @@ def test_a_replay_of_another_engine_plays_with_a_notice(
 
 
 def test_the_prompts_of_a_replay_match_its_state(arcade: Arcade, recorded: tuple[Path, str]) -> None:
-    scene = ReplayScene(arcade.context, load_replay(recorded[0]))
-    arcade.open(scene)
+    scene = arcade.open(ReplayScene(arcade.context, load_replay(recorded[0])))
     assert [text for _, text in scene.prompts.labels] == ["Pause", "5 seconds", "Speed", "From the start", "Back"]
     arcade.press(Button.FIRE)
     arcade.shown(ReplayScene)

@@ -19,7 +19,7 @@ from pigaming_app.ui.input.events import Button, Device
 from tests.cases import one_in
 from tests.games.test_rounds import played
 from tests.scenes.arcade import KEYS, Arcade, setup
-from tests.scenes.measuring import faults, measuring
+from tests.scenes.measuring import faults, lit_boxes, measuring
 from tests.ui.input.virtual_pad import VirtualPad
 
 pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
@@ -59,8 +59,7 @@ def test_two_rounds_won_lead_to_the_podium_and_the_rematch_begins_anew(arcade: A
     assert second.devices[0] == KEYS[0]
     assert second.setup.seed != first.setup.seed
     win(arcade)
-    arcade.until(lambda: isinstance(arcade.stack.top, Results), 5.0)
-    results = arcade.shown(Results)
+    results = arcade.reach(Results, 5.0)
     assert isinstance(results.page, PodiumPage)
     assert results.page.winners == (0,)
     arcade.wait(4.0, fps=10, draw=True)
@@ -88,8 +87,7 @@ def menu(arcade: Arcade, item: str) -> None:
     """Choose an item of the pause menu, and confirm it."""
     page = arcade.shown(Pause)
     page.focus.move_to(item)
-    arcade.press(Button.FIRE)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.FIRE, Button.FIRE)
     arcade.frame()
 
 
@@ -98,8 +96,7 @@ def test_ending_the_match_in_a_break_shows_the_rounds_so_far(arcade: Arcade) -> 
     win(arcade)
     arcade.press(Button.START)
     menu(arcade, "end")
-    arcade.until(lambda: isinstance(arcade.stack.top, Results), 5.0)
-    results = arcade.shown(Results)
+    results = arcade.reach(Results, 5.0)
     assert isinstance(results.page, PodiumPage)
     assert not results.page.finished
     assert results.page.winners == ()
@@ -111,8 +108,7 @@ def test_ending_the_first_round_shows_that_round(arcade: Arcade) -> None:
     arcade.until(lambda: not scene.opening.countdown.locked)
     arcade.press(Button.START)
     menu(arcade, "end")
-    arcade.until(lambda: isinstance(arcade.stack.top, Results), 5.0)
-    assert isinstance(arcade.shown(Results).page, ResultsPage)
+    assert isinstance(arcade.reach(Results, 5.0).page, ResultsPage)
 
 
 def test_restarting_in_a_break_begins_with_the_first_round(arcade: Arcade) -> None:
@@ -142,7 +138,7 @@ def test_a_pad_pulled_in_a_break_is_asked_for_and_an_ai_plays_the_next_round(arc
     assert second.drivers.assisted == {0}
     second.opening.countdown.seconds_left = 0.05
     arcade.until(lambda: not second.opening.countdown.locked)
-    arcade.press(Button.FIRE, KEYS[1])
+    arcade.press(Button.FIRE, device=KEYS[1])
     assert second.devices[0] == KEYS[1], "a free device takes the seat back"
 
 
@@ -171,17 +167,13 @@ def test_the_margin_shows_the_round_and_the_rounds_won(arcade: Arcade, monkeypat
 def test_the_margin_keeps_clear_of_arena_and_corner_markers(controls: Controls, language: str) -> None:
     pygame.font.init()
     sheet = margin(Words(language)("rounds.round"), "3/3", tuple((seat, 1) for seat in range(4)), 2)
-    lit = pygame.mask.from_threshold(sheet.image, (0, 0, 0), (40, 40, 40, 255))
-    lit.invert()
-    box = lit.get_bounding_rects()[0].unionall(lit.get_bounding_rects()).move(sheet.at)
+    boxes = lit_boxes(sheet.image)
+    box = boxes[0].unionall(boxes).move(sheet.at)
     assert pygame.Rect(4, 150, 150, 770).contains(box)
 
 
 @pytest.mark.parametrize("language", one_in(2, LANGUAGES))
-def test_texts_of_break_and_podium_keep_off_each_other(
-    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str
-) -> None:
-    arcade.context.words.switch(language)
+def test_texts_of_break_and_podium_keep_off_each_other(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     with measuring(monkeypatch) as screen:
         begin(arcade, before=1)
         scene = arcade.shown(MatchScene)

@@ -1,4 +1,4 @@
-"""The rule card before a match: shown once, beside robots, captions and countdown."""
+"""Before a match: captions and the rule card, shown once, beside robots and countdown."""
 
 import pygame
 import pytest
@@ -7,6 +7,7 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import make_setup
+from pigaming_app.scenes.play.caption_layout import ARENA as CAPTIONS
 from pigaming_app.scenes.play.caption_layout import caption_boxes, robot_boxes
 from pigaming_app.scenes.play.countdown import clear_of
 from pigaming_app.scenes.play.opening import ARENA, ROOM, SIGN, gap, in_lines, rule_card
@@ -64,9 +65,8 @@ def test_two_sentences_are_broken_between_them() -> None:
 
 
 def test_the_card_is_there_before_the_match_and_not_after_a_pause(
-    controls: Controls, monkeypatch: pytest.MonkeyPatch
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    arcade = Arcade(controls)
     line = in_lines(arcade.context.words("rules.pitanks_plain"), 2)[0]
     with measuring(monkeypatch) as screen:
 
@@ -83,7 +83,25 @@ def test_the_card_is_there_before_the_match_and_not_after_a_pause(
         assert shown()
         arcade.until(lambda: scene.match.state.tick > 5)
         assert not shown()
-        arcade.press(Button.START)
-        arcade.press(Button.BACK)
+        arcade.press(Button.START, Button.BACK)
         assert scene.opening.countdown.locked
         assert not shown()
+
+
+GRID = [(LEFT + x, TOP + y) for x, y in ((570, 55), (680, 55), (570, 150), (680, 150))]
+CORNERS = [(LEFT + x, TOP + y) for x, y in ((40, 40), (1560, 40), (40, 860), (1560, 860))]
+
+
+@pytest.mark.parametrize("robots", [GRID, CORNERS], ids=["grid", "corners"])
+def test_no_caption_covers_another_caption_or_robot(robots: list[tuple[float, float]]) -> None:
+    boxes, bodies = caption_boxes(robots, [CAPTION] * 4, [90.0] * 4), robot_boxes(robots)
+    for i, box in enumerate(boxes):
+        assert box.size == CAPTION
+        assert CAPTIONS.contains(box)
+        assert box.collidelist([*boxes[:i], *boxes[i + 1 :], *bodies]) < 0
+
+
+def test_a_caption_with_room_is_above_or_below_its_robot_where_the_arena_has_more() -> None:
+    robots = [(LEFT + 800.0, TOP + 100.0), (LEFT + 800.0, TOP + 800.0)]
+    centres = [box.center for box in caption_boxes(robots, [CAPTION] * 2, [90.0] * 2)]
+    assert centres == [(LEFT + 800, TOP + 190), (LEFT + 800, TOP + 710)]

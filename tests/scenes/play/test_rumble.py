@@ -17,10 +17,11 @@ from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import VirtualPad
 
 QUIET = (0, 0)
+Played = tuple[MatchScene, VirtualPad, VirtualPad]
 
 
 @pytest.fixture
-def played(arcade: Arcade) -> Iterator[tuple[MatchScene, VirtualPad, VirtualPad]]:
+def played(arcade: Arcade) -> Iterator[Played]:
     """A running match of two pads and one keyboard."""
     with ExitStack() as plugged:
         one, two = (plugged.enter_context(VirtualPad(plain=plain)) for plain in (False, True))
@@ -40,9 +41,7 @@ def hit(arcade: Arcade, match: MatchScene, scorer: int, victim: int) -> None:
     arcade.frame()
 
 
-def test_both_feel_a_hit_and_who_takes_it_feels_it_more(
-    arcade: Arcade, played: tuple[MatchScene, VirtualPad, VirtualPad]
-) -> None:
+def test_both_feel_a_hit_and_who_takes_it_feels_it_more(arcade: Arcade, played: Played) -> None:
     match, one, two = played
     hit(arcade, match, 0, 1)
     assert sum(two.rumbles[0]) > sum(one.rumbles[0]) > 0
@@ -52,15 +51,13 @@ def test_both_feel_a_hit_and_who_takes_it_feels_it_more(
     assert one.rumbles[-1] == two.rumbles[0], "and the player with keys notices nothing"
 
 
-def test_a_pause_and_a_pulled_pad_stop_the_motors(
-    arcade: Arcade, played: tuple[MatchScene, VirtualPad, VirtualPad]
-) -> None:
+def test_a_pause_and_a_pulled_pad_stop_the_motors(arcade: Arcade, played: Played) -> None:
     match, one, two = played
     hit(arcade, match, 2, 0)
-    arcade.press(Button.START, KEYS[0])
+    arcade.press(Button.START, device=KEYS[0])
     arcade.shown(Pause)
     assert one.rumbles[-1] == QUIET
-    arcade.press(Button.BACK, KEYS[0])
+    arcade.press(Button.BACK, device=KEYS[0])
     arcade.wait(2.0)
     hit(arcade, match, 2, 0)
     assert one.rumbles[-1] != QUIET
@@ -71,9 +68,7 @@ def test_a_pause_and_a_pulled_pad_stop_the_motors(
     match.drivers.rumble(1, TAKEN)
 
 
-def test_the_motors_stand_still_after_the_match(
-    arcade: Arcade, played: tuple[MatchScene, VirtualPad, VirtualPad]
-) -> None:
+def test_the_motors_stand_still_after_the_match(arcade: Arcade, played: Played) -> None:
     match, one, _ = played
     hit(arcade, match, 1, 0)
     match.stop()
@@ -81,9 +76,7 @@ def test_the_motors_stand_still_after_the_match(
     assert one.rumbles[-1] == QUIET
 
 
-def test_nothing_rumbles_if_the_option_is_off(
-    arcade: Arcade, played: tuple[MatchScene, VirtualPad, VirtualPad]
-) -> None:
+def test_nothing_rumbles_if_the_option_is_off(arcade: Arcade, played: Played) -> None:
     match, one, two = played
     arcade.context.settings.rumble = False
     hit(arcade, match, 0, 1)

@@ -1,13 +1,18 @@
-"""The list of replays, operated by keys and mouse; saving on the results page."""
+"""Replays: files with a limit, protected ones, full disks; the list of them, and saving on the results page."""
 
+import os
+import time
 from datetime import datetime, timedelta
+from pathlib import Path
 
 import pytest
 
-from pigaming_app.games.replay import Replay, to_match
+from pigaming_app.ai.registry import new_match
+from pigaming_app.games.replay import Replay, recorded, to_match, verify
 from pigaming_app.scenes.flow.stack import Stack
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.recordings import store
+from pigaming_app.scenes.recordings.store import LIMIT, StoreError
 from pigaming_app.scenes.replays.page import CONFIRM_SECONDS, ReplaysPage
 from pigaming_app.scenes.replays.view import ROWS, cross_box, row_box
 from pigaming_app.scenes.replays.watch import ReplayScene
@@ -16,21 +21,27 @@ from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.button_prompts import places
-from tests.scenes.arcade import KEYS, Arcade
+from tests.disks import failing_at
+from tests.matches import finished
+from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.measuring import faults, measuring
-from tests.scenes.recordings.test_store import NOON, replay
 
-pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed", "home")
 
-__all__ = ["replay"]
+NOON = datetime(2026, 5, 9, 12, 0, 0)
+
+
+@pytest.fixture(scope="module")
+def replay() -> Replay:
+    match = finished(new_match(setup("human level5 off level1", 0.05)))
+    return recorded(match)
 
 
 def opened(arcade: Arcade, replay: Replay, count: int) -> ReplaysPage:
     """The page with so many replays, one a minute."""
     for i in range(count):
         store.save(replay, NOON + timedelta(minutes=i))
-    page = ReplaysPage(arcade.context)
-    arcade.open(page)
+    page = arcade.open(ReplaysPage(arcade.context))
     arcade.wait(0.5)
     return page
 
@@ -47,8 +58,7 @@ def test_the_title_leads_to_it_in_a_kiosk_too(arcade: Arcade) -> None:
 
 def test_fire_plays_the_focused_replay_and_back_returns_to_its_row(arcade: Arcade, replay: Replay) -> None:
     page = opened(arcade, replay, 3)
-    arcade.press(Button.DOWN)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.DOWN, Button.FIRE)
     assert arcade.shown(ReplayScene).replay == replay
     arcade.press(Button.BACK)
     assert arcade.shown(ReplaysPage) is page
@@ -56,8 +66,7 @@ def test_fire_plays_the_focused_replay_and_back_returns_to_its_row(arcade: Arcad
     arcade.wait(0.5)
     arcade.click(*row_box(2).center)
     arcade.shown(ReplayScene)
-    arcade.press(Button.BACK)
-    arcade.press(Button.BACK)
+    arcade.press(Button.BACK, Button.BACK)
     assert arcade.stack.top is arcade.setup
 
 
@@ -82,8 +91,7 @@ def test_deleting_takes_two_presses_in_time(arcade: Arcade, replay: Replay) -> N
     arcade.wait(CONFIRM_SECONDS + 0.1)
     arcade.press(Button.X)
     assert len(store.paths()) == 2, "too late: it asks again"
-    arcade.press(Button.DOWN)
-    arcade.press(Button.X)
+    arcade.press(Button.DOWN, Button.X)
     assert len(store.paths()) == 2, "another row: it asks again"
     victim = page.entry.path
     arcade.press(Button.X)
@@ -101,8 +109,7 @@ def test_deleting_takes_two_presses_in_time(arcade: Arcade, replay: Replay) -> N
 def test_in_a_kiosk_nothing_is_deleted(arcade: Arcade, replay: Replay) -> None:
     arcade.context.kiosk = True
     opened(arcade, replay, 1)
-    for _ in range(3):
-        arcade.press(Button.X)
+    arcade.press(*[Button.X] * 3)
     assert len(store.paths()) == 1
     arcade.click(*cross_box(0).center)
     arcade.shown(ReplayScene)
@@ -123,10 +130,7 @@ def test_a_damaged_file_is_one_line_and_a_vanished_one_a_sentence(arcade: Arcade
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_texts_keep_off_each_other(
-    arcade: Arcade, replay: Replay, monkeypatch: pytest.MonkeyPatch, language: str
-) -> None:
-    arcade.context.words.switch(language)
+def test_texts_keep_off_each_other(arcade: Arcade, replay: Replay, monkeypatch: pytest.MonkeyPatch) -> None:
     (store.folder()).mkdir(parents=True)
     (store.folder() / f"{'long name ' * 12}.replay").write_bytes(b"noise")
     page = opened(arcade, replay, ROWS)
@@ -151,20 +155,15 @@ def ended(arcade: Arcade, replay: Replay) -> Results:
 
 def test_the_last_match_is_saved_once_from_the_results(arcade: Arcade, replay: Replay) -> None:
     results = ended(arcade, replay)
+    arcade.press(Button.UP, device=KEYS[1])
+    assert store.paths() == [], "a free device saves nothing"
     assert "Save replay" in [text for _, text in results.prompts.labels]
-    arcade.press(Button.UP)
-    arcade.press(Button.UP)
+    arcade.press(Button.UP, Button.UP)
     (path,) = store.paths()
     assert store.load(path) == replay
     assert "Save replay" not in [text for _, text in results.prompts.labels]
     arcade.shown(Results)
     assert abs(store.saved_at(path) - datetime.now()) < timedelta(minutes=1)
-
-
-def test_a_free_device_saves_nothing(arcade: Arcade, replay: Replay) -> None:
-    ended(arcade, replay)
-    arcade.press(Button.UP, KEYS[1])
-    assert store.paths() == []
 
 
 def test_what_cannot_be_saved_says_so_and_may_be_tried_again(arcade: Arcade, replay: Replay) -> None:
@@ -175,15 +174,93 @@ def test_what_cannot_be_saved_says_so_and_may_be_tried_again(arcade: Arcade, rep
     assert arcade.sounds.heard[-1] == "error"
     arcade.shown(Results)
     store.folder().unlink()
-    arcade.click(
-        *next(
-            ((left + right) / 2, results.prompts.y)
-            for (left, right), button in zip(ends(results), results.prompts.buttons, strict=True)
-            if button is Button.UP
-        )
-    )
+    ends = places(results.prompts.labels, results.prompts.room)[results.prompts.buttons.index(Button.UP)]
+    arcade.click(sum(ends) / 2, results.prompts.y)
     assert len(store.paths()) == 1
 
 
-def ends(results: Results) -> list[tuple[float, float]]:
-    return places(results.prompts.labels, results.prompts.room)
+def test_the_name_has_date_game_and_players(replay: Replay) -> None:
+    path = store.save(replay, NOON)
+    assert path.name == "2026-05-09_12-00-00_pitanks_human-level5-level1.replay"
+    assert path.parent == store.folder()
+    assert store.saved_at(path) == NOON
+    again = store.load(path)
+    assert again == replay
+    assert again is not None
+    assert verify(again)
+
+
+def test_two_of_the_same_second_are_two_files(replay: Replay) -> None:
+    names = {store.save(replay, NOON).name for _ in range(3)}
+    assert len(names) == 3
+    assert all(store.saved_at(store.folder() / name) == NOON for name in names)
+
+
+def test_the_latest_comes_first_whatever_its_name(replay: Replay) -> None:
+    old, new = store.save(replay, NOON), store.save(replay, NOON + timedelta(days=1))
+    foreign = store.folder() / "holiday.replay"
+    foreign.write_bytes(old.read_bytes())
+    os.utime(foreign, (time.time(), (NOON + timedelta(hours=1)).timestamp()))
+    (store.folder() / "notes.txt").write_text("no replay")
+    assert store.paths() == [new, foreign, old]
+
+
+def test_no_folder_no_replays() -> None:
+    assert store.paths() == []
+
+
+def full_folder(replay: Replay) -> list[Path]:
+    first = store.save(replay, NOON)
+    raw = first.read_bytes()
+    for i in range(1, LIMIT):
+        when = NOON + timedelta(minutes=i)
+        first.with_name(f"{when:{store.DATE}}_pitanks_human-level5-level1.replay").write_bytes(raw)
+    return store.paths()
+
+
+def test_beyond_the_limit_the_oldest_goes_unless_it_is_protected_or_named_by_somebody_else(replay: Replay) -> None:
+    paths = full_folder(replay)
+    kept = paths[-1]
+    kept.chmod(0o444)
+    foreign = paths[-2].rename(paths[-2].with_name("mine.replay"))
+    os.utime(foreign, (0, NOON.timestamp()))
+    store.save(replay, NOON + timedelta(days=1))
+    left = store.paths()
+    assert len(left) == LIMIT
+    assert {kept, foreign} <= {*left}
+    assert paths[-3] not in left
+    assert {*paths[:-3]} <= {*left}
+
+
+def test_protected_files_are_never_deleted_so_one_more_is_refused(replay: Replay) -> None:
+    paths = full_folder(replay)
+    for path in paths:
+        path.chmod(0o444)
+    with pytest.raises(StoreError, match=r"replays\.all_kept"):
+        store.save(replay)
+    assert store.paths() == paths
+
+
+@pytest.mark.parametrize("step", range(1, 4))
+def test_a_full_disk_deletes_nothing_and_leaves_nothing(replay: Replay, step: int) -> None:
+    store.save(replay, NOON)
+    before = sorted(store.folder().iterdir())
+    with failing_at(step) as made, pytest.raises(StoreError, match=r"replays\.disk_full"):
+        store.save(replay)
+    assert len(made) > step
+    assert sorted(store.folder().iterdir()) == before
+
+
+def test_an_unwritable_folder_is_one_sentence(replay: Replay, home: Path) -> None:
+    (home / "data").mkdir(parents=True)
+    (home / "data" / "replays").write_text("a file in its place")
+    assert store.paths() == []
+    with pytest.raises(StoreError, match=r"replays\.no_writing"):
+        store.save(replay)
+
+
+def test_deleting_what_has_vanished_is_no_error(replay: Replay) -> None:
+    path = store.save(replay)
+    store.delete(path)
+    store.delete(path)
+    assert store.load(path) is None

@@ -1,17 +1,27 @@
-"""The high-score page: initial table and navigation."""
+"""High scores: matches that count, their contests, the table that is shown first, and the way to the others."""
 
 from dataclasses import replace
 
-import pygame
 import pytest
 
-from pigaming_app.scenes.results.high_scores import HighScores, conditions, contests
-from pigaming_app.storage.scores import ScoreTable
+from pigaming_app.ai.registry import BRAINS
+from pigaming_app.games.registry import games
+from pigaming_app.scenes.results.high_scores import (
+    HighScores,
+    conditions,
+    contest,
+    contests,
+    counts,
+    format_score,
+    high_score_tables,
+)
+from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.ui.draw import text_width
 from pigaming_app.ui.i18n import LANGUAGES, Words
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
+from tests.matches import setup_of
 from tests.scenes.arcade import Arcade
+from tests.scenes.measuring import lit_boxes
 
 ALONE = ScoreTable("pitanks", "classic", "points", rules="pickups", length=2, people=1)
 PAIR = replace(ALONE, people=2)
@@ -23,8 +33,7 @@ THREE = replace(PAIR, people=3)
 def opened(arcade: Arcade, at: ScoreTable, *filled: ScoreTable) -> HighScores:
     for table in filled:
         arcade.context.scores.add(table, "ABC", 9_000)
-    best = HighScores(arcade.context, replace(at, achievement="", timed=False))
-    arcade.open(best)
+    best = arcade.open(HighScores(arcade.context, replace(at, achievement="", timed=False)))
     arcade.wait(HighScores.lockout + 0.1, draw=True)
     return best
 
@@ -106,7 +115,7 @@ def test_an_arena_that_has_gone_is_not_shown(arcade: Arcade) -> None:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_every_heading_fits_and_nothing_runs_over_the_edge(controls: Controls, language: str) -> None:
+def test_every_heading_fits_and_nothing_runs_over_the_edge(arcade: Arcade, language: str) -> None:
     words = Words(language)
     tables = [
         replace(table, rules=rules, length=length, people=people, side=side)
@@ -117,12 +126,103 @@ def test_every_heading_fits_and_nothing_runs_over_the_edge(controls: Controls, l
     ]
     for table in [*tables, THREE, ScoreTable("race", "classic", "race", True, "standard", 9)]:
         assert text_width(conditions(words, table), 52, "head") < 1500, "between the arrows"
-    arcade = Arcade(controls, language)
     best = opened(arcade, tables[0], *tables)
     for _ in tables[:8]:
         arcade.press(Button.RIGHT)
         arcade.wait(1.0, fps=10, draw=True)
-        lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (40, 40, 40, 255))
-        lit.invert()
-        assert not [box for box in lit.get_bounding_rects() if box.left < 20 or box.right > 1900]
+        assert not [box for box in lit_boxes(arcade.screen) if box.left < 20 or box.right > 1900]
     assert arcade.stack.top is best
+
+
+FREE, PAIRS = (0, 1, 2, 3), (0, 1, 0, 1)
+
+
+def match(brains, teams=FREE, game="pitanks", minutes=2.0, goal=0):
+    return setup_of(game, brains, "classic", minutes, goal=goal, teams=teams)
+
+
+@pytest.mark.parametrize(
+    ("brains", "teams", "counted"),
+    [
+        ("human level3 off off", FREE, True),
+        ("human human off off", FREE, True),
+        ("human level5 q2 q1", FREE, True),
+        ("human level3 level4 level5", FREE, True),
+        ("human level2 off off", FREE, False),
+        ("human q2 human level3", FREE, True),
+        ("human level1 off off", FREE, False),
+        ("human level5 level5 level1", FREE, False),
+        ("human human human random", FREE, False),
+        ("human idle off off", FREE, False),
+        ("human classic off off", FREE, False),
+        ("human MY-OWN off off", FREE, False),
+        ("human off off off", FREE, False),
+        ("human level3 level1 level3", PAIRS, True),  # the easy AI is a team mate
+        ("human level3 level3 level1", PAIRS, False),
+        ("human off human off", PAIRS, False),  # no opponents
+    ],
+)
+def test_a_match_counts_against_people_and_opponents_no_weaker_than_normal(brains, teams, counted):
+    assert counts(match(brains, teams), 0) is counted
+
+
+@pytest.mark.parametrize("game", games())
+def test_of_the_ais_of_a_game_only_the_weak_ones_do_not_count(game):
+    weak = {"idle", "random", "level1", "level2", "hand1", "fsm", "classic"}
+    counting = {brain for brain in BRAINS[game] if counts(match(f"human {brain} off off", game=game), 0)}
+    assert set(BRAINS[game]) - counting == weak & set(BRAINS[game])
+
+
+@pytest.mark.parametrize(
+    ("brains", "teams", "people", "side"),
+    [
+        ("human level3 off off", FREE, 1, 0),
+        ("human human human human", FREE, 4, 0),
+        ("human level3 level3 level3", PAIRS, 1, 1),
+        ("human human level3 level3", PAIRS, 2, 1),
+        ("human level3 human level3", PAIRS, 2, 2),
+        ("human human human level3", PAIRS, 3, 2),
+        ("human human human human", PAIRS, 4, 2),
+        ("human human off off", PAIRS, 2, 0),
+    ],
+)
+def test_people_are_counted_and_those_of_the_own_team(brains, teams, people, side):
+    table = contest(match(brains, teams), 0)
+    assert (table.people, table.side) == (people, side)
+
+
+def test_the_two_sides_of_a_match_may_stand_in_different_tables():
+    setup = match("human human human level3", PAIRS)
+    assert contest(setup, 0).side == 2
+    assert contest(setup, 1).side == 1
+
+
+def test_minutes_count_where_a_match_is_played_for_time_and_the_goal_where_it_is_played_for_one():
+    assert contest(match("human level3 off off", minutes=0.5)).length == 0.5
+    assert contest(match("human level3 off off", game="race", minutes=10.0, goal=5)).length == 5
+    assert contest(match("human level3 off off", game="factory", minutes=3.0, goal=4)).length == 4
+
+
+def test_a_race_has_a_table_of_laps_and_one_of_whole_races():
+    first, second = high_score_tables(contest(match("human level3 off off", game="race", goal=3)))
+    assert [(board.table.achievement, board.table.timed, board.days) for board in (first, second)] == [
+        ("lap", True, None),
+        ("race", True, None),
+    ]
+    assert format_score(61_230, first.table) == "1:01.23"
+
+
+def test_unknown_games_and_rules_in_a_file_are_not_shown():
+    scores, good = Scores(), contest(match("human level3 off off"))
+    points = replace(good, achievement="points")
+    for table in (
+        points,
+        replace(points, game="chess"),
+        replace(points, achievement="goals"),
+        replace(points, timed=True),
+        replace(points, rules="none"),
+        replace(points, people=7),
+        replace(points, side=2),
+    ):
+        scores.add(table, "ABC", 5)
+    assert contests(scores) == [good]

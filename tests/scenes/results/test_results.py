@@ -2,11 +2,12 @@
 
 from dataclasses import replace
 from datetime import datetime
+from typing import Any
 
 import pygame
 import pytest
 
-from pigaming_app.games.game import Outcome, Row, Seat, Setup
+from pigaming_app.games.game import Outcome, Row, Setup
 from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.scene import game_choice
 from pigaming_app.scenes.play.scene import MatchScene
@@ -20,7 +21,9 @@ from pigaming_app.storage.settings import folders
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
+from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade, setup
+from tests.scenes.measuring import lit_boxes
 
 ALONE = ScoreTable("pitanks", "classic", "points", rules="plain", length=1, people=1)
 LAP = ScoreTable("race", "classic", "lap", True, "standard", 3, 1)
@@ -39,20 +42,15 @@ def outcome(scores: dict[int, int], winners: tuple[int, ...], teams: tuple[int, 
     return Outcome(tuple(rows), winners, series, 60.0)
 
 
-def opened(arcade: Arcade, brains: str, ended: Outcome, finished: bool = True, teams=(0, 1, 2, 3)) -> Results:
-    match = setup(brains, 1.0, teams)
+def results_of(arcade: Arcade, match: Setup, ended: Outcome, finished: bool = True, **more: Any) -> Results:
+    """The results of a match whose people sat at the keyboard."""
     devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(match.seats)]
-    results = Results(
-        arcade.context,
-        ended,
-        match,
-        devices,
-        MatchScene(arcade.context, match, devices).sequel.rematch,
-        finished,
-        game_choice=game_choice,
-    )
-    arcade.open(results)
-    return results
+    again = MatchScene(arcade.context, match, devices).sequel.rematch
+    return Results(arcade.context, ended, match, devices, again, finished, game_choice=game_choice, **more)
+
+
+def opened(arcade: Arcade, brains: str, ended: Outcome, finished: bool = True, teams=(0, 1, 2, 3)) -> Results:
+    return arcade.open(results_of(arcade, setup(brains, 1.0, teams), ended, finished))
 
 
 LOST = outcome({0: -4, 1: -1, 2: 5}, (2,))
@@ -70,23 +68,18 @@ LOST = outcome({0: -4, 1: -1, 2: 5}, (2,))
         ("human human off off", {0: 0, 1: 0}, (), (0, 1, 2, 3), False),
     ],
 )
-def test_every_ending_is_shown(controls, monkeypatch, tmp_path, language, brains, scores, winners, teams, finished):
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    arcade = Arcade(controls, language)
+def test_every_ending_is_shown(arcade: Arcade, brains, scores, winners, teams, finished):
     opened(arcade, brains, outcome(scores, winners, teams), finished, teams)
     arcade.wait(2.4, fps=10, draw=True)
     whole = pygame.Rect(0, 0, 1920, 1080)
-    lit = pygame.mask.from_threshold(arcade.screen, (0, 0, 0), (40, 40, 40, 255))
-    lit.invert()
-    edge = [box for box in lit.get_bounding_rects() if box.left < 20 or box.right > whole.right - 20]
+    edge = [box for box in lit_boxes(arcade.screen) if box.left < 20 or box.right > whole.right - 20]
     assert not edge, "a widget is clipped at the edge"
 
 
 def test_players_still_firing_do_not_skip_the_results(arcade: Arcade) -> None:
     results = opened(arcade, "human human level5 off", LOST)
     for _ in range(10):
-        for button in (Button.FIRE, Button.BACK, Button.START, Button.X):
-            arcade.press(button)
+        arcade.press(Button.FIRE, Button.BACK, Button.START, Button.X)
         arcade.frame(0.1)
     assert arcade.stack.top is results
     assert not results.ballot.votes
@@ -95,13 +88,13 @@ def test_players_still_firing_do_not_skip_the_results(arcade: Arcade) -> None:
 def test_a_rematch_wants_everyone_and_brings_new_luck(arcade: Arcade) -> None:
     results = opened(arcade, "human human level5 off", LOST)
     arcade.wait(LONG)
-    arcade.press(Button.FIRE, KEYS[1])
+    arcade.press(Button.FIRE, device=KEYS[1])
     arcade.frame()
     assert arcade.shown(Results) is results
-    arcade.press(Button.FIRE, KEYS[3])
+    arcade.press(Button.FIRE, device=KEYS[3])
     arcade.frame()
     assert arcade.stack.top is results, "a free key cluster has no vote"
-    arcade.press(Button.FIRE, KEYS[0])
+    arcade.press(Button.FIRE, device=KEYS[0])
     arcade.frame()
     match = arcade.shown(MatchScene)
     assert match.devices == [KEYS[0], KEYS[1], None, None]
@@ -113,14 +106,14 @@ def test_a_rematch_wants_everyone_and_brings_new_luck(arcade: Arcade) -> None:
 def test_start_waits_for_nobody(arcade: Arcade) -> None:
     opened(arcade, "human human level5 off", LOST)
     arcade.wait(LONG)
-    arcade.press(Button.START, KEYS[1])
+    arcade.press(Button.START, device=KEYS[1])
     assert arcade.shown(MatchScene).devices[:2] == [KEYS[0], KEYS[1]]
 
 
 def test_an_absent_player_does_not_hold_up_the_rematch(arcade: Arcade) -> None:
     opened(arcade, "human human level5 off", LOST)
     arcade.wait(LONG)
-    arcade.press(Button.FIRE, KEYS[0])
+    arcade.press(Button.FIRE, device=KEYS[0])
     waited = arcade.until(lambda: isinstance(arcade.stack.top, MatchScene))
     assert waited == pytest.approx(PATIENCE, abs=0.2)
     assert arcade.shown(MatchScene).devices == [KEYS[0], None, None, None]
@@ -130,8 +123,8 @@ def test_a_free_pad_votes_for_a_seat_whose_pad_has_gone(arcade: Arcade) -> None:
     results = opened(arcade, "human human level5 off", LOST)
     results.ballot.devices[1] = Device("pad", 999)
     arcade.wait(LONG)
-    arcade.press(Button.FIRE, KEYS[0])
-    arcade.press(Button.FIRE, KEYS[2])
+    arcade.press(Button.FIRE, device=KEYS[0])
+    arcade.press(Button.FIRE, device=KEYS[2])
     arcade.frame()
     assert arcade.shown(MatchScene).devices[:2] == [KEYS[0], KEYS[2]]
 
@@ -163,21 +156,20 @@ def test_the_prompts_can_be_clicked(arcade: Arcade) -> None:
 
 def test_all_enter_three_letters_at_once_each_on_the_own_device(arcade: Arcade) -> None:
     results = opened(arcade, "human human level5 human", outcome({0: 4, 1: 9, 2: 12, 3: -7}, (2,)))
-    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
-    page = arcade.shown(Initials)
+    page = arcade.reach(Initials)
     assert [claim.seat for claim in page.claims] == [0, 1], "an AI and a loss do not count"
-    arcade.press(Button.DOWN, KEYS[1])
+    arcade.press(Button.DOWN, device=KEYS[1])
     arcade.wait(1.0)
     for button in (Button.UP, Button.FIRE, Button.DOWN, Button.DOWN, Button.FIRE, Button.BACK, Button.FIRE):
-        arcade.press(button, KEYS[1])
-        arcade.press(Button.DOWN, KEYS[3])  # the other players have no effect
-        arcade.press(Button.START, KEYS[2])
+        arcade.press(button, device=KEYS[1])
+        arcade.press(Button.DOWN, device=KEYS[3])  # the other players have no effect
+        arcade.press(Button.START, device=KEYS[2])
         arcade.frame(draw=True)
-    arcade.press(Button.DOWN, KEYS[0])
+    arcade.press(Button.DOWN, device=KEYS[0])
     assert [page.spellings[KEYS[seat]].spelled for seat in (0, 1)] == ["BAA", "ZCA"]
-    arcade.press(Button.START, KEYS[0])
+    arcade.press(Button.START, device=KEYS[0])
     assert arcade.shown(Initials) is page, "START of one player does not accept the letters of another"
-    arcade.press(Button.FIRE, KEYS[1])
+    arcade.press(Button.FIRE, device=KEYS[1])
     arcade.wait(2.0, draw=True)
     assert [row.initials for row in arcade.shown(HighScores).fresh] == ["BAA", "ZCA"]
     arcade.press(Button.FIRE)
@@ -193,9 +185,8 @@ def test_after_ten_seconds_letters_are_taken_as_they_are_but_not_those_of_somebo
     opened(arcade, "human human human off", outcome({0: 4, 1: 9, 2: 3}, (1,)))
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     arcade.wait(1.0)
-    arcade.press(Button.UP, KEYS[0])
-    for _ in range(30):
-        arcade.press(Button.FIRE, KEYS[1])
+    arcade.press(Button.UP, device=KEYS[0])
+    arcade.press(*[Button.FIRE] * 30, device=KEYS[1])
     waited = 1.0 + arcade.until(lambda: isinstance(arcade.stack.top, HighScores))
     assert waited == pytest.approx(SECONDS, abs=0.2)
     assert [row.initials for row in arcade.shown(HighScores).fresh] == ["ZAA"]
@@ -210,23 +201,19 @@ def test_rude_words_and_their_look_alikes_are_refused(arcade: Arcade) -> None:
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     arcade.wait(1.0)
     for device in (KEYS[0], KEYS[3]):
-        for button in (Button.RIGHT, *[Button.UP] * 8, Button.RIGHT, *[Button.DOWN] * 18, Button.START):
-            arcade.press(button, device)
+        arcade.press(Button.RIGHT, *[Button.UP] * 8, Button.RIGHT, *[Button.DOWN] * 18, Button.START, device=device)
     page = arcade.shown(Initials)
     assert page.spellings[KEYS[0]].refused
     assert not page.spellings[KEYS[0]].done
-    arcade.press(Button.UP, KEYS[0])
-    arcade.press(Button.FIRE, KEYS[0])
-    arcade.until(lambda: isinstance(arcade.stack.top, HighScores))
-    assert [row.initials for row in arcade.shown(HighScores).fresh] == ["ASR", HARMLESS]
+    arcade.press(Button.UP, Button.FIRE, device=KEYS[0])
+    assert [row.initials for row in arcade.reach(HighScores).fresh] == ["ASR", HARMLESS]
 
 
 def test_only_the_top_eight_of_today_or_ever_are_asked_the_match_itself_included(arcade: Arcade) -> None:
     for score in (20, 19, 18, 17, 16, 15, 14):
         arcade.context.scores.add(replace(ALONE, people=3), "ABC", score)
     opened(arcade, "human human human off", outcome({0: 4, 1: 9, 2: 3}, (1,)))
-    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
-    assert [(claim.seat, claim.places) for claim in arcade.shown(Initials).claims] == [
+    assert [(claim.seat, claim.places) for claim in arcade.reach(Initials).claims] == [
         (1, ((("results.today", 8), ("results.ever", 8)),))
     ]
 
@@ -236,18 +223,15 @@ def test_eight_better_ones_long_ago_leave_todays_table(arcade: Arcade) -> None:
     for _ in range(9):
         arcade.context.scores.add(replace(ALONE, people=2), "ABC", 20, long_ago)
     opened(arcade, "human off off human", outcome({0: 4, 3: 5}, (3,)))
-    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
-    assert [claim.places for claim in arcade.shown(Initials).claims] == [
+    assert [claim.places for claim in arcade.reach(Initials).claims] == [
         ((("results.today", 2),),),
         ((("results.today", 1),),),
     ]
 
 
 def test_a_seat_for_which_an_ai_drove_claims_nothing(arcade: Arcade) -> None:
-    match = setup("human human off off", 1.0)
     ended = outcome({0: 4, 1: 9}, (1,))
-    again = MatchScene(arcade.context, match, KEYS[:2]).sequel.rematch
-    results = Results(arcade.context, ended, match, [KEYS[0], KEYS[1], None, None], again, True, {1}, game_choice)
+    results = results_of(arcade, setup("human human off off", 1.0), ended, ai_assisted={1})
     assert [claim.seat for claim in results.claims] == [0]
 
 
@@ -255,7 +239,7 @@ def test_enter_counts_for_nobody_while_two_players_share_a_keyboard(arcade: Arca
     opened(arcade, "human human off off", outcome({0: 4, 1: 9}, (1,)))
     arcade.until(lambda: isinstance(arcade.stack.top, Initials))
     arcade.wait(1.0)
-    arcade.press(Button.UP, KEYS[1])
+    arcade.press(Button.UP, device=KEYS[1])
     arcade.stack.top.handle(InputEvent(Button.START, KEYS[1], among=(KEYS[1], KEYS[0], KEYS[2], KEYS[3])))
     assert not any(spelling.done for spelling in arcade.shown(Initials).spellings.values())
 
@@ -267,16 +251,11 @@ def test_nobody_chooses_and_nothing_is_written(arcade: Arcade) -> None:
     assert not arcade.context.scores.tables()
 
 
-def test_a_match_that_was_broken_off_is_no_record(arcade: Arcade) -> None:
-    results = opened(arcade, "human level5 off off", outcome({0: 4, 1: -4}, (0,)), finished=False)
-    arcade.wait(5.0)
-    assert arcade.stack.top is results
-
-
-def test_a_low_score_is_no_record(arcade: Arcade) -> None:
-    for _ in range(10):
+@pytest.mark.parametrize("finished", [False, True])
+def test_a_match_that_was_broken_off_and_a_low_score_are_no_records(arcade: Arcade, finished: bool) -> None:
+    for _ in range(10 * finished):
         arcade.context.scores.add(ALONE, "ABC", 20)
-    results = opened(arcade, "human level5 off off", outcome({0: 4, 1: -4}, (0,)))
+    results = opened(arcade, "human level5 off off", outcome({0: 4, 1: -4}, (0,)), finished=finished)
     arcade.wait(5.0)
     assert arcade.stack.top is results
 
@@ -309,38 +288,25 @@ def test_a_team_is_the_sum_of_its_robots() -> None:
 
 def race(arcade: Arcade, lap: int, whole: int) -> Results:
     """A race of three laps on the classic track, won by player 1, with best lap and total time in ms."""
-    human, ai = Seat("human", 0), Seat("level5", 1)
-    match = Setup("race", "classic", (human, ai, Seat("off", 2), Seat("off", 3)), 10, 3, "standard", 3)
+    match = setup_of("race", "human level5", "classic", 10, 3, goal=3)
     facts = {"laps": 3, "best": lap / 1000.0, "total": whole / 1000.0}
     rows = [
         Row(0, 0, 1, 3, facts, {"lap": lap, "race": whole}, (lap / 1000.0, 12.0, 11.5)),
         Row(1, 1, 2, 2, facts, {"lap": lap + 500, "race": 0}, (12.5, 13.0)),
     ]
     ended = Outcome(tuple(rows), (0,), (((0.0, 0), (30.0, 3)), ((0.0, 0), (30.0, 2)), ((0.0, 0),), ((0.0, 0),)), 60.0)
-    devices = [KEYS[0], None, None, None]
-    results = Results(
-        arcade.context,
-        ended,
-        match,
-        devices,
-        MatchScene(arcade.context, match, devices).sequel.rematch,
-        True,
-        game_choice=game_choice,
-    )
-    arcade.open(results)
-    return results
+    return arcade.open(results_of(arcade, match, ended))
 
 
 def test_three_letters_stand_for_the_best_lap_and_the_best_race(arcade: Arcade) -> None:
     race(arcade, 9_870, 30_120)
-    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
-    [claim] = arcade.shown(Initials).claims
+    [claim] = arcade.reach(Initials).claims
     assert (claim.seat, [(table.achievement, value) for table, value in claim.achievements]) == (
         0,
         [("lap", 9_870), ("race", 30_120)],
     )
     arcade.wait(1.0)
-    arcade.press(Button.START, KEYS[0])
+    arcade.press(Button.START, device=KEYS[0])
     arcade.wait(2.0, draw=True)
     arcade.shown(HighScores)
     saved, said = Scores.load(folders().data)
@@ -354,8 +320,7 @@ def test_a_slow_race_with_a_fast_lap_claims_the_lap_alone(arcade: Arcade) -> Non
     for _ in range(10):
         arcade.context.scores.add(RACE, "ABC", 20_000)
     race(arcade, 9_870, 30_120)
-    arcade.until(lambda: isinstance(arcade.stack.top, Initials))
-    [claim] = arcade.shown(Initials).claims
+    [claim] = arcade.reach(Initials).claims
     assert [table.achievement for table, _ in claim.achievements] == ["lap"]
 
 

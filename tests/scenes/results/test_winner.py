@@ -7,29 +7,22 @@ import pytest
 
 from pigaming_app.games.game import Outcome
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.lobby.scene import game_choice
-from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.celebration import Celebration, confetti
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import LENGTH, MIDDLE, POPS, SKIP, WinnersMoment, celebrated, popped, title
 from pigaming_app.ui.draw import ICE, PLAYERS
 from pigaming_app.ui.i18n import LANGUAGES
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import KEYS, Arcade, setup
-from tests.scenes.results.test_results import outcome
+from tests.scenes.results.test_results import outcome, results_of
 from tests.scenes.screens import ENDINGS
 
 FRAME = 1 / 30
 
 
 def moment(arcade: Arcade, brains: str, ended: Outcome, teams: tuple[int, ...] = (0, 1, 2, 3)) -> WinnersMoment:
-    match = setup(brains, 1.0, teams)
-    devices = [KEYS[i] if seat.brain == "human" else None for i, seat in enumerate(match.seats)]
-    again = MatchScene(arcade.context, match, devices).sequel.rematch
-    results = Results(arcade.context, ended, match, devices, again, game_choice=game_choice)
-    scene = WinnersMoment(arcade.context, results.ended, results)
-    arcade.open(scene)
+    results = results_of(arcade, setup(brains, 1.0, teams), ended)
+    scene = arcade.open(WinnersMoment(arcade.context, results.ended, results))
     return scene
 
 
@@ -43,19 +36,16 @@ WON = outcome({0: 12, 1: -3, 2: 7, 3: 5}, (0,))
 
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("name", list(ENDINGS))
-def test_every_ending_has_its_moment_within_the_picture(controls: Controls, name: str, language: str) -> None:
-    arcade = Arcade(controls, language)
+def test_every_ending_has_its_moment_within_the_picture(arcade: Arcade, name: str) -> None:
     results = ENDINGS[name].results(arcade)
-    scene = WinnersMoment(arcade.context, results.ended, results)
-    arcade.open(scene)
+    scene = arcade.open(WinnersMoment(arcade.context, results.ended, results))
     arcade.wait(LENGTH - 0.4, fps=10, draw=True)
     assert title(scene.name, scene.size, scene.color).image.get_width() <= 1920 - 2 * 96
     for pop in range(POPS):
         sprite = popped(scene.name, scene.size, scene.color, pop)
         assert MIDDLE[0] + sprite.dx >= 48, "as it appears, too"
         assert MIDDLE[0] + sprite.dx + sprite.image.get_width() <= 1920 - 48
-    arcade.until(lambda: isinstance(arcade.stack.top, Results), 2.0)
-    arcade.shown(Results)
+    arcade.reach(Results, 2.0)
 
 
 @pytest.mark.parametrize(
@@ -109,7 +99,7 @@ def test_players_skip_it_after_a_second_and_free_devices_do_not(arcade: Arcade) 
     arcade.press(Button.FIRE)
     assert arcade.stack.top is scene
     arcade.wait(0.2)
-    arcade.press(Button.FIRE, KEYS[3])
+    arcade.press(Button.FIRE, device=KEYS[3])
     arcade.press(Button.X)
     assert arcade.stack.top is scene
     arcade.press(Button.FIRE)
@@ -146,7 +136,7 @@ def test_everything_is_rendered_before_it_is_shown(
         pass
     made: list[object] = []
     real = pygame.transform.smoothscale_by
-    monkeypatch.setattr(pygame.transform, "smoothscale_by", lambda *all_of_them: made.append(1) or real(*all_of_them))
+    monkeypatch.setattr(pygame.transform, "smoothscale_by", lambda *all_of_them: made.append(1) or real(*all_of_them))  # type: ignore[func-returns-value]
     arcade.wait(1.5, draw=True)
     assert not made
 

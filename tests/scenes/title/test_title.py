@@ -15,20 +15,17 @@ from pigaming_app.scenes.title.kiosk_unlock import HOLD
 from pigaming_app.scenes.title.language import BOX as LANGUAGE_BOX
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views.game_tile import TileStrip
-from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw.frame_budget import budget, clock
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.focus import Focus
-from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
 
 @pytest.fixture(autouse=True)
 def _prepared(arcade: Arcade) -> None:
-    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     arcade.stack = Stack(Title(arcade.context))
 
 
@@ -118,10 +115,7 @@ SAFE = pygame.Rect(96, 54, 1728, 972)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_every_game_of_a_clone_is_in_the_first_view_and_nothing_lies_on_something_else(
-    arcade: Arcade, language: str
-) -> None:
-    arcade.context.words.switch(language)
+def test_every_game_of_a_clone_is_in_the_first_view_and_nothing_lies_on_something_else(arcade: Arcade) -> None:
     spots = Title(arcade.context).focus.spots
     assert {"pitanks", "factory", "race", "football"} <= {spot.name for spot in spots}
     assert all(SAFE.contains(spot.rect) for spot in spots)

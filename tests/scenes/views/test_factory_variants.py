@@ -1,5 +1,7 @@
 """The views of party and together, and what every variant announces: deliveries, countdowns, tasks of team mates."""
 
+from typing import Any
+
 import pygame
 import pytest
 
@@ -20,7 +22,6 @@ from pigaming_app.games.factory.state import (
     ON_ROBOT,
     SHELVES,
 )
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.bench.busy_drivers import BusyFactory
@@ -34,6 +35,7 @@ from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw.surface_cache import BUDGET, surfaces
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from tests.cases import repeated
+from tests.matches import setup_of
 
 HUMANS = ("human",) * 4
 INPUT_A, OUTPUT_A = MACHINE_SLOTS, MACHINE_SLOTS + 1
@@ -41,22 +43,14 @@ EXIT_ICE = SHELVES
 LEFT_PANEL, CLOCK, RIGHT_PANEL = (160, 0, 652, 136), (830, 0, 260, 136), (1108, 0, 652, 136)
 
 
-@pytest.fixture
-def screen():
-    pygame.display.init()
-    pygame.font.init()
-    return pygame.display.set_mode((1920, 1080))
-
-
 def begun(variant="standard", goal=None, floor="hall"):
-    rules = games()["factory"].variants[variant]
-    one, two, three, four = (Seat("human", team) for team in rules.teams)
-    goal = rules.default_goal if goal is None else goal
-    return Match(Setup("factory", floor, (one, two, three, four), float(rules.default_minutes), 3, variant, goal))
+    minutes = float(games()["factory"].variants[variant].default_minutes)
+    return Match(setup_of("factory", HUMANS, floor, minutes, 3, variant, goal))
 
 
 def seen(match, players=HUMANS, language="en"):
-    return SCREENS["factory"].view(match.arena, match.state, list(players), AllEffects(), Words(language))
+    """A view of a match, and its state."""
+    return SCREENS["factory"].view(match.arena, match.state, list(players), AllEffects(), Words(language)), match.state
 
 
 def sounds(view, state):
@@ -88,8 +82,7 @@ def deliver(state, p, k, s=EXIT_ICE, points=1):
 
 @pytest.mark.parametrize("team", [ICE, FIRE])
 def test_a_delivery_is_called_out_at_the_exit_with_the_jingle_of_the_team(screen, team):
-    match = begun()
-    view, state, p = seen(match), match.state, team * MAX_PALLETS
+    (view, state), p = seen(begun()), team * MAX_PALLETS
     move(state, p, ON_ROBOT, team)
     view.watch(state)
     deliver(state, p, team, team * 2 * SHELVES + SHELVES)
@@ -105,13 +98,12 @@ def test_a_delivery_is_called_out_at_the_exit_with_the_jingle_of_the_team(screen
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("team", [ICE, FIRE])
 def test_words_at_an_exit_stay_on_the_picture(screen, language, team):
-    match = begun(floor="yard")
-    view, state = seen(match, language=language), match.state
+    view, state = seen(begun(floor="yard"), language=language)
     for kind in (ENTRY, EXIT):
         for i in range(SHELVES):
             slot = state.slots[team * 2 * SHELVES + (SHELVES if kind == EXIT else 0) + i]
             view.notes.add(0.0, 160 + slot.x, 140 + slot.y, "delivered", (255, 255, 255))
-            top = []
+            top: list[Any] = []
             view.notes.draw(top, 0.01)
             image, (x, y) = top[-1]
             assert x >= 0
@@ -122,8 +114,7 @@ def test_words_at_an_exit_stay_on_the_picture(screen, language, team):
 
 @pytest.mark.parametrize("variant", ["standard", "together"])
 def test_one_to_go_is_a_banner_with_a_sound_once(screen, variant):
-    match = begun(variant, goal=4)
-    view, state = seen(match), match.state
+    view, state = seen(begun(variant, goal=4))
     heard = []
     looks = []
     for p, place in enumerate((0, 2, 1)):
@@ -137,8 +128,7 @@ def test_one_to_go_is_a_banner_with_a_sound_once(screen, variant):
 
 
 def test_an_output_counts_down_before_a_worker_clears_it(screen):
-    match = begun()
-    view, state = seen(match, ["level5"] * 4), match.state
+    view, state = seen(begun(), ["level5"] * 4)
     move(state, 0, IN_SLOT, OUTPUT_A)
     pallet, slot = state.pallets[0], state.slots[OUTPUT_A]
     pallet.state = HALF
@@ -153,8 +143,7 @@ def test_an_output_counts_down_before_a_worker_clears_it(screen):
 
 
 def test_a_machine_counts_down_before_it_jams(screen):
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     machine = state.machines[0]
     move(state, 0, IN_MACHINE, 0)
     machine.reserved, machine.left = 1, 300
@@ -177,8 +166,7 @@ def test_a_machine_counts_down_before_it_jams(screen):
 
 
 def test_no_jam_is_announced_while_the_input_is_empty():
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     move(state, 0, IN_MACHINE, 0)
     state.machines[0].reserved, state.machines[0].left = 1, HZ + 1
     view.watch(state)
@@ -188,8 +176,7 @@ def test_no_jam_is_announced_while_the_input_is_empty():
 
 @pytest.mark.parametrize(("brain", "shown"), [("human", True), ("level5", False)])
 def test_the_task_of_an_ai_is_shown_to_its_human_mate(screen, brain, shown):
-    match = begun()
-    view, state = seen(match, [brain, "level5", "level5", "level5"]), match.state
+    view, state = seen(begun(), [brain, "level5", "level5", "level5"])
     box = around(state.slots[0].x, state.slots[0].y, 100)
     view.guide.slots = [-1, -1, 0, -1]
     mate = pixels(screen, view, state, box)
@@ -222,8 +209,7 @@ def test_waiting_is_no_task():
 
 
 def test_points_count_in_party_and_a_rush_order_shows_plus_two(screen):
-    match = begun("party")
-    view, state = seen(match), match.state
+    view, state = seen(begun("party"))
     move(state, 0, ON_ROBOT, 0)
     view.watch(state)
     none = pixels(screen, view, state, LEFT_PANEL)
@@ -235,8 +221,7 @@ def test_points_count_in_party_and_a_rush_order_shows_plus_two(screen):
 
 
 def test_a_rush_order_is_announced_shrinks_and_expires(screen):
-    match = begun("party")
-    view, state = seen(match), match.state
+    view, state = seen(begun("party"))
     pallet, slot = state.pallets[0], state.slots[state.pallets[0].at]
     view.watch(state)
     plain = pixels(screen, view, state, LEFT_PANEL), pixels(screen, view, state, around(slot.x, slot.y))
@@ -259,8 +244,7 @@ def test_a_rush_order_is_announced_shrinks_and_expires(screen):
 
 
 def test_a_rush_order_that_is_delivered_in_time_does_not_expire():
-    match = begun("party")
-    view, state = seen(match), match.state
+    view, state = seen(begun("party"))
     state.pallets[0].rush = 1
     move(state, 0, ON_ROBOT, 0)
     view.watch(state)
@@ -270,8 +254,7 @@ def test_a_rush_order_that_is_delivered_in_time_does_not_expire():
 
 
 def test_a_theft_is_heard_and_called_out_on_the_panel_of_the_robbed_team(screen):
-    match = begun("party")
-    view, state = seen(match), match.state
+    view, state = seen(begun("party"))
     move(state, 0, IN_SLOT, OUTPUT_A)
     view.watch(state)
     before = [pixels(screen, view, state, box) for box in (LEFT_PANEL, RIGHT_PANEL)]
@@ -287,8 +270,7 @@ def test_a_theft_is_heard_and_called_out_on_the_panel_of_the_robbed_team(screen)
 
 
 def test_a_loose_pallet_looks_like_neither_teams_until_somebody_lifts_it(screen):
-    match = begun("party")
-    view, state = seen(match), match.state
+    view, state = seen(begun("party"))
     p = next(p for p, pallet in enumerate(state.pallets) if pallet.exists and pallet.loose)
     slot = state.slots[state.pallets[p].at]
     assert state.pallets[p].team == NOBODY
@@ -300,8 +282,7 @@ def test_a_loose_pallet_looks_like_neither_teams_until_somebody_lifts_it(screen)
 
 
 def test_a_ring_tells_whose_a_processed_pallet_is_and_when_anybody_may_take_it(screen):
-    match = begun("party")
-    view, state = seen(match), match.state
+    view, state = seen(begun("party"))
     move(state, 0, IN_SLOT, OUTPUT_A)
     state.pallets[0].state = HALF
     slot, looks = state.slots[OUTPUT_A], []
@@ -315,8 +296,7 @@ def test_a_ring_tells_whose_a_processed_pallet_is_and_when_anybody_may_take_it(s
 
 
 def test_the_fast_machine_stands_out_and_the_next_one_is_announced(screen):
-    match = begun("party")
-    view, state = seen(match), match.state
+    view, state = seen(begun("party"))
     (now,) = (m for m in range(4) if state.machines[m].fast)
     after = contest.next_fast(state)
     assert now != after
@@ -333,8 +313,7 @@ def test_the_fast_machine_stands_out_and_the_next_one_is_announced(screen):
 
 
 def test_overtime_is_called_where_the_clock_was(screen):
-    match = begun("party")
-    view, state = seen(match), match.state
+    view, state = seen(begun("party"))
     state.tick = state.rules.ticks - 1
     last = pixels(screen, view, state, CLOCK)
     state.tick = state.rules.ticks
@@ -348,8 +327,7 @@ def test_overtime_is_called_where_the_clock_was(screen):
 
 
 def test_a_star_is_lost_when_the_clock_passes_its_time(screen):
-    match = begun("together")
-    view, state = seen(match), match.state
+    view, state = seen(begun("together"))
     limits = star_panel.limits(state)
     assert limits[0] > limits[1] > limits[2] > 0
     looks, heard = [], []
@@ -366,7 +344,7 @@ def test_the_clock_of_allies_counts_up(screen):
     match = begun("together")
     state = match.state
     assert [star_panel.clock(seconds) for seconds in (0, 9, 75)] == ["0:00", "0:09", "1:15"]
-    view = seen(match)
+    view, _ = seen(match)
     looks = set()
     for tick in (0, HZ, 2 * HZ):
         state.tick = tick
@@ -376,8 +354,7 @@ def test_the_clock_of_allies_counts_up(screen):
 
 @pytest.mark.parametrize("goal", games()["factory"].variants["together"].goals)
 def test_every_pallet_of_allies_is_in_their_panel(screen, goal):
-    match = begun("together", goal=goal)
-    view, state = seen(match), match.state
+    view, state = seen(begun("together", goal=goal))
     own = [p for p, pallet in enumerate(state.pallets) if pallet.exists]
     assert len(own) == goal
     looks = {pixels(screen, view, state, LEFT_PANEL)}
@@ -392,7 +369,7 @@ def test_every_pallet_of_allies_is_in_their_panel(screen, goal):
 @pytest.mark.parametrize("variant", ["standard", "together"])
 def test_allies_have_warehouses_of_one_colour(screen, variant):
     match = begun(variant)
-    view, state = seen(match), match.state
+    view, state = seen(match)
     for robot in state.robots:
         robot.present = 0
     pixels(screen, view, state, (0, 0, 1, 1))

@@ -5,7 +5,6 @@ import math
 import pygame
 import pytest
 
-from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.pallets import move
 from pigaming_app.games.factory.state import (
@@ -29,34 +28,27 @@ from pigaming_app.games.factory.state import (
     A,
     B,
 )
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.match import Match
 from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.factory.next_step import next_slot
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.record import digest
+from pigaming_app.ui.i18n import Words
 from tests.cases import repeated
+from tests.matches import match_of
 
 HUMANS = ["human"] * 4
 INPUT_A, OUTPUT_A = MACHINE_SLOTS, MACHINE_SLOTS + 1
 EXIT_ICE = SHELVES
 
 
-@pytest.fixture
-def screen():
-    pygame.display.init()
-    pygame.font.init()
-    return pygame.display.set_mode((1920, 1080))
-
-
-def begun(floor="hall", goal=4, brains=("human",) * 4, teams=(ICE, FIRE, ICE, FIRE)):
-    one, two, three, four = (Seat(brain, team) for brain, team in zip(brains, teams, strict=True))
-    setup = Setup("factory", floor, (one, two, three, four), 5.0, 3, "standard", goal)
-    return new_match(setup) if "level5" in brains else Match(setup)
+def begun(floor="hall", goal=4, brains=("human",) * 4):
+    return match_of("factory", brains, floor, 5.0, 3, "standard", goal)
 
 
 def seen(match, players=HUMANS, taste=None):
-    return SCREENS["factory"].view(match.arena, match.state, list(players), taste or AllEffects())
+    """A view of a match, and its state."""
+    view = SCREENS["factory"].view(match.arena, match.state, list(players), taste or AllEffects(), Words("en"))
+    return view, match.state
 
 
 def sounds(view, state):
@@ -80,7 +72,7 @@ def feed(state, p, s, kind=IN_SLOT):
 @pytest.mark.parametrize(("goal", "floor"), repeated((goal, floor) for goal in (8, 2) for floor in arenas("factory")))
 def test_a_match_among_drivers_draws_and_is_left_alone(screen, floor, goal):
     match = begun(floor, goal, ("level5",) * 4)
-    view = seen(match, ["level5"] * 4)
+    view, _ = seen(match, ["level5"] * 4)
     heard = set()
     for tick in range(1500):
         match.tick()
@@ -93,8 +85,7 @@ def test_a_match_among_drivers_draws_and_is_left_alone(screen, floor, goal):
 
 
 def test_a_pallet_is_heard_once_when_lifted_and_once_when_set_down(screen):
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     robot = state.robots[0]
     feed(state, 0, 0, ON_ROBOT)
     assert view.watch(state) == [("lift", 0, robot.x)]
@@ -105,8 +96,7 @@ def test_a_pallet_is_heard_once_when_lifted_and_once_when_set_down(screen):
 
 
 def test_a_pallet_that_was_just_moved_is_larger_for_a_moment(screen):
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     feed(state, 0, INPUT_A)
     feed(state, 0, 0, ON_ROBOT)
     view.watch(state)
@@ -117,8 +107,7 @@ def test_a_pallet_that_was_just_moved_is_larger_for_a_moment(screen):
 
 
 def test_a_load_lies_on_the_forks(screen):
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     robot = state.robots[0]
     x, y = robot.x + 64 * math.cos(robot.heading), robot.y + 64 * math.sin(robot.heading)
     empty = picture(screen, view, state, x, y, 20)
@@ -129,8 +118,7 @@ def test_a_load_lies_on_the_forks(screen):
 
 @pytest.mark.parametrize("team", [ICE, FIRE])
 def test_every_state_of_a_pallet_of_each_team_looks_its_own(screen, team):
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     p = team * MAX_PALLETS
     slot = state.slots[INPUT_A]
     feed(state, p, INPUT_A)
@@ -143,8 +131,7 @@ def test_every_state_of_a_pallet_of_each_team_looks_its_own(screen, team):
 
 def test_states_are_told_apart_without_colours(screen):
     """In greyscale at a quarter of the size, all states differ."""
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     feed(state, 0, INPUT_A)
     greys = []
     for form in (RAW, HALF, DONE, DAMAGED, DELIVERED):
@@ -160,8 +147,7 @@ def test_states_are_told_apart_without_colours(screen):
 
 
 def test_a_machine_shows_how_far_it_is_and_whose_pallet_it_has(screen):
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     machine = state.machines[0]
     pictures = {picture(screen, view, state, machine.x, machine.y, 80)}
     for p in (0, MAX_PALLETS):
@@ -175,8 +161,7 @@ def test_a_machine_shows_how_far_it_is_and_whose_pallet_it_has(screen):
 
 
 def test_a_machine_that_is_done_is_heard_once(screen):
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     feed(state, 0, INPUT_A)
     view.watch(state)
     feed(state, 0, 0, IN_MACHINE)
@@ -188,8 +173,7 @@ def test_a_machine_that_is_done_is_heard_once(screen):
 
 
 def test_a_delivery_is_heard_once_sparks_and_counts(screen):
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     state.pallets[0].state = DONE
     feed(state, 0, 0, ON_ROBOT)
     view.watch(state)
@@ -208,8 +192,7 @@ def test_a_delivery_is_heard_once_sparks_and_counts(screen):
 
 
 def test_a_spoiled_pallet_is_heard_and_its_replacement_is_counted_down(screen):
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     feed(state, 0, 0, ON_ROBOT)
     view.watch(state)
     feed(state, 0, INPUT_A + 2)
@@ -230,8 +213,7 @@ def test_a_spoiled_pallet_is_heard_and_its_replacement_is_counted_down(screen):
 
 
 def test_a_press_that_can_do_nothing_shakes_the_robot_and_is_heard_once(screen):
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     robot, load = state.robots[1], state.loads[1]
     still = picture(screen, view, state, robot.x, robot.y, 90)
     load.refused = 1
@@ -247,8 +229,7 @@ def test_a_press_that_can_do_nothing_shakes_the_robot_and_is_heard_once(screen):
 
 
 def test_a_robot_that_drove_over_somebody_counts_down_and_the_person_shouts(screen):
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     load, worker, robot = state.loads[2], state.workers[0], state.robots[2]
     calm = picture(screen, view, state, worker.x + 26, worker.y - 56, 30)
     load.frozen, worker.touched[2] = 150, 1
@@ -263,8 +244,7 @@ def test_a_robot_that_drove_over_somebody_counts_down_and_the_person_shouts(scre
 
 
 def test_people_and_robots_are_seen_between_two_ticks(screen):
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     worker = state.workers[1]
     x, y = worker.x, worker.y
     view.watch(state)
@@ -278,8 +258,7 @@ def test_people_and_robots_are_seen_between_two_ticks(screen):
 
 
 def test_waiting_and_delivered_pallets_are_counted_beside_the_warehouses(screen):
-    match = begun(goal=8)
-    view, state = seen(match), match.state
+    view, state = seen(begun(goal=8))
     entry, out = state.slots[0], state.slots[EXIT_ICE]
     assert sum(pallet.place == WAITING for pallet in state.pallets[:MAX_PALLETS]) == 4
     four = picture(screen, view, state, entry.x - 150, entry.y - 14)
@@ -303,7 +282,7 @@ def test_people_are_shown_the_next_step_and_drivers_their_aim(screen):
     state.pallets[0].state = DONE
     assert next_slot(state, 0, -1) in range(EXIT_ICE, EXIT_ICE + SHELVES)
 
-    view, mates = seen(match, ["human", "level5", "level5", "level5"]), state.loads[3]
+    (view, _), mates = seen(match, ["human", "level5", "level5", "level5"]), state.loads[3]
     mates.aim = 1 + INPUT_A
     for _ in range(10):
         view.watch(state)
@@ -317,8 +296,7 @@ def test_people_are_shown_the_next_step_and_drivers_their_aim(screen):
 
 @pytest.mark.parametrize("goal", [2, 4, 7, 8])
 def test_every_pallet_fits_into_its_teams_panel(screen, goal):
-    match = begun(goal=goal)
-    view, state = seen(match), match.state
+    view, state = seen(begun(goal=goal))
     view.draw(screen, state, 1.0, 0.0)
     whole = []
     for p in (*range(goal), *range(MAX_PALLETS, MAX_PALLETS + goal)):
@@ -331,8 +309,7 @@ def test_every_pallet_fits_into_its_teams_panel(screen, goal):
 
 
 def test_the_clock_says_when_time_runs_out(screen):
-    match = begun()
-    view, state = seen(match), match.state
+    view, state = seen(begun())
     box = pygame.Rect(830, 0, 260, 136)
     colors = []
     for left in (60, 11, 10):
@@ -347,8 +324,7 @@ def test_the_clock_says_when_time_runs_out(screen):
 def test_without_flashes_a_delivery_makes_no_wave(screen):
     taste = AllEffects()
     taste.flashes = "off"
-    match = begun()
-    view, state = seen(match, taste=taste), match.state
+    view, state = seen(begun(), taste=taste)
     feed(state, 0, 0, ON_ROBOT)
     view.watch(state)
     feed(state, 0, EXIT_ICE)

@@ -7,37 +7,25 @@ import pytest
 
 from pigaming_app.games.pitanks.rules import judge
 from pigaming_app.games.pitanks.state import OWN_BULLETS
-from pigaming_app.scenes.bench.busy_pitanks import BusyPiTanks
 from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud.parts import CLOCK
 from pigaming_app.scenes.views.pitanks.banner import CELLS
 from pigaming_app.scenes.views.pitanks.view import PiTanksView
 from pigaming_app.scenes.views.sprites import party as sprites
-from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import HZ
-from pigaming_app.ui.i18n import LANGUAGES, Words
+from pigaming_app.ui.i18n import Words
 from tests.floor import arena, pitanks
 
 POSES = [(400.0, 450.0, 0.0), (800.0, 450.0, math.pi), (1200.0, 450.0, math.pi)]
 MARKER = 72  # px, radius of the disc of a real robot
 
 
-@pytest.fixture
-def screen():
-    pygame.display.init()
-    pygame.font.init()
-    return pygame.display.set_mode((1920, 1080))
-
-
 def match(variant="party"):
+    """The state of a match, and its view."""
     state = pitanks(POSES, variant=variant)
     state.next_pickup = 1_000_000
-    return state
-
-
-def seen(state, language="en"):
-    return PiTanksView(arena(poses=POSES), state, ["human"] * 4, AllEffects(), Words(language))
+    return state, PiTanksView(arena(poses=POSES), state, ["human"] * 4, AllEffects(), Words("en"))
 
 
 def hit(state, shooter, victim):
@@ -60,8 +48,7 @@ def clock(screen, view, state):
 
 
 def test_the_points_rise_at_the_hit_in_the_colour_of_the_shooter():
-    state = match()
-    view = seen(state)
+    state, view = match()
     state.robots[1].score = 5
     sounds(view, state)
     hit(state, 0, 1)
@@ -71,8 +58,7 @@ def test_the_points_rise_at_the_hit_in_the_colour_of_the_shooter():
 
 
 def test_of_two_hits_in_one_tick_both_points_rise():
-    state = match()
-    view = seen(state)
+    state, view = match()
     hit(state, 0, 1)
     hit(state, 1, 2)
     sounds(view, state)
@@ -80,8 +66,7 @@ def test_of_two_hits_in_one_tick_both_points_rise():
 
 
 def test_a_hit_that_scores_nothing_in_overtime_raises_no_points():
-    state = match()
-    view = seen(state)
+    state, view = match()
     state.tick, state.robots[0].score, state.robots[1].score = state.rules.ticks - 1, 3, 3
     sounds(view, state)
     hit(state, 2, 1)
@@ -90,16 +75,14 @@ def test_a_hit_that_scores_nothing_in_overtime_raises_no_points():
 
 
 def test_by_other_rules_both_robots_show_their_change():
-    state = match("plain")
-    view = seen(state)
+    state, view = match("plain")
     hit(state, 0, 1)
     sounds(view, state)
     assert sorted(popup.text for popup in view.particles.scores) == ["+1", "−1"]
 
 
 def test_light_finale_and_overtime_are_heard_once():
-    state = match()
-    view = seen(state)
+    state, view = match()
     assert sounds(view, state, 5 * HZ).count("missed") == 3
     state.tick = state.rules.ticks - 20 * HZ - 2
     assert sounds(view, state, 10).count("last_lap") == 1
@@ -107,10 +90,8 @@ def test_light_finale_and_overtime_are_heard_once():
     assert sounds(view, state, 10).count("go") == 1
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_the_banner_follows_the_phases_of_the_match(screen, language):
-    state = match()
-    view = seen(state, language)
+def test_the_banner_follows_the_phases_of_the_match(screen):
+    state, view = match()
     ticks = state.rules.ticks
     pictures = []
     for tick, content in (
@@ -129,8 +110,7 @@ def test_the_banner_follows_the_phases_of_the_match(screen, language):
 
 
 def test_in_overtime_all_who_may_score_have_the_crown(screen):
-    state = match()
-    view = seen(state)
+    state, view = match()
     state.tick = state.rules.ticks - 1
     state.robots[0].score = state.robots[2].score = 4
     sounds(view, state)
@@ -144,8 +124,7 @@ def brightness(screen, x, y, r):
 
 
 def test_a_lit_robot_stands_in_light_and_a_warning_comes_before(screen):
-    state = match()
-    view = seen(state)
+    state, view = match()
     shown = []
     for camped, lit in ((0, 0), (3.5 * HZ, 0), (4 * HZ, 1)):
         tank = state.tanks[0]
@@ -156,8 +135,7 @@ def test_a_lit_robot_stands_in_light_and_a_warning_comes_before(screen):
 
 
 def test_the_stars_of_a_real_robot_keep_off_its_marker(screen):
-    state = match()
-    view = seen(state)
+    state, view = match()
     state.tanks[0].knocked_out = 20
     state.robots[0].x = 400.0
     view.real = frozenset({0})
@@ -176,8 +154,7 @@ def test_the_stars_of_a_real_robot_keep_off_its_marker(screen):
 
 @pytest.mark.parametrize("y", [60.0, 450.0, 850.0])
 def test_a_bounty_stays_in_the_arena(screen, y):
-    state = match()
-    view = seen(state)
+    state, view = match()
     state.robots[0].y, state.robots[0].x = y, 40.0
     sounds(view, state)
     view.draw(screen, state, 1.0, 0.0)
@@ -190,14 +167,3 @@ def test_a_bounty_stays_in_the_arena(screen, y):
     changed = box[0].unionall(box[1:])
     assert pygame.Rect(LEFT, TOP, 1600, 900).contains(changed)
     assert changed.w > 80
-
-
-def test_a_busy_party_draws_and_leaves_the_match_alone(screen):
-    scene = BusyPiTanks(variant="party")
-    view = PiTanksView(scene.arena, scene.state, ["human", "level1", "level5", "fsm"], AllEffects(), Words("en"))
-    for _ in range(8):
-        scene.tick()
-        before = digest(scene.state)
-        view.watch(scene.state)
-        view.draw(screen, scene.state, 0.5, 0.02)
-        assert digest(scene.state) == before

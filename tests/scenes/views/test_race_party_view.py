@@ -1,13 +1,12 @@
 """The view of a party race: what lies on the course, what each robot holds, and how robots come back to the track."""
 
 from math import hypot
+from typing import Any
 
 import pygame
 import pytest
 
-from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.race.course import locate, point_at
 from pigaming_app.games.race.state import LINES, OIL, OWN_OILS, SHIELD, TURBO
 from pigaming_app.scenes.bench.busy_race import BusyRace
@@ -23,16 +22,10 @@ from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from tests.cases import one_in
+from tests.matches import match_of
 
 CARD = pygame.Rect(160, 0, 316, 136)
 CLOCK = pygame.Rect(820, 0, 280, 136)
-
-
-@pytest.fixture
-def screen() -> pygame.Surface:
-    pygame.display.init()
-    pygame.font.init()
-    return pygame.display.set_mode((1920, 1080))
 
 
 def seen(scene, flashes="full", language="en"):
@@ -104,9 +97,8 @@ def test_the_busiest_party_builds_no_sprite_after_the_countdown(screen):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_each_line_has_the_colour_of_the_seat_that_was_dealt_it(screen, seed):
-    one, two, three, four = (Seat("random", i) for i in range(4))
-    match = new_match(Setup("race", "classic", (one, two, three, four), 10.0, seed, "standard", 3))
-    view = SCREENS["race"].view(match.arena, match.state, ["random"] * 4, AllEffects(), Words("en"))
+    match = match_of("race", ["random"] * 4, "classic", 10.0, seed, "standard", 3)
+    view: Any = SCREENS["race"].view(match.arena, match.state, ["random"] * 4, AllEffects(), Words("en"))
     for seat, racer in enumerate(match.state.racers):
         line = match.state.lines[racer.line]
         tint = average(view.background.surface, (line.ax + line.bx) / 2, (line.ay + line.by) / 2)
@@ -129,8 +121,7 @@ def nearest_player(tint):
 
 @pytest.mark.parametrize("track", one_in(4, arenas("race")))
 def test_party_has_one_start_and_lettered_checkpoints_in_driving_order(track):
-    one, two, three, four = (Seat("random", i) for i in range(4))
-    state = new_match(Setup("race", track, (one, two, three, four), 10.0, 1, "party", 5)).state
+    state = match_of("race", ["random"] * 4, track, 10.0, 1, "party", 5).state
     signs = line_signs(state)
     first = signs.index(START)
     assert {racer.line for racer in state.racers} == {first}
@@ -387,7 +378,7 @@ def test_announcements_keep_off_robots_at_the_upper_edge(screen):
         put(state, 0, 800.0, y)
         view.watch(state)
         view.notes.add(0.0, 0, "1.00", (255, 255, 255))
-        light, top = [], []
+        light, top = list[Any](), list[Any]()
         view.notes.draw(light, top, [view.pose(seat, 1.0) for seat in range(4)], 0.5, set())
         middles = [at[1] + image.get_height() / 2 - 140 for image, at in light]
         assert all((middle - y) * side > 50 for middle in middles)

@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pygame
 import pytest
@@ -37,15 +38,10 @@ HUMANS = ["human"] * 4
 CARD = pygame.Rect(160, 0, 316, 136)
 
 
-@pytest.fixture
-def screen() -> pygame.Surface:
-    pygame.display.init()
-    pygame.font.init()
-    return pygame.display.set_mode((1920, 1080))
-
-
 def seen(scene, players=HUMANS, taste=None, language="en"):
-    return SCREENS["race"].view(scene.arena, scene.state, list(players), taste or AllEffects(), Words(language))
+    """A view of a match, and its state."""
+    effects = taste or AllEffects()
+    return SCREENS["race"].view(scene.arena, scene.state, list(players), effects, Words(language)), scene.state
 
 
 def sounds(view, state):
@@ -78,7 +74,7 @@ def put(state, seat, x, y):
 @pytest.mark.parametrize("language", one_in(2, LANGUAGES))
 def test_a_whole_race_of_any_company_draws_and_leaves_the_race_alone(screen, seats, language):
     scene = BusyRace(seats, laps=1)
-    view = seen(scene, ["human", "level1", "level5", "level3"], language=language)
+    view, _ = seen(scene, ["human", "level1", "level5", "level3"], language=language)
     for tick in range(600):
         scene.tick()
         before = digest(scene.state)
@@ -102,8 +98,7 @@ def test_every_track_has_its_badges_in_the_mud_beside_it_and_its_edges_in_the_ar
 
 
 def test_the_road_is_black_and_beside_it_lies_mud(screen):
-    scene = BusyRace(2)
-    picture = seen(scene).background.bare
+    picture = seen(BusyRace(2))[0].background.bare
     assert picture.get_at((160 + 450, 140 + 80))[:3] == (0, 0, 0)
     red, green, blue, _ = pygame.transform.average_color(picture.subsurface((700, 500, 400, 100)))
     assert red > 1.3 * green > 1.3 * blue
@@ -124,7 +119,7 @@ def test_a_preview_shows_the_track_at_any_size(screen, track):
 
 def test_a_race_is_heard_from_the_first_line_to_the_last():
     scene = BusyRace(2, laps=2)
-    view, racer, robot = seen(scene), scene.state.racers[0], scene.state.robots[0]
+    (view, _), racer, robot = seen(scene), scene.state.racers[0], scene.state.robots[0]
     racer.passed = 1
     assert sounds(view, scene.state) == []
     racer.passed, racer.missed = 3, 4
@@ -142,7 +137,7 @@ def test_a_race_is_heard_from_the_first_line_to_the_last():
 
 def test_a_lap_and_a_better_one_sound_different():
     scene = BusyRace(2, laps=5)
-    view, racer, robot = seen(scene), scene.state.racers[1], scene.state.robots[1]
+    (view, _), racer, robot = seen(scene), scene.state.racers[1], scene.state.robots[1]
     for passed, lap, best, sound in (
         (5, 520.0, 520.0, "lap"),
         (9, 500.0, 500.0, "best_lap"),
@@ -153,8 +148,7 @@ def test_a_lap_and_a_better_one_sound_different():
 
 
 def test_mud_is_heard_on_the_way_in_and_flies_while_one_drives():
-    scene = BusyRace(2)
-    view, state = seen(scene), scene.state
+    view, state = seen(BusyRace(2))
     view.watch(state)
     put(state, 0, 800.0, 450.0)
     assert sounds(view, state) == ["mud"]
@@ -169,8 +163,7 @@ def test_mud_is_heard_on_the_way_in_and_flies_while_one_drives():
 
 
 def test_the_wrong_way_is_said_after_half_a_second_and_no_longer_than_it_lasts(screen):
-    scene = BusyRace(2)
-    view, state = seen(scene), scene.state
+    view, state = seen(BusyRace(2))
     put(state, 0, 1484.0, 560.0)
     sounds(view, state)
     calm = shown(screen, view, state, over(state, 0))
@@ -186,8 +179,7 @@ def test_the_wrong_way_is_said_after_half_a_second_and_no_longer_than_it_lasts(s
 
 
 def test_a_missed_line_is_on_the_card_over_the_robot_and_where_it_must_be_entered(screen):
-    scene = BusyRace(4)
-    view, state = seen(scene), scene.state
+    view, state = seen(BusyRace(4))
     put(state, 0, 1484.0, 560.0)
     view.watch(state)
     entry = pygame.Rect(160 + 800 + 20, 140 + 640, 110, 80)  # line 3 is driven from right to left
@@ -210,8 +202,7 @@ def test_a_missed_line_is_on_the_card_over_the_robot_and_where_it_must_be_entere
 
 
 def test_a_lap_that_did_not_count_says_so_for_a_while_and_then_only_what_was_missed(screen):
-    scene = BusyRace(2)
-    view, state = seen(scene), scene.state
+    view, state = seen(BusyRace(2))
     put(state, 0, 800.0, 560.0)
     state.racers[0].missed = 2
     view.watch(state)
@@ -228,25 +219,23 @@ def test_a_lap_that_did_not_count_says_so_for_a_while_and_then_only_what_was_mis
 
 @pytest.mark.parametrize("y", [80.0, 560.0])
 def test_signs_stay_in_the_picture(screen, y):
-    scene = BusyRace(2)
-    view, state = seen(scene), scene.state
+    view, state = seen(BusyRace(2))
     put(state, 0, 40.0, y)
     state.racers[0].missed, state.racers[0].void = 2, 1
     view.watch(state)
-    batch = []
+    batch: list[Any] = []
     assert view._sign(batch, state, 0, view.pose(0, 1.0))
     (image, at), *_ = batch
     assert pygame.Rect(160, 136, 1600, 944).contains(image.get_rect(topleft=at))
 
 
 def test_a_place_is_shown_where_one_finished_for_a_while_and_again_in_the_end(screen):
-    scene = BusyRace(2)
-    view, state = seen(scene), scene.state
+    view, state = seen(BusyRace(2))
     put(state, 0, 800.0, 560.0)
     racer = state.racers[0]
     racer.finished, racer.finish, racer.rank, state.first = 1, 0.0, 1, 1
     view.watch(state)
-    batch = []
+    batch: list[Any] = []
     assert view._sign(batch, state, 0, view.pose(0, 1.0))
     state.tick = 301
     assert not view._sign(batch, state, 0, view.pose(0, 1.0))
@@ -258,8 +247,7 @@ def test_a_place_is_shown_where_one_finished_for_a_while_and_again_in_the_end(sc
 
 
 def test_cards_run_in_order_and_change_places_only_when_an_order_holds(screen):
-    scene = BusyRace(4)
-    view, state = seen(scene), scene.state
+    view, state = seen(BusyRace(4))
     assert view.detector.order == [0, 1, 2, 3]
     for tick in range(3 * SETTLE):  # two robots side by side
         state.tick += 1
@@ -276,8 +264,7 @@ def test_cards_run_in_order_and_change_places_only_when_an_order_holds(screen):
 
 
 def test_the_one_behind_is_as_many_seconds_behind_as_ago_the_leader_was_there():
-    scene = BusyRace(2)
-    view, state = seen(scene), scene.state
+    view, state = seen(BusyRace(2))
     leader, other = state.racers[:2]
     for _ in range(300):  # 100 px/s, the other robot 250 px behind
         state.tick += 1
@@ -297,8 +284,7 @@ def test_a_gap_is_no_longer_than_four_characters():
 
 @pytest.mark.parametrize(("language", "gap"), [("en", "+2.5"), ("pt", "+2,5")])
 def test_cards_show_place_lap_and_gap(screen, language, gap):
-    scene = BusyRace(3, laps=5)
-    view, state = seen(scene, language=language), scene.state
+    view, state = seen(BusyRace(3, laps=5), language=language)
     state.robots[1].score = 3
     for _ in range(300):
         state.tick += 1
@@ -318,7 +304,7 @@ def test_the_figures_of_a_card_stand_apart_and_read_at_three_metres(screen, lang
     words = Words(language)
     for place in range(1, 5):
         ending = words(f"race.place_{place}")
-        card = RaceCard(0, True, place, ending, 9, words.decimal(gap), 64, 0, 9, "", 0, 1, False)
+        card = RaceCard(0, "human", place, ending, 9, words.decimal(gap), 64, 0, 9, "", 0, 1, False)
         picture = pygame.Surface((race_cards.W, 136))
         for image, at, area in card_bits(card, 0)[1:]:
             picture.blit(image, at, area, special_flags=pygame.BLEND_RGB_ADD)
@@ -336,7 +322,7 @@ def columns(picture):
         any(max(picture.get_at((x, y))[:3]) > 150 for y in range(picture.get_height()))
         for x in range(picture.get_width())
     ]
-    ranges = []
+    ranges: list[list[int]] = []
     for x in (x for x, lit in enumerate(bright) if lit):
         if ranges and x - ranges[-1][1] <= 8:
             ranges[-1][1] = x
@@ -346,8 +332,7 @@ def columns(picture):
 
 
 def test_the_clock_counts_up_and_then_down_for_those_who_still_race(screen):
-    scene = BusyRace(3)
-    view, state = seen(scene), scene.state
+    view, state = seen(BusyRace(3))
     box = pygame.Rect(820, 0, 280, 136)
     state.tick = 500
     shown(screen, view, state, box)
@@ -363,15 +348,14 @@ def test_the_clock_counts_up_and_then_down_for_those_who_still_race(screen):
 
 @pytest.mark.parametrize("flashes", ["off", "soft", "full"])
 def test_without_flashes_nothing_lights_up(flashes):
-    scene = BusyRace(2)
-    view, state = seen(scene, taste=AllEffects(flashes, False)), scene.state
+    view, state = seen(BusyRace(2), taste=AllEffects(flashes, False))
     state.racers[0].finished, state.racers[0].passed = 1, 13
     view.watch(state)
     assert len(view.particles.blooms) == {"off": 0, "soft": 1, "full": 2}[flashes]
 
 
 def test_sprites_are_made_in_slices(screen):
-    view = seen(BusyRace(2))
+    view, _ = seen(BusyRace(2))
     slices = 1
     while not view.prewarm(30.0):
         slices += 1
@@ -453,6 +437,7 @@ def test_a_ghost_of_another_engine_is_shown_if_todays_robots_could_drive_its_lap
     monkeypatch.setattr(ghosts, "engine_hash", lambda: "another")
     ghost, trouble = load_ghost(folder, arena)
     assert trouble == ""
+    assert ghost
     assert ghost.seconds == 8.3718
     assert ghosts.drivable(ghost, arena)
     assert not ghosts.drivable(replace(ghost, crossed=(0.0, 1.0, 2.0, 3.0)), arena)
@@ -466,7 +451,7 @@ def test_a_ghost_of_another_engine_that_no_robot_could_drive_is_dropped_with_a_w
     ghosts.save_ghost(tmp_path, scene.arena, a_ghost()).join()
     path = file_of(tmp_path, scene.arena)
     write_with_backup(path, json.dumps({**json.loads(path.read_text()), "engine": "of old"}))
-    view = seen(scene)
+    view, _ = seen(scene)
     view.enable_persistence(tmp_path)
     assert view.recorder.ghost is None
     assert view.recorder.drop_reason == "old"
@@ -512,13 +497,14 @@ def test_a_ghost_that_is_not_whole_is_none(tmp_path, harm):
 def test_a_better_lap_of_a_person_becomes_the_ghost_and_a_worse_one_does_not(tmp_path):
     scene = BusyRace(2, laps=5)
     scene.state.racers[0].line = 2
-    view = seen(scene)
+    view, _ = seen(scene)
     view.enable_persistence(tmp_path)
     drive_laps(scene, view, 0, [600, 500, 550])
     scene.state.tick += 1
     view.watch(scene.state)
     view.recorder.writer.join()
     saved, _ = load_ghost(tmp_path, scene.arena)
+    assert saved
     assert saved == view.recorder.ghost
     assert saved.seconds == 10.0
     assert saved.line == 2
@@ -530,7 +516,7 @@ def test_a_better_lap_of_a_person_becomes_the_ghost_and_a_worse_one_does_not(tmp
 def test_laps_of_machines_and_laps_that_a_machine_took_over_are_not_kept(tmp_path):
     scene = BusyRace(2, laps=5)
     players = ["level5", "human", "off", "off"]
-    view = SCREENS["race"].view(scene.arena, scene.state, players, AllEffects(), Words("en"))
+    view: Any = SCREENS["race"].view(scene.arena, scene.state, players, AllEffects(), Words("en"))
     view.enable_persistence(tmp_path)
     drive_laps(scene, view, 0, [600, 500])
     view.watch(scene.state)
@@ -551,7 +537,7 @@ def test_the_ghost_starts_with_every_lap_of_the_first_person_and_ends_with_its_o
     scene = BusyRace(2, laps=5)
     scene.state.racers[1].line = line
     ghosts.save_ghost(tmp_path, scene.arena, a_ghost()).join()
-    view = seen(scene, ["level5", "human", "off", "off"])
+    view, _ = seen(scene, ["level5", "human", "off", "off"])
     view.enable_persistence(tmp_path)
     state, racer = scene.state, scene.state.racers[1]
     assert view.recorder.pose(state, 1.0) is None  # it waits for the line
@@ -567,7 +553,7 @@ def test_the_ghost_starts_with_every_lap_of_the_first_person_and_ends_with_its_o
 def test_a_golden_difference_compares_with_the_ghost_from_line_to_line(screen, tmp_path):
     scene = BusyRace(2, laps=5)
     ghosts.save_ghost(tmp_path, scene.arena, a_ghost()).join()
-    view = seen(scene)
+    view, _ = seen(scene)
     view.enable_persistence(tmp_path)
     state, racer = scene.state, scene.state.racers[1]
     racer.passed, racer.lap_start, racer.line, state.tick = 1, 100.0, 1, 150
@@ -581,7 +567,7 @@ def test_a_golden_difference_compares_with_the_ghost_from_line_to_line(screen, t
 
 def test_without_a_person_there_is_no_ghost_and_no_file(tmp_path):
     scene = BusyRace(2)
-    view = seen(scene, ["level5", "level1", "off", "off"])
+    view, _ = seen(scene, ["level5", "level1", "off", "off"])
     assert view.recorder is None
     for _ in range(50):
         scene.tick()

@@ -4,9 +4,7 @@ import pygame
 import pytest
 
 from pigaming_app.games.arenas import arenas, load, parse
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
-from pigaming_app.games.registry import games
 from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.pitanks.events import PiTanksEventDetector
@@ -17,6 +15,7 @@ from pigaming_app.sim.arena import replace_things
 from pigaming_app.sim.things.spec import ThingSpec, Use, written
 from pigaming_app.ui.draw.frame_budget import run_to_end
 from pigaming_app.ui.i18n import Words
+from tests.matches import setup_of
 
 X, Y, HALF, MARGIN = 800.0, 400.0, 30.0, 5.0
 
@@ -26,20 +25,11 @@ def square(x=X, y=Y, use=Use.WALL, half=HALF):
     return ThingSpec(use, tuple((x + u * half, y + v * half) for u, v in corners), MARGIN)
 
 
-@pytest.fixture
-def screen():
-    pygame.display.init()
-    pygame.font.init()
-    return pygame.display.set_mode((1920, 1080))
-
-
 def begun(game, *things):
     """A match that has not begun, on the game's first arena with things, and its view."""
-    rules, name = games()[game].default, arenas(game)[0]
+    name = arenas(game)[0]
     arena = parse(game, load(game, name).source + written(things), f"{name}.toml")
-    one, two, three, four = (Seat("human", team) for team in rules.teams)
-    setup = Setup(game, name, (one, two, three, four), 1.0, 3, rules.name, rules.default_goal)
-    match = Match(setup, arena=arena)
+    match = Match(setup_of(game, ["human"] * 4, name, 1.0, 3), arena=arena)
     return match, SCREENS[game].view(arena, match.state, ["human"] * 4, AllEffects("full", True), Words("en"))
 
 

@@ -9,7 +9,7 @@ from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.page import SetupPage
-from pigaming_app.scenes.flow.stack import Home
+from pigaming_app.scenes.flow.stack import Home, Scene
 from pigaming_app.scenes.kiosk.operator.group_limit import FAREWELL, WARNED, GroupLimit
 from pigaming_app.scenes.play.scene import MatchScene
 from tests.scenes.arcade import Arcade, Floor, setup
@@ -40,7 +40,8 @@ def test_the_title_returns_after_a_countdown(arcade: Arcade) -> None:
 def test_a_match_is_played_to_its_end(arcade: Arcade) -> None:
     limit = GroupLimit(arcade.context)
     match = MatchScene(arcade.context, setup("level1 level1 off off"))
-    playing, after = [Floor(), Floor(), match], [Floor(), Floor()]
+    after: list[Scene] = [Floor(), Floor()]
+    playing = [*after, match]
     for _ in range(100):
         assert limit.update(10.0, playing) is None
     assert limit.sentence == arcade.context.words("operator.last_match")
@@ -65,7 +66,7 @@ def test_attract_mode_takes_no_time(arcade: Arcade) -> None:
 def test_an_event_has_no_limit(arcade: Arcade) -> None:
     limit, match = GroupLimit(arcade.context), MatchScene(arcade.context, setup("level1 level1 off off"))
     limit.update(299.0, [Floor(), Floor()])
-    drafting = [Floor(), Floor(), SetupPage(arcade.context, Draft(), lambda draft: ""), Floor()]
+    drafting: list[Scene] = [Floor(), Floor(), SetupPage(arcade.context, Draft(), lambda draft: ""), Floor()]
     assert limit.update(900.0, drafting) is None
     assert limit.sentence == ""
     assert limit.left == 1.0, "a group that goes back has the rest of its time"

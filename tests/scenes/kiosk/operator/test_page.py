@@ -20,21 +20,18 @@ from pigaming_app.ui.draw.text import fit_lines
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
-from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade, setup
 from tests.ui.input.virtual_pad import VirtualPad
 
 
 @pytest.fixture(autouse=True)
 def _prepared(arcade: Arcade) -> None:
-    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     arcade.context.day_log = DayLog(folders().data)
 
 
 def focus(arcade: Arcade, row: str) -> OperatorPage:
     page = arcade.shown(OperatorPage)
-    for _ in range(ROWS.index(row)):
-        arcade.press(Button.DOWN)
+    arcade.press(*[Button.DOWN] * (ROWS.index(row)))
     assert page.focus.name == row
     return page
 
@@ -43,7 +40,7 @@ def saved() -> Settings:
     return Settings.load(folders().config)[0]
 
 
-def test_the_options_open_it_but_not_for_children(arcade: Arcade) -> None:
+def test_the_options_open_it(arcade: Arcade) -> None:
     arcade.open(OptionsPage(arcade.context))
     page = arcade.shown(OptionsPage)
     while page.focus.name != "day":
@@ -52,8 +49,6 @@ def test_the_options_open_it_but_not_for_children(arcade: Arcade) -> None:
     arcade.shown(OperatorPage)
     arcade.press(Button.BACK)
     arcade.shown(OptionsPage)
-    arcade.context.kiosk = True
-    assert "day" not in OptionsPage(arcade.context).rows
 
 
 def test_quiet_hours_go_round_midnight_in_steps_of_half_an_hour(arcade: Arcade) -> None:
@@ -61,8 +56,7 @@ def test_quiet_hours_go_round_midnight_in_steps_of_half_an_hour(arcade: Arcade) 
     focus(arcade, "quiet_from")
     arcade.press(Button.LEFT)
     assert saved().quiet_from == "23:30"
-    arcade.press(Button.RIGHT)
-    arcade.press(Button.RIGHT)
+    arcade.press(Button.RIGHT, Button.RIGHT)
     assert saved().quiet_from == "00:30"
 
 
@@ -82,8 +76,7 @@ def test_the_cap_limits_music_and_sounds(arcade: Arcade, monkeypatch: pytest.Mon
     arcade.context.settings.music, arcade.context.settings.volume_cap = 3, 10
     arcade.open(OperatorPage(arcade.context))
     focus(arcade, "volume_cap")
-    for _ in range(5):
-        arcade.press(Button.LEFT)
+    arcade.press(*[Button.LEFT] * 5)
     assert heard[-1] == (3, 5)
     assert saved().volume_cap == 5
 
@@ -91,8 +84,7 @@ def test_the_cap_limits_music_and_sounds(arcade: Arcade, monkeypatch: pytest.Mon
 def test_holding_fire_on_a_pad_ends_all_matches_and_stops_robots_first(arcade: Arcade) -> None:
     stopped: list[int] = []
     with VirtualPad() as pad:
-        match = MatchScene(arcade.context, setup("level1 level1 off off"))
-        arcade.open(match)
+        match = arcade.open(MatchScene(arcade.context, setup("level1 level1 off off")))
         arcade.until(lambda: match.match.state.tick > 10)
         arcade.context.emergency_stops.append(lambda: stopped.append(len(arcade.stack.scenes)))
         arcade.open(OperatorPage(arcade.context, tuple(arcade.stack.scenes)))
@@ -111,8 +103,7 @@ def test_holding_fire_on_a_pad_ends_all_matches_and_stops_robots_first(arcade: A
 
 
 def test_a_match_below_stands_still_and_goes_on(arcade: Arcade) -> None:
-    match = MatchScene(arcade.context, setup("level1 level1 off off"))
-    arcade.open(match)
+    match = arcade.open(MatchScene(arcade.context, setup("level1 level1 off off")))
     arcade.until(lambda: match.match.state.tick > 10)
     tick = match.match.state.tick
     arcade.open(OperatorPage(arcade.context, tuple(arcade.stack.scenes)))
@@ -212,8 +203,7 @@ def test_other_days_are_a_click_away(arcade: Arcade) -> None:
     page = arcade.shown(FiguresPage)
     arcade.click(*page.arrows[Button.LEFT])
     assert (page.report.starts, str(page.report.day)) == (1, "2026-01-05")
-    arcade.press(Button.LEFT)
-    arcade.press(Button.RIGHT)
+    arcade.press(Button.LEFT, Button.RIGHT)
     assert page.report.day == now().date()
 
 
@@ -290,7 +280,6 @@ def test_in_safe_mode_it_keeps_the_defaults_if_the_operator_wants_them(
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_what_it_tells_fits_the_panel(arcade: Arcade, monkeypatch: pytest.MonkeyPatch, language: str) -> None:
-    arcade.context.words.switch(language)
     longest = {"es": ("scoreboard", "fullscreen"), "pt": ("keep_choices", "group_minutes")}
     after_failed_starts(*longest.get(language, ("phones_network", "quiet_until")), "display")
     lines = [OperatorPage(arcade.context).line(SAFE_START), arcade.context.words("operator.keep_choices_line")]

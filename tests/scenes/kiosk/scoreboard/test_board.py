@@ -1,4 +1,4 @@
-"""The second screen: the right contents, painted in slices, only what has changed."""
+"""The second screen: the right contents, painted in slices, on displays that come and go."""
 
 from collections.abc import Hashable, Sequence
 from typing import Any
@@ -15,21 +15,14 @@ from pigaming_app.scenes.kiosk.scoreboard.board import SIZE, Board, fit
 from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
 from pigaming_app.scenes.kiosk.scoreboard.score_page import ScorePage, match_parts
 from pigaming_app.scenes.kiosk.scoreboard.standby_page import StandbyPage, best_today
-from pigaming_app.scenes.kiosk.scoreboard.window import PERIOD, ScoreboardWindow
+from pigaming_app.scenes.kiosk.scoreboard.window import PERIOD, WINDOWED, ScoreboardWindow
 from pigaming_app.scenes.mat.camera_page import CameraPage
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.snapshot import sides, snapshot
 from pigaming_app.storage.scores import Scores, ScoreTable
-from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES, Words
-from pigaming_app.ui.window import Canvas
-from tests.scenes.arcade import KEYS, Arcade, setup
-
-
-@pytest.fixture(autouse=True)
-def _prepared(arcade: Arcade) -> None:
-    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
+from tests.scenes.arcade import KEYS, Arcade, Floor, setup
 
 
 class Lamps:
@@ -95,7 +88,7 @@ def test_it_fits_any_window_undistorted(size: tuple[int, int]) -> None:
         assert target.get_at((area.x + area.w // 2, area.y + area.h // 2))[:3] == (0, 0, 0)
 
 
-class Filmed:
+class Filmed(Floor):
     """A scene with a camera."""
 
     camera_image: Any = None
@@ -111,9 +104,6 @@ def test_every_new_picture_of_the_camera_is_painted() -> None:
         painted(board, target, "camera", [scene])
         assert target.get_at((960, 540))[0] == level
     assert not board.refresh("camera", [scene])
-
-
-# ---- the match
 
 
 def test_the_leader_is_first_and_a_tie_has_none(arcade: Arcade) -> None:
@@ -139,8 +129,7 @@ def test_teams_are_one_row_with_their_sum(arcade: Arcade) -> None:
 
 
 def test_the_clock_counts_down_and_a_page_above_is_noted(arcade: Arcade) -> None:
-    scene = MatchScene(arcade.context, setup("level1 level1 off off", minutes=2.0))
-    arcade.open(scene)
+    scene = arcade.open(MatchScene(arcade.context, setup("level1 level1 off off", minutes=2.0)))
     words = arcade.context.words
     assert (snapshot(scene, words, True).clock, snapshot(scene, words, True).state) == ("2:00", "waiting")
     arcade.until(lambda: scene.match.seconds >= 1.0)
@@ -163,8 +152,7 @@ def test_the_result_stays_until_the_next_match_but_not_that_of_a_match_left(arca
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_every_part_can_be_painted_and_lies_on_the_canvas(arcade: Arcade, language: str) -> None:
-    arcade.context.words.switch(language)
+def test_every_part_can_be_painted_and_lies_on_the_canvas(arcade: Arcade) -> None:
     scene = MatchScene(arcade.context, setup("human level1 q1 fsm"), [KEYS[0]])
     pages = [match_parts(arcade.context, snapshot(scene, arcade.context.words, False))]
     pages.append(list(StandbyPage(arcade.context).parts([])))
@@ -199,9 +187,6 @@ def test_the_best_of_today_come_from_the_table_with_the_most_of_them() -> None:
     assert best_today(scores, "race", Words("en")) == ("", ())
 
 
-# ---- the window
-
-
 def test_the_window_is_painted_in_frames_with_room_and_at_last_without(arcade: Arcade) -> None:
     lamps = Lamps("abc")
     window = ScoreboardWindow(1, 0, [lamps], headless=True)
@@ -225,7 +210,7 @@ def test_the_window_is_painted_in_frames_with_room_and_at_last_without(arcade: A
 def test_pages_are_read_a_few_times_a_second(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     lamps, reads = Lamps("a"), []
     parts = lamps.parts
-    monkeypatch.setattr(lamps, "parts", lambda scenes: reads.append(1) or parts(scenes))
+    monkeypatch.setattr(lamps, "parts", lambda scenes: reads.append(1) or parts(scenes))  # type: ignore[func-returns-value]
     window = ScoreboardWindow(1, 0, [lamps], headless=True)
     try:
         for _ in range(600):
@@ -292,10 +277,149 @@ def test_the_pages_of_features_stand_behind_those_of_the_kiosk(arcade: Arcade) -
 
 def test_a_paused_match_is_shown_as_such(arcade: Arcade) -> None:
     page = ScorePage(arcade.context)
-    scene = MatchScene(arcade.context, setup("human level1 off off"), [KEYS[0]])
-    arcade.open(scene)
+    scene = arcade.open(MatchScene(arcade.context, setup("human level1 off off"), [KEYS[0]]))
     arcade.until(lambda: scene.match.state.tick > 5)
     arcade.open(Pause(scene, KEYS[0]))
     page.parts(arcade.stack.scenes)
     assert page.last
     assert page.last.state == "paused"
+
+
+DUMMY = (1024, 768)  # px, the display of SDL's dummy driver
+
+
+class Displays:
+    """Sizes of the connected displays, and those asked for the windows that were opened. The arcade is on another one
+    than the dummy driver's, where all windows of the second screen open.
+    """
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, count: int) -> None:
+        self.sizes = [(1920, 1080), (1366, 768), (1280, 800)][:count]
+        self.opened: list[tuple[int, int]] = []
+        monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: list(self.sizes))
+        opened = self.opened
+
+        class Noted(pygame.Window):
+            def __init__(self, title: str, size: tuple[int, int], *rest: Any, **options: Any) -> None:
+                opened.append(size)
+                super().__init__(title, size, *rest, **options)
+
+        monkeypatch.setattr(pygame, "Window", Noted)
+        pygame.display.set_window_position((-4000, 0))
+
+
+def a_desk(arcade: Arcade, number: int | None, arena: int = 0) -> OperatorDesk:
+    canvas = arcade.context.canvas
+    canvas.headless, canvas.display = False, arena
+    return OperatorDesk(arcade.context, number, True)
+
+
+def seconds_later(desk: OperatorDesk, arcade: Arcade, frames: int = 130) -> None:
+    for _ in range(frames):
+        desk.show(1 / 60, 0.010, arcade.stack.scenes)
+
+
+def test_a_display_that_is_unplugged_closes_it_and_plugged_again_brings_it_back(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    displays = Displays(monkeypatch, 2)
+    desk = a_desk(arcade, 2)
+    seconds_later(desk, arcade)
+    assert displays.opened == [(1366, 768)]
+    displays.sizes.pop()
+    seconds_later(desk, arcade)
+    assert desk.window
+    assert desk.window.window is None
+    assert list(desk.notices.waiting) == [arcade.context.words("scoreboard.none")]
+    displays.sizes.append((1280, 800))
+    seconds_later(desk, arcade)
+    assert desk.window.window
+    assert displays.opened == [(1366, 768), (1280, 800)]
+    assert desk.window.board.picture.get_bounding_rect().w > 0
+    desk.close()
+
+
+def test_a_display_that_appears_during_play_is_filled(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    displays = Displays(monkeypatch, 1)
+    desk = a_desk(arcade, 2)
+    seconds_later(desk, arcade)
+    assert displays.opened == [WINDOWED]
+    displays.sizes.append((1366, 768))
+    seconds_later(desk, arcade)
+    assert displays.opened == [WINDOWED, (1366, 768)]
+    desk.close()
+
+
+def test_an_unplugged_arena_is_not_covered_and_returns_to_its_display(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    displays, moves = Displays(monkeypatch, 2), []
+    desk = a_desk(arcade, 1, arena=1)
+    monkeypatch.setattr(arcade.context.canvas, "show", lambda display, full: moves.append(display))
+    gone = displays.sizes.pop()
+    seconds_later(desk, arcade)
+    assert desk.window
+    assert desk.window.window is None
+    assert moves == []
+    displays.sizes.append(gone)
+    seconds_later(desk, arcade)
+    assert desk.window.window
+    assert moves == [1]
+    desk.close()
+
+
+def test_one_closed_by_hand_stays_closed_until_f2(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    displays = Displays(monkeypatch, 2)
+    desk = a_desk(arcade, 2)
+    assert desk.window
+    assert desk.close_if_requested(pygame.Event(pygame.WINDOWCLOSE, window=desk.window.window))
+    displays.sizes.append((1280, 800))
+    seconds_later(desk, arcade)
+    assert desk.window.window is None
+    page = arcade.context.shared(Pages).chosen
+    desk.filter([pygame.Event(pygame.KEYDOWN, key=pygame.K_F2, scancode=0, mod=0)], arcade.stack.scenes)
+    assert desk.window.window
+    assert arcade.context.shared(Pages).chosen == page
+    assert displays.opened == [(1366, 768)] * 2
+    desk.close()
+
+
+def test_a_window_that_breaks_during_play_is_given_up_with_a_notice(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    Displays(monkeypatch, 2)
+    desk = a_desk(arcade, 2)
+    assert desk.window
+    assert desk.window.window
+    desk.window.window.destroy()
+    seconds_later(desk, arcade)
+    assert desk.window.window is None
+    assert "was lost" in capsys.readouterr().err
+    assert list(desk.notices.waiting) == [arcade.context.words("scoreboard.none")]
+
+
+@pytest.mark.parametrize(
+    ("number", "arena_display", "own"),
+    [(2, 0, True), (1, 0, False), (3, 0, False), (1, 1, True), (2, 1, False), (16, 63, False), (1, 2, False)],
+)
+def test_it_fills_a_display_of_its_own_and_is_small_elsewhere(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, number: int, arena_display: int, own: bool
+) -> None:
+    displays = Displays(monkeypatch, 2)
+    shown = ScoreboardWindow(number, arena_display, [])
+    assert shown.window
+    assert shown.fills == own
+    assert displays.opened == [displays.sizes[number - 1] if own else WINDOWED]
+    assert (shown.window.position, shown.window.size) == (((0, 0), DUMMY) if own else ((24, 24), WINDOWED))
+    shown.close()
+
+
+def test_on_a_mirrored_display_it_would_cover_the_arcade_and_is_small(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Displays(monkeypatch, 2)
+    pygame.display.set_window_position((0, 0))
+    shown = ScoreboardWindow(2, 0, [])
+    assert shown.window
+    assert (shown.fills, shown.window.size) == (False, WINDOWED)
+    shown.close()

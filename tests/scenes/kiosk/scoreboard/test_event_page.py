@@ -16,6 +16,7 @@ from pigaming_app.scenes.events.board.event_page import (
     PODIUM,
     TURN,
     EventBoardPage,
+    EventNow,
     event_now,
     next_line,
     now_line,
@@ -86,6 +87,12 @@ def of_match(arcade: Arcade, scene: MatchScene) -> MatchSnapshot:
     return shown_match(scene, arcade.context.words, True)
 
 
+def the_event(arcade: Arcade, scenes: Sequence[Scene]) -> EventNow:
+    now = event_now(arcade.context, scenes)
+    assert now, f"nothing on the second screen during {type(scenes[-1]).__name__}"
+    return now
+
+
 def test_without_an_event_it_gives_way(arcade: Arcade) -> None:
     page = EventBoardPage(arcade.context)
     assert page.parts([arcade.title]) is None
@@ -96,8 +103,7 @@ def test_without_an_event_it_gives_way(arcade: Arcade) -> None:
 
 def test_every_page_of_an_event_belongs_to_it_and_so_do_its_matches(arcade: Arcade) -> None:
     run = running(played(an_event(count=4), 2))
-    scene = a_match(arcade, run)
-    arcade.open(scene)
+    scene = arcade.open(a_match(arcade, run))
     arcade.until(lambda: scene.match.state.tick > 5)
     for scenes in (
         [NextMatch(arcade.context, run)],
@@ -106,8 +112,7 @@ def test_every_page_of_an_event_belongs_to_it_and_so_do_its_matches(arcade: Arca
         [scene],
         [scene, Pause(scene, KEYS[0])],
     ):
-        now = event_now(arcade.context, [arcade.title, *scenes])
-        assert now
+        now = the_event(arcade, [arcade.title, *scenes])
         assert now.running is run
         assert (now.playing is None) == (scene not in scenes)
 
@@ -117,22 +122,19 @@ def test_it_follows_a_match_through_its_end_to_the_next_one(arcade: Arcade) -> N
     scene = a_match(arcade, run, 0.02)
     first, second = run.event.open[:2]
     arcade.open(scene)
-    now = event_now(arcade.context, arcade.stack.scenes)
-    assert now
+    now = the_event(arcade, arcade.stack.scenes)
     assert now.playing == first
     assert now.coming[0] == second
     seen = set()
 
     def recorded() -> bool:
-        now = event_now(arcade.context, arcade.stack.scenes)
-        assert now, f"nothing on the second screen during {type(arcade.stack.top).__name__}"
+        the_event(arcade, arcade.stack.scenes)
         seen.add(type(arcade.stack.top).__name__)
         return isinstance(arcade.stack.top, NextMatch)
 
     arcade.until(recorded, timeout=120.0)
     assert {"MatchScene", "WinnersMoment", "NextMatch"} <= seen
-    now = event_now(arcade.context, arcade.stack.scenes)
-    assert now
+    now = the_event(arcade, arcade.stack.scenes)
     assert now.playing is None
     assert now.coming[0] == second
 
@@ -141,29 +143,24 @@ def test_who_plays_and_who_is_next_on_which_device(arcade: Arcade) -> None:
     run = running(an_event(count=4))
     words, scene = arcade.context.words, NextMatch(arcade.context, run)
     first, second = run.event.open[:2]
-    now = event_now(arcade.context, [scene])
-    assert now
+    now = the_event(arcade, [scene])
     one, other = first.entrants
     assert (now_line(words, now), next_line(words, now)) == ("", f"Next: {one} (WASD)  –  {other} (Arrows)")
-    playing = event_now(arcade.context, [a_match(arcade, run)])
-    assert playing
+    playing = the_event(arcade, [a_match(arcade, run)])
     assert now_line(words, playing) == f"Now: {one} – {other}"
     assert [called.name for called in playing.called] == [*second.entrants]
 
 
 def test_a_seat_that_is_taken_shows_its_own_device(arcade: Arcade) -> None:
     run = running(an_event(count=4))
-    scene = NextMatch(arcade.context, run)
-    arcade.open(scene)
+    scene = arcade.open(NextMatch(arcade.context, run))
     arcade.wait(1.0)
-    arcade.press(Button.FIRE, KEYS[2])
+    arcade.press(Button.FIRE, device=KEYS[2])
     scene.seats.claims[1] = Device("phone", 0)
-    now = event_now(arcade.context, arcade.stack.scenes)
-    assert now
+    now = the_event(arcade, arcade.stack.scenes)
     assert [(one.sign, one.device) for one in now.called] == [("keys", "IJKL"), ("phone", "Phone")]
     run.change(lambda event: event.substitute(event.open[0].entrants[0], "level3"))
-    now = event_now(arcade.context, arcade.stack.scenes)
-    assert now
+    now = the_event(arcade, arcade.stack.scenes)
     assert (now.called[0].sign, now.called[0].brain) == ("ai", "★★★☆☆")
 
 
@@ -187,9 +184,8 @@ def test_everybody_is_on_a_page_and_the_pages_turn_by_themselves(
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("field", [1, 3, 5, 7])
 @pytest.mark.long
-def test_no_part_leaves_the_canvas_hides_another_or_is_cut_off(arcade: Arcade, language: str, field: int) -> None:
+def test_no_part_leaves_the_canvas_hides_another_or_is_cut_off(arcade: Arcade, field: int) -> None:
     form, count, seats, matches = FIELDS[field]
-    arcade.context.words.switch(language)
     run, clock = running(played(an_event(form, count, seats, title="A" * 30), matches)), Clock()
     for scenes in ([NextMatch(arcade.context, run)], [a_match(arcade, run)]):
         for parts in every_page(EventBoardPage(arcade.context, clock), clock, scenes):
@@ -209,14 +205,13 @@ def test_at_the_end_there_is_the_podium(arcade: Arcade) -> None:
     page = EventBoardPage(arcade.context, clock)
     parts = page.parts([EventPodiumPage(arcade.context, run)])
     assert parts
-    now = event_now(arcade.context, [EventPodiumPage(arcade.context, run)])
-    assert now
+    now = the_event(arcade, [EventPodiumPage(arcade.context, run)])
     assert page._overview
     kinds = [kind for kind, _ in page._pages(now, page._overview)]
     assert kinds[0] == PODIUM
     assert CALL not in kinds
     best = run.event.standings[0].entrant
-    (podium,) = [part for part in parts if (1, best) in tuple(part.content or ())]  # type: ignore[call-overload]
+    (podium,) = [part for part in parts if (1, best) in tuple(part.content or ())]  # type: ignore[arg-type]
     surface = pygame.Surface(podium.box[2:])
     podium.paint(surface)
     assert surface.get_bounding_rect().h > 500

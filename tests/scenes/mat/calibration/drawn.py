@@ -17,7 +17,7 @@ from tests.hardware.mat import nominal
 from tests.scenes.arcade import Arcade
 
 KNOWN = ExposureState(1 / 60, 1 / 30, 120.0, False, True)
-SHARP = CameraQuality(1 / 60, 120.0, 28.0, 0.8, 1.0, False, 0.99)
+SHARP = CameraQuality(1 / 60, 120.0, 28.0, 0.8, 1.0)
 PICTURES: dict[str, tuple[CameraQuality, ExposureState]] = {
     "sharp": (SHARP, KNOWN),
     "blurred": (replace(SHARP, blur_px=12.4, detection=0.0, cause="finds_blurred"), KNOWN),

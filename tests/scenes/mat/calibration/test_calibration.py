@@ -61,8 +61,7 @@ def wizard() -> Iterator[Wizard]:
         patch.setenv("PIGAMING_HOME", home)
         pygame.display.init()
         arcade = Operated(Controls(), EmulatedCalibrationSite(2))
-        first = CalibrationPage(arcade.context, arcade.site)
-        arcade.open(first)
+        first = arcade.open(CalibrationPage(arcade.context, arcade.site))
         for _ in range(20):
             arcade.picture()
         before = first.state
@@ -83,8 +82,7 @@ def boards(arcade: Operated, made: CalibrationResult) -> BoardsPage:
 
 def concluded(arcade: Operated, made: CalibrationResult) -> ResultPage:
     """The page of a calibration that has been made, above the wizard's first."""
-    page = ResultPage(arcade.context, replace(made, site=arcade.site), lambda: boards(arcade, made))
-    arcade.open(page)
+    page = arcade.open(ResultPage(arcade.context, replace(made, site=arcade.site), lambda: boards(arcade, made)))
     return page
 
 
@@ -104,6 +102,12 @@ def test_an_operator_previews_calibrates_and_saves(wizard: Wizard) -> None:
     assert result.finding.residuals is not None
     assert result.finding.residuals.mean_mm < 1.5
     assert result.finding.residuals.max_mm < 3.0
+    assert result.finding.ground is not None
+    quality = result.finding.ground.quality
+    assert quality.exposure == pytest.approx(0.006)
+    assert quality.marker_px == pytest.approx(28.0, abs=1.0)
+    assert quality.blur_px == pytest.approx(0.85, abs=0.15)
+    assert quality.detection > 0.98
     assert arcade.shown(ResultPage) is result
     arcade.press(Button.FIRE)
     assert arcade.stack.top is first
@@ -162,8 +166,7 @@ def test_a_calibration_that_is_too_bad_cannot_be_saved(
     assert result.finding.residuals is not None
     assert [spot.name for spot in result.focus.spots] == ["again", "leave"]
     arcade.shown(ResultPage)
-    arcade.press(Button.RIGHT)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.RIGHT, Button.FIRE)
     arcade.shown(CalibrationPage)
     with pytest.raises(CalibrationError):
         store.load(store.calibration_file(arcade.site.name), arcade.context.canvas.projection, (1920, 1080))
@@ -195,8 +198,7 @@ def test_a_picture_that_misses_markers_is_saved_only_by_the_second_choice_and_wa
         assert [spot.name for spot in result.focus.spots] == ["again", "anyway", "leave"]
         assert result.focus.name == "again"
         arcade.picture()
-        arcade.press(Button.RIGHT)
-        arcade.press(Button.FIRE)
+        arcade.press(Button.RIGHT, Button.FIRE)
         quality = store.load(store.calibration_file(arcade.site.name)).quality
         assert quality.anyway
         assert quality.detection < 0.95
@@ -211,21 +213,13 @@ def test_a_long_exposure_is_warned_about_though_the_calibration_is_accurate(
 ) -> None:
     result = concluded(arcade, with_picture(made, 1 / 45, 0.8))
     assert result.finding.good
+    assert result.finding.ground is not None
     assert "1/45\u00a0s" in result._warning(result.finding.ground.quality)[0]
     arcade.picture()
     arcade.press(Button.FIRE)
     kept = store.load(store.calibration_file(arcade.site.name)).quality
     assert kept.kept == (1 / 45, 0.0)
     assert not kept.anyway
-
-
-def test_the_picture_of_the_wizard_is_measured(made: CalibrationResult) -> None:
-    assert made.ground is not None
-    quality = made.ground.quality
-    assert quality.exposure == pytest.approx(0.006)
-    assert quality.marker_px == pytest.approx(28.0, abs=1.0)
-    assert quality.blur_px == pytest.approx(0.85, abs=0.15)
-    assert quality.detection > 0.98
 
 
 @pytest.mark.long
@@ -303,8 +297,7 @@ def test_a_missing_robot_times_out(arcade: Operated, made: CalibrationResult, mo
 @pytest.mark.long
 def test_a_moved_projector_is_detected_by_the_drift_page(arcade: Operated, made: CalibrationResult) -> None:
     concluded(arcade, made)
-    arcade.press(Button.FIRE)
-    arcade.press(Button.BACK)
+    arcade.press(Button.FIRE, Button.BACK)
     arcade.open(DriftPage(arcade.context, arcade.site))
     checking = arcade.shown(DriftPage).work
     for _ in range(24):
@@ -344,8 +337,7 @@ def test_in_real_time_the_work_is_done_in_threads_that_end(controls: Controls) -
         time.sleep(0.01)
         assert time.monotonic() < end
     assert arcade.stack.top.finding.good
-    arcade.press(Button.BACK)
-    arcade.press(Button.BACK)
+    arcade.press(Button.BACK, Button.BACK)
     site.close()
 
 
@@ -396,7 +388,7 @@ def test_every_message_key_has_a_sentence_in_both_languages() -> None:
             named = getattr(node.func, "id", "") if isinstance(node, ast.Call) and node.args else ""
             if named in ("OperatorMessage", "radio_message"):
                 prefix = "radio_" if named == "radio_message" else ""
-                inside = [one.value for one in ast.walk(node.args[0]) if isinstance(one, ast.Constant)]
+                inside = [one.value for one in ast.walk(node.args[0]) if isinstance(one, ast.Constant)]  # type: ignore[attr-defined]
                 keys |= {prefix + key for key in inside if isinstance(key, str) and key[:1].isalpha()}
     keys = keys - {"radio_"} | {f"radio_{reason}" for reason in ERRORS.values()}
     assert {"few", "busy", "no_camera", "other_display", "radio_program", "radio_denied"} <= keys

@@ -133,8 +133,7 @@ def test_a_camera_without_a_board_and_a_stalled_one_are_reported(
     arcade.press(Button.FIRE)
     until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
     assert isinstance(arcade.shown(ResultPage).finding.trouble, OperatorMessage)
-    arcade.press(Button.BACK)
-    arcade.press(Button.BACK)
+    arcade.press(Button.BACK, Button.BACK)
 
 
 @pytest.mark.usefixtures("_home", "_no_threads_stay")
@@ -154,8 +153,7 @@ def test_without_opencv_the_page_says_so_and_the_arcade_goes_on(
     arcade.begin()
     until(arcade, lambda: isinstance(arcade.stack.top, ResultPage))
     assert arcade.shown(ResultPage).finding.trouble == missing.message
-    arcade.press(Button.BACK)
-    arcade.press(Button.BACK)
+    arcade.press(Button.BACK, Button.BACK)
 
 
 @pytest.mark.usefixtures("_home", "_one_camera", "_no_threads_stay")
@@ -175,14 +173,13 @@ def test_lengths_change_faster_while_held_and_are_saved(controls: Controls, tmp_
     arcade = real(controls, Driver())
     first = arcade.go("width")
     before = first.measures.width
-    arcade.press(Button.RIGHT, Device("pad", 0))
+    arcade.press(Button.RIGHT, device=Device("pad", 0))
     assert first.measures.width == before + 1
     for _ in range(60):
         arcade.stack.top.handle(page.InputEvent(Button.RIGHT, Device("pad", 0), repeat=True))
     assert first.measures.width > before + 1000
     arcade.go("lid")
-    for _ in range(3):
-        arcade.press(Button.LEFT)
+    arcade.press(*[Button.LEFT] * 3)
     assert first.measures.lid == 67
     arcade.press(Button.BACK)
     settings, wrong = Settings.load(tmp_path / "config")

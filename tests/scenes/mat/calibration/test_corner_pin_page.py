@@ -26,7 +26,6 @@ ASKEW = [40, 20, 1880, 60, 1900, 1060, 10, 1000]
 
 @pytest.fixture(autouse=True)
 def _prepared(arcade: Arcade) -> None:
-    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     arcade.open(CornerPinPage(arcade.context))
 
 
@@ -41,10 +40,7 @@ def shown(canvas: Canvas) -> pygame.Surface:
 
 def test_a_corner_moves_by_ten_or_by_one_and_the_picture_with_it(arcade: Arcade) -> None:
     canvas = arcade.context.canvas
-    for button in (Button.RIGHT, Button.RIGHT, Button.DOWN):
-        arcade.press(button)
-    arcade.press(Button.X)
-    arcade.press(Button.DOWN)
+    arcade.press(Button.RIGHT, Button.RIGHT, Button.DOWN, Button.X, Button.DOWN)
     assert canvas.corners[:2] == (20, 11)
     window = shown(canvas)
     assert window.get_at((10, 5))[:3] == (0, 0, 0)
@@ -79,8 +75,7 @@ def test_fire_cycles_through_the_corners_and_a_click_selects_one(arcade: Arcade)
 
 
 def test_a_saved_pin_persists(arcade: Arcade, home: Path) -> None:
-    for button in (Button.RIGHT, Button.DOWN, Button.FIRE, Button.LEFT, Button.START):
-        arcade.press(button)
+    arcade.press(Button.RIGHT, Button.DOWN, Button.FIRE, Button.LEFT, Button.START)
     assert arcade.stack.top is arcade.setup
     settings, wrong = Settings.load(home / "config")
     assert not wrong
@@ -95,8 +90,7 @@ def test_leaving_without_saving_restores_the_pin(arcade: Arcade) -> None:
     arcade.press(Button.BACK)
     arcade.context.canvas.pin(CornerPin(ASKEW))
     arcade.open(CornerPinPage(arcade.context))
-    for button in (Button.RIGHT, Button.DOWN, Button.Y, Button.BACK):
-        arcade.press(button)
+    arcade.press(Button.RIGHT, Button.DOWN, Button.Y, Button.BACK)
     assert arcade.context.canvas.corners == tuple(ASKEW)
 
 
@@ -112,8 +106,7 @@ def test_reset_is_straight_and_costs_nothing(arcade: Arcade, home: Path) -> None
 def test_corners_do_not_cross_and_do_not_get_lost(arcade: Arcade) -> None:
     page = arcade.shown(CornerPinPage)
     for _ in range(300):
-        arcade.press(Button.RIGHT)
-        arcade.press(Button.DOWN)
+        arcade.press(Button.RIGHT, Button.DOWN)
     assert page.corners[0] <= MAX_OFFSET
     assert page.message or page.corners[0] == MAX_OFFSET
     arcade.shown(CornerPinPage)
@@ -125,8 +118,7 @@ def test_a_full_disk_is_reported_and_the_page_stays(arcade: Arcade, monkeypatch:
         raise NotSaved("the disk is full")
 
     monkeypatch.setattr(Settings, "save", full)
-    arcade.press(Button.RIGHT)
-    arcade.press(Button.START)
+    arcade.press(Button.RIGHT, Button.START)
     assert arcade.shown(CornerPinPage).message == arcade.context.words("app.unsaved")
 
 

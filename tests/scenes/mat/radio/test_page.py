@@ -1,7 +1,5 @@
 """The page of arena and radio: numbers change and are kept, radios are written one after another."""
 
-from pathlib import Path
-
 import pytest
 
 from pigaming_app.hardware.emulator.xbee import EmulatedCarrier as EmulatedCarrier
@@ -12,7 +10,6 @@ from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.mat.radio.page import RadioPage
 from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.storage.settings import Settings, folders
-from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.hardware.wire import Time
 from tests.scenes.arcade import Arcade
@@ -34,8 +31,7 @@ class Session(RealSession):
 
 
 @pytest.fixture
-def arcade(controls: Controls, home: Path, request: pytest.FixtureRequest) -> Arcade:
-    arcade = Arcade(controls, getattr(request, "param", "en"))
+def arcade(arcade: Arcade) -> Arcade:
     arcade.context.settings.arena_id = 4711
     arcade.context.mat = SessionMat(arcade.context, Session(arcade.context.settings))
     arcade.open(RadioPage(arcade.context))
@@ -60,22 +56,19 @@ def test_number_channel_and_kinds_change_and_are_kept(arcade: Arcade) -> None:
     go(arcade, "robot")
     arcade.press(Button.RIGHT)
     go(arcade, "kind")
-    arcade.press(Button.RIGHT)
-    arcade.press(Button.RIGHT)
+    arcade.press(Button.RIGHT, Button.RIGHT)
     assert page._fact() == "ESP32:  Ø 120 mm,  battery above 4.4 V"
     kept = Settings.load(folders().config)[0]
     assert (kept.arena_id, kept.radio_channel, kept.kinds) == (4712, 0x0B, ["", "esp32", "", ""])
 
 
-@pytest.mark.parametrize("arcade", ["en", "pt"], indirect=True)
+@pytest.mark.parametrize("language", ["en", "pt"])
 def test_radios_are_written_one_after_another_and_refusals_are_said(arcade: Arcade) -> None:
     page, session = go(arcade, "module"), session_of(arcade.context)
     assert isinstance(session, Session)
-    arcade.press(Button.RIGHT)
-    arcade.press(Button.RIGHT)
+    arcade.press(Button.RIGHT, Button.RIGHT)
     go(arcade, "write")
-    arcade.press(Button.FIRE)
-    arcade.press(Button.UP)
+    arcade.press(Button.FIRE, Button.UP)
     assert page.focus.name == "write", "nothing moves while a radio is written"
     arcade.until(lambda: page._steps is None, 10.0)
     assert session.module.saved[b"MY"] == 2
@@ -86,8 +79,7 @@ def test_radios_are_written_one_after_another_and_refusals_are_said(arcade: Arca
     arcade.until(lambda: page._steps is None, 10.0)
     assert "CH 13" in page.message
     arcade.frame(draw=True)
-    arcade.press(Button.FIRE)
-    arcade.press(Button.BACK)
+    arcade.press(Button.FIRE, Button.BACK)
     assert arcade.stack.top is arcade.setup
 
 

@@ -7,7 +7,6 @@ import pytest
 
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.mat.mat import SessionMat
-from pigaming_app.ui.input.controls import Controls
 from tests.scenes.arcade import Arcade
 
 
@@ -34,8 +33,7 @@ def mat(emulated: EmulatedSession) -> Iterator[EmulatedSession]:
 
 
 @pytest.fixture
-def arcade(controls: Controls, mat: EmulatedSession) -> Arcade:
+def arcade(arcade: Arcade, mat: EmulatedSession) -> Arcade:
     """An arcade connected to the arena."""
-    arcade = Arcade(controls)
     arcade.context.mat = SessionMat(arcade.context, mat)
     return arcade

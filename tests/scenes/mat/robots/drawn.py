@@ -24,6 +24,7 @@ from tests.scenes.arcade import KEYS, Arcade, setup
 
 PAUSING = {rule.name: rule for rule in RULES if rule.pauses}
 PAUSING |= {REMOTE[name]: replace(rule, name=REMOTE[name]) for name, rule in PAUSING.items() if name in REMOTE}
+GROUNDLESS: Any = SimpleNamespace(ground=None)  # a session that was never calibrated
 WHERE = "/dev/serial/by-id/usb-FTDI_FT231X_USB_UART_DN02MQBC-if00-port0"  # a long port
 
 
@@ -58,7 +59,7 @@ def fault_page(arcade: Arcade, rule: SafetyRule) -> FaultPage:
 
 def arena_page(arcade: Arcade, things: Sequence[Thing] = (), fault: OperatorMessage | None = None) -> ArenaPage:
     """Build your arena, with these things on the mat and the first one selected; walls are in the way in one arena."""
-    arcade.context.mat = SessionMat(arcade.context, SimpleNamespace(ground=None))
+    arcade.context.mat = SessionMat(arcade.context, GROUNDLESS)
     page = ArenaPage(arcade.context)
     page._take(ThingLayout(tuple(things)), False)
     if page.arenas:
@@ -71,7 +72,7 @@ def arena_page(arcade: Arcade, things: Sequence[Thing] = (), fault: OperatorMess
 
 def radio_page(arcade: Arcade, message: str = "") -> RadioPage:
     """Arena and radio, with the longest arena number, the longest kind of robot, and a message about a radio."""
-    session = SimpleNamespace(emulated=False, arena_id=LAST_ARENA, advance=lambda seconds: seconds)
+    session: Any = SimpleNamespace(emulated=False, arena_id=LAST_ARENA, advance=lambda seconds: seconds)
     arcade.context.mat = SessionMat(arcade.context, session)
     arcade.context.settings.kinds = [max(KINDS, key=lambda kind: len(kind.name)).key, "", "", ""]
     page = RadioPage(arcade.context)

@@ -9,15 +9,12 @@ import pytest
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.robots.flood_light import FADE, LIGHT, UNSEEN
-from pigaming_app.scenes.mat.robots.match_scene import RealMatch
 from pigaming_app.scenes.mat.robots.take_places import TakePlaces
-from pigaming_app.scenes.play.scene import match_of
 from tests.cases import one_in
 from tests.scenes.arcade import Arcade
-from tests.scenes.mat.robots.test_real_match import begun, match_for, play
+from tests.scenes.mat.robots.test_real_match import begun, opened, play
 
 pytest.importorskip("cv2")
-ALL = (0, 1, 2, 3)
 
 
 @pytest.fixture(autouse=True)
@@ -26,12 +23,10 @@ def _as_it_was(mat: EmulatedSession) -> Iterator[None]:
     mat.arena.camera.painter.ambient = 1.0
 
 
-def gathering(arcade: Arcade) -> tuple[RealMatch, TakePlaces]:
-    match = match_of(arcade.context, match_for("pitanks", "level1 level1 level1 level1", 0.1), [], ALL)
-    assert isinstance(match, RealMatch)
+def gathering(arcade: Arcade) -> TakePlaces:
+    match = opened(arcade, "pitanks", "level1 level1 level1 level1", 0.1, (0, 1, 2, 3))
     assert match.gathering is not None
-    arcade.open(match)
-    return match, match.gathering
+    return match.gathering
 
 
 def scattered(mat: EmulatedSession, trial: int) -> None:
@@ -51,7 +46,7 @@ def scattered(mat: EmulatedSession, trial: int) -> None:
 def test_all_four_robots_are_found(arcade: Arcade, mat: EmulatedSession, ambient: float, trial: int) -> None:
     mat.arena.camera.painter.ambient = ambient
     scattered(mat, trial)
-    _, page = gathering(arcade)
+    page = gathering(arcade)
     play(arcade, 0.04, lit=True)
     if ambient < 1.0:  # otherwise they are seen at once
         assert arcade.screen.get_at((960, 540))[:3] == (LIGHT,) * 3
@@ -69,7 +64,7 @@ def test_all_four_robots_are_found(arcade: Arcade, mat: EmulatedSession, ambient
 def test_the_light_comes_back_when_a_robot_disappears(arcade: Arcade, mat: EmulatedSession) -> None:
     mat.arena.camera.painter.ambient = 0.02
     scattered(mat, 1)
-    _, page = gathering(arcade)
+    page = gathering(arcade)
     play(arcade, 1.5, lit=True)
     assert page.missing == []
     mat.arena.faults.switch("marker_covered", True, 2)

@@ -9,10 +9,9 @@ from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.robots.match_scene import RealMatch
 from pigaming_app.scenes.mat.robots.pair_again import PairAgain
-from pigaming_app.scenes.play.scene import match_of
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
-from tests.scenes.mat.robots.test_real_match import begun, match_for, play, until
+from tests.scenes.mat.robots.test_real_match import begun, opened, play, until
 
 pytest.importorskip("cv2")
 WIRING = ("pinned", "lids_swapped", "motors_reversed", "motors_swapped", "motor_reversed")
@@ -28,12 +27,9 @@ def named(arcade: Arcade) -> list[tuple[str, int | None]]:
     return [(fault.name, fault.robot) for fault in arcade.shown(FaultPage).faults]
 
 
-def gathering(arcade: Arcade, real: tuple[int, ...] = (0, 1)) -> RealMatch:
+def gathering(arcade: Arcade) -> RealMatch:
     """A match whose robots are still driving to their start positions."""
-    match = match_of(arcade.context, match_for("pitanks", "level3 level1 level1 level1", 1.0), [], real)
-    assert isinstance(match, RealMatch)
-    arcade.open(match)
-    return match
+    return opened(arcade, "pitanks", "level3 level1 level1 level1", 1.0)
 
 
 def paired(arcade: Arcade) -> PairAgain:

@@ -1,7 +1,6 @@
 """A match of an event with real robots on the emulated arena."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -20,9 +19,8 @@ from tests.scenes.mat.robots.test_real_match import started, until
 
 
 @pytest.fixture
-def page(arcade: Arcade, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> NextMatch:
+def page(arcade: Arcade) -> NextMatch:
     """The first match of an event of AIs, whose first two seats are real."""
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     event = an_event(brains="level1")
     arcade.context.settings.real = [1, 2]
     page = NextMatch(

@@ -31,9 +31,7 @@ def mat() -> Iterator[EmulatedSession]:
 
 
 @pytest.fixture
-def arcade(controls: Controls, home: Path, mat: EmulatedSession) -> Iterator[Arcade]:
-    arcade = Arcade(controls)
-    arcade.context.mat = SessionMat(arcade.context, mat)
+def arcade(arcade: Arcade, mat: EmulatedSession) -> Iterator[Arcade]:
     arcade.open(FleetPage(arcade.context))
     arcade.wait(1.1, fps=50)
     yield arcade
@@ -51,8 +49,7 @@ def idle(arcade: Arcade, page: FleetPage) -> None:
 
 def test_a_cable_is_refused_for_matches_where_it_is_chosen(arcade: Arcade, mat: EmulatedSession) -> None:
     arcade.context.settings.radio = "stock"
-    page = FleetPage(arcade.context)
-    arcade.open(page)
+    page = arcade.open(FleetPage(arcade.context))
     arcade.press(Button.UP)
     assert page.focus.name == "radio"
     assert "no deadman" in page.line("radio")
@@ -106,32 +103,24 @@ def test_why_a_robot_cannot_drive_is_shown_with_its_remedy(
         "foreign": ("no signal", "only from arena 78"),
     }
     states = [(replace(fine, misfit=Misfit(reason, 78, 0.0)), shown) for reason, shown in lines.items()]
-    states.append((replace(fine, battery=3.9, empty=True), ("battery empty: 3.9 V", "change it")))
-    states.append((replace(fine, deaf=True), ("receives no commands", "seen")))
-    states.append((replace(fine, parked=True), ("stopped by its button", "press the button again")))
     for state, shown in states:
         monkeypatch.setattr(page.check, "health", lambda robot, state=state: state)
         assert page._read(0)[::2] == shown
 
 
-@pytest.mark.parametrize(
-    ("flags", "first", "second"),
-    [
+def test_every_flag_of_a_report_is_shown(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = arcade.shown(FleetPage)
+    for flags, first, second in (
         (EMPTY, "battery empty: 4.2 V", "change it"),
         (PARKED, "stopped by its button", "press the button again"),
         (DEADMAN, "receives no commands", "seen"),
         (RESTARTED, "4.2 V", "seen  ·  restarted by its watchdog"),
-    ],
-)
-def test_every_flag_of_a_report_is_shown(
-    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, flags: int, first: str, second: str
-) -> None:
-    page = arcade.shown(FleetPage)
-    report = page.check.link.telemetry[0]._replace(flags=flags, battery=4.2)
-    monkeypatch.setattr(page.check.link._protocol, "_telemetry", {0: report})
-    line = page._read(0)
-    assert line[0].startswith(first)
-    assert line[2] == second
+    ):
+        report = page.check.link.telemetry[0]._replace(flags=flags, battery=4.2)
+        monkeypatch.setattr(page.check.link._protocol, "_telemetry", {0: report})
+        line = page._read(0)
+        assert line[0].startswith(first)
+        assert line[2] == second
 
 
 def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedSession) -> None:
@@ -211,8 +200,7 @@ def test_without_camera_and_radio_it_says_what_is_wrong_and_settings_can_be_chan
         arcade.wait(0.5)
         arcade.until(lambda: mat.fault is not None, 5.0)
         assert "A porta /dev/nowhere não existe" in str(page._fault())
-        arcade.press(Button.UP)
-        arcade.press(Button.LEFT)
+        arcade.press(Button.UP, Button.LEFT)
         assert settings.radio == "api2"
         arcade.press(Button.RIGHT)
         assert settings.radio == "api1"

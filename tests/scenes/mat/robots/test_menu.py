@@ -13,17 +13,13 @@ from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
 from pigaming_app.scenes.mat.robots.menu import SHEET, RobotsMenu
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.storage.messages import OperatorMessage
-from pigaming_app.storage.settings import Settings
-from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button
-from pigaming_app.ui.window import Canvas
 from tests.scenes.arcade import Arcade
 
 
 @pytest.fixture(autouse=True)
 def _prepared(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("pigaming_app.hardware.calibration.site.cameras", lambda: [])
-    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     arcade.open(OptionsPage(arcade.context))
     go(arcade, OptionsPage, "robots")
     arcade.press(Button.FIRE)
@@ -48,9 +44,7 @@ def test_every_page_is_a_press_away_and_leads_back(arcade: Arcade, name: str, ki
     arcade.shown(OptionsPage)
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_the_sheet_is_written_and_it_says_where(arcade: Arcade, home: Path, language: str) -> None:
-    arcade.context.words.switch(language)
+def test_the_sheet_is_written_and_it_says_where(arcade: Arcade, home: Path) -> None:
     go(arcade, RobotsMenu, "sheet")
     arcade.press(Button.FIRE)
     written = home / "data" / SHEET
@@ -72,9 +66,3 @@ def test_a_sheet_that_cannot_be_written_is_one_sentence(
     monkeypatch.setattr("pigaming_app.hardware.calibration.marker_sheet.sheet", none)
     arcade.press(Button.FIRE)
     assert arcade.shown(RobotsMenu).message == arcade.context.words("hardware.no_opencv")
-
-
-def test_children_in_a_kiosk_do_not_find_it(arcade: Arcade) -> None:
-    arcade.context.kiosk = True
-    assert "robots" not in OptionsPage(arcade.context).rows
-    assert "robots" in OptionsPage(arcade.context, operator=True).rows

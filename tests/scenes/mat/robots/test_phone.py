@@ -10,12 +10,11 @@ from pigaming_app.hardware.emulator.firmware import DEADMAN
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.mat.robots.match_scene import RealMatch
 from pigaming_app.scenes.play.reconnect import Reconnect
-from pigaming_app.scenes.play.scene import match_of
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.input.phone_messages import BITS, Touches
 from pigaming_app.ui.input.phone_pads import Phones
 from tests.scenes.arcade import Arcade
-from tests.scenes.mat.robots.test_real_match import FPS, match_for
+from tests.scenes.mat.robots.test_real_match import FPS, opened
 
 pytest.importorskip("cv2")
 pytest.importorskip("aiohttp")
@@ -72,9 +71,7 @@ def player(arcade: Arcade, mat: EmulatedSession, monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(phones, "clock", mat.arena.clock)
     number = phones.connect()
     arcade.frame()
-    match = match_of(arcade.context, match_for("pitanks", "human off off off", 2.0), [Device("phone", number)], (0,))
-    assert isinstance(match, RealMatch)
-    arcade.open(match)
+    match = opened(arcade, "pitanks", "human off off off", 2.0, (0,), devices=[Device("phone", number)])
     player = Player(arcade, mat, match, phones, number)
     player.play(1.0, Touches())  # the camera finds the robot
     player.tap(Button.START)

@@ -1,15 +1,15 @@
 """Matches with real robots on the emulated arena in simulated time."""
 
+from collections.abc import Callable
 from datetime import date
 from math import hypot
 from pathlib import Path
+from typing import Any
 
 import pygame
 import pytest
 
-from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Seat, Setup
-from pigaming_app.games.registry import games
+from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
 from pigaming_app.hardware.session.emulated import EmulatedSession
@@ -27,14 +27,13 @@ from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.storage.day_log import Battery, DayLog, PlayedMatch, read_day
 from pigaming_app.storage.messages import OperatorMessage
-from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw import GREY
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from pigaming_app.ui.window import Canvas
 from tests.cases import one_in
 from tests.hardware.sentences import sentence
+from tests.matches import setup_of
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -43,11 +42,7 @@ FPS = 50
 
 
 def match_for(game: str, brains: str, minutes: float) -> Setup:
-    rules = games()[game]
-    one, two, three, four = (Seat(brain, team) for brain, team in zip(brains.split(), rules.default.teams, strict=True))
-    seats = (one, two, three, four)
-    variant = rules.variants["pickups"] if game == "pitanks" else rules.default  # without overtime
-    return Setup(game, arenas(game)[0], seats, minutes, 3, variant.name, variant.default_goal)
+    return setup_of(game, brains, "", minutes, 3, "pickups" if game == "pitanks" else "")  # without overtime
 
 
 def play(arcade: Arcade, seconds: float, lit: bool = False) -> None:
@@ -60,20 +55,27 @@ def play(arcade: Arcade, seconds: float, lit: bool = False) -> None:
             mat.show(lambda: pixels_of(arcade.screen))
 
 
-def until(arcade: Arcade, kind: type, timeout: float = 8.0) -> float:
-    """Advance until a scene of this type is on top; returns the time taken, s."""
-    for frame in range(round(timeout * FPS)):
-        if isinstance(arcade.stack.top, kind):
-            return frame / FPS
+def until(arcade: Arcade, kind: type | Callable[[], object], timeout: float = 8.0) -> None:
+    """Advance until a scene of this type is on top, or a condition holds."""
+    for _ in range(round(timeout * FPS)):
+        if isinstance(arcade.stack.top, kind) if isinstance(kind, type) else kind():
+            return
         arcade.frame(1 / FPS)
     raise AssertionError(f"{type(arcade.stack.top).__name__} is on top after {timeout} s")
 
 
+def opened(
+    arcade: Arcade, game: str, brains: str, minutes: float, real: tuple[int, ...] = (0, 1), **more: Any
+) -> RealMatch:
+    """A match whose real robots still have to take their places."""
+    match = match_of(arcade.context, match_for(game, brains, minutes), more.pop("devices", []), real, **more)
+    assert isinstance(match, RealMatch)
+    return arcade.open(match)
+
+
 def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) -> RealMatch:
     """A running PiTanks match whose robots may start from their current positions."""
-    match = match_of(arcade.context, match_for("pitanks", "level3 level1 off off", minutes), [], real)
-    assert isinstance(match, RealMatch)
-    arcade.open(match)
+    match = opened(arcade, "pitanks", "level3 level1 off off", minutes, real)
     started(arcade, match)
     return match
 
@@ -81,23 +83,15 @@ def begun(arcade: Arcade, real: tuple[int, ...] = (0, 1), minutes: float = 2.0) 
 @pytest.mark.long
 def test_rounds_are_played_with_robots_that_take_their_places_again(arcade: Arcade) -> None:
     rounds = Rounds(3)
-    first = match_of(arcade.context, match_for("pitanks", "level1 level1 off off", 0.02), [], (0, 1), rounds=rounds)
-    assert isinstance(first, RealMatch)
-    arcade.open(first)
+    first = opened(arcade, "pitanks", "level1 level1 off off", 0.02, rounds=rounds)
     started(arcade, first, 0.1)
-    for _ in range(round(10 * FPS)):
-        if first.ending.round_break and first.ending.round_break.age > 1.0:
-            break
-        arcade.frame(1 / FPS)
+    until(arcade, lambda: first.ending.round_break and first.ending.round_break.age > 1.0, 10.0)
     arcade.stack.top.draw(arcade.screen)
     arcade.press(Button.STOP)
     assert isinstance(arcade.stack.top, FaultPage), "the emergency stop works in the break"
     first.plant.safety.release()
     until(arcade, RealMatch)
-    for _ in range(round(15 * FPS)):
-        if arcade.stack.top is not first:
-            break
-        arcade.frame(1 / FPS)
+    until(arcade, lambda: arcade.stack.top is not first, 15.0)
     second = arcade.stack.top
     assert isinstance(second, RealMatch)
     assert second.gathering is not None
@@ -116,32 +110,20 @@ def started(arcade: Arcade, match: RealMatch, seconds: float = 0.5) -> None:
     """Start from the current positions and wait until the robots drive."""
     play(arcade, 1.0)
     arcade.press(Button.START)
-    for _ in range(round(5.0 * FPS)):
-        if match.match.seconds > seconds:
-            return
-        arcade.frame(1 / FPS)
-    raise AssertionError("the match does not begin")
+    until(arcade, lambda: match.match.seconds > seconds, 5.0)
 
 
 def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Arcade, mat: EmulatedSession) -> None:
-    match = match_of(arcade.context, match_for("pitanks", "level1 level1 off off", 0.05), [], (0, 1))
-    assert isinstance(match, RealMatch)
+    match = opened(arcade, "pitanks", "level1 level1 off off", 0.05)
     starts = [(robot.x, robot.y) for robot in match.match.state.robots[:2]]
     for robot, (x, y) in enumerate(starts):
         mat.arena.place(robot, (x + (800.0 - x) * 0.25, y + (450.0 - y) * 0.25, 0.4))
-    arcade.open(match)
     play(arcade, 0.5, lit=True)
     assert match.gathering is not None
-    for _ in range(60):
-        if match.gathering is None:
-            break
-        play(arcade, 0.5)
+    until(arcade, lambda: match.gathering is None, 30.0)
     for (x, y, _), start in zip(mat.arena.poses(), starts, strict=False):
         assert hypot(x - start[0], y - start[1]) < 20.0
-    for _ in range(50):
-        if match.match.seconds > 0.0:
-            break
-        play(arcade, 0.1)
+    until(arcade, lambda: match.match.seconds > 0.0, 5.0)
     play(arcade, 0.2, lit=True)
     assert match.match.seconds > 0.0
     for x, y, _ in mat.arena.poses()[:2]:
@@ -153,9 +135,7 @@ def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Ar
 @pytest.mark.long
 @pytest.mark.parametrize("game", ["pitanks", "factory", "race"])
 def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: str) -> None:
-    match = match_of(arcade.context, match_for(game, "level3 level1 level3 level1", 0.05), [], (0, 2))
-    assert isinstance(match, RealMatch)
-    arcade.open(match)
+    match = opened(arcade, game, "level3 level1 level3 level1", 0.05, (0, 2))
     play(arcade, 1.0)
     arcade.press(Button.START)
     until(arcade, Results, 28.0)
@@ -259,14 +239,11 @@ def test_a_pause_offers_to_swap_robots_and_the_real_one_takes_its_place_first(ar
     match = begun(arcade, real=(0,))
     arcade.press(Button.START)
     arcade.shown(Pause)
-    arcade.press(Button.DOWN)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.DOWN, Button.FIRE)
     page = arcade.shown(SwapPage)
-    arcade.press(Button.DOWN)
-    arcade.press(Button.FIRE)
+    arcade.press(Button.DOWN, Button.FIRE)
     assert page.wanted == {0: True, 1: True}
-    arcade.press(Button.BACK)
-    arcade.press(Button.BACK)
+    arcade.press(Button.BACK, Button.BACK)
     assert arcade.shown(RealMatch).gathering is not None
     play(arcade, 1.0)
     arcade.press(Button.START)
@@ -339,17 +316,12 @@ def test_a_restart_keeps_its_real_robots(arcade: Arcade, mat: EmulatedSession) -
 def test_simulated_robots_begin_where_real_ones_are_missing(arcade: Arcade, mat: EmulatedSession) -> None:
     mat.arena.faults.switch("marker_covered", True, 1)
     mat.arena.faults.switch("robot_off", True, 2)
-    match = match_of(arcade.context, match_for("pitanks", "level1 level1 level1 off", 1.0), [], (0, 1, 2))
-    assert isinstance(match, RealMatch)
-    arcade.open(match)
+    match = opened(arcade, "pitanks", "level1 level1 level1 off", 1.0, (0, 1, 2))
     play(arcade, 2.5, lit=True)
     arcade.press(Button.X)
     assert match.real == {0}
     assert match.gathering is not None
-    for _ in range(60):
-        play(arcade, 0.5)
-        if match.gathering is None:
-            break
+    until(arcade, lambda: match.gathering is None, 30.0)
     play(arcade, 5.0)
     assert match.match.seconds > 0.5
     x, y, _ = mat.arena.poses()[0]
@@ -407,7 +379,6 @@ def test_the_day_log_has_the_match_and_the_batteries_and_the_operators_page_ends
     arcade: Arcade, mat: EmulatedSession, tmp_path: Path
 ) -> None:
     arcade.context.day_log = DayLog(tmp_path)
-    arcade.context.canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     stopped: list[int] = []
     arcade.context.emergency_stops += [mat.close, lambda: stopped.append(len(arcade.stack.scenes))]
     match = begun(arcade)

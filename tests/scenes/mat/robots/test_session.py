@@ -6,7 +6,6 @@ from typing import cast
 
 import pytest
 
-from pigaming_app.games.game import Seat, Setup
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import StackOperation
@@ -21,7 +20,7 @@ from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, InputEvent
 from tests.cases import one_in
 from tests.hardware.session.opened import HERE, calibrate, real_mat, soon, threads
-from tests.scenes.arcade import Arcade
+from tests.scenes.arcade import Arcade, setup
 
 pytest.importorskip("cv2")
 
@@ -34,8 +33,7 @@ def test_without_camera_and_radio_the_match_says_so_and_goes_on_with_simulated_r
     arcade = Arcade(controls, "pt")
     mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
     arcade.context.mat = SessionMat(arcade.context, mat)
-    seats = (Seat("level1", 0), Seat("level1", 1), Seat("off", 2), Seat("off", 3))
-    match = match_of(arcade.context, Setup("pitanks", "classic", seats, 1.0, 3, "plain"), [], (0, 1))
+    match = match_of(arcade.context, setup("level1 level1 off off", 1.0), [], (0, 1))
     assert isinstance(match, RealMatch)
     arcade.open(match)
 
@@ -75,15 +73,8 @@ def test_robots_stand_when_a_scene_fails_and_when_the_arcade_ends(home: Path, al
     def first(context: Context) -> RealMatch:
         contexts.append(context)
         assert isinstance(session_of(context), EmulatedSession)
-        seats = (Seat("level1", 0), Seat("level1", 1), Seat("off", 2), Seat("off", 3))
-        return Failing(
-            context,
-            Setup("pitanks", "classic", seats, 0.1, 3, "plain"),
-            [],
-            (0, 1),
-            session_of(context),
-            partial(match_of, context),
-        )
+        again = partial(match_of, context)
+        return Failing(context, setup("level1 level1 off off"), [], (0, 1), session_of(context), again)
 
     code = run(Options(first_scene=first, without_title=alone, headless=True, step=0.02, frames=400, emulator_seed=2))
     assert code == int(alone)

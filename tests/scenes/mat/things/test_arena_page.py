@@ -1,4 +1,4 @@
-"""Build your arena on the emulated mat; matches among things; things that are moved."""
+"""Build your arena on the emulated mat; matches among things; things that are moved or in the way."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -7,6 +7,7 @@ from math import dist, hypot, pi
 import numpy as np
 import pytest
 
+from pigaming_app.games.arenas import load
 from pigaming_app.hardware.emulator.robots import RADIUS
 from pigaming_app.hardware.emulator.things.prism import TAPE, Prism, box
 from pigaming_app.hardware.proof.things import distances
@@ -20,21 +21,22 @@ from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.robots.match_scene import RealMatch
 from pigaming_app.scenes.mat.session import session_of
+from pigaming_app.scenes.mat.things import playable
 from pigaming_app.scenes.mat.things.arena_page import ArenaPage
 from pigaming_app.scenes.mat.things.moved_page import MovedPage
+from pigaming_app.scenes.mat.things.playable import PlayableArenas
 from pigaming_app.scenes.mat.things.sweep_page import SweepPage
 from pigaming_app.scenes.play.scene import match_of
-from pigaming_app.sim.things.spec import Use
+from pigaming_app.sim.things.spec import ThingSpec, Use
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
 from tests.cases import repeated
 from tests.scenes.arcade import Arcade
-from tests.scenes.mat.robots.test_real_match import FPS, match_for
+from tests.scenes.mat.robots.test_real_match import FPS, match_for, opened
 from tests.scenes.mat.robots.test_recording import MatSession
 
 pytest.importorskip("cv2")
-
 PUSHED = 60.0  # mm
 FREE = 150.0  # px between a robot and a thing that is pushed, so that it is not pushed onto the robot
 NOTICED = 6.0  # s
@@ -63,8 +65,7 @@ def frames(arcade: Arcade, mat: EmulatedSession, done: Callable[[Scene], bool], 
 def scanned(arcade: Arcade, mat: EmulatedSession, things: list[Prism]) -> ThingLayout:
     """Scan these things by the page."""
     mat.arena.furnish(things)
-    page = ArenaPage(arcade.context)
-    arcade.open(page)
+    page = arcade.open(ArenaPage(arcade.context))
     arcade.press(Button.FIRE)
     assert isinstance(arcade.stack.top, SweepPage)
     frames(arcade, mat, lambda top: top is page, 60.0)
@@ -97,8 +98,7 @@ def keep(arcade: Arcade, *things: Thing) -> None:
 def test_things_are_changed_on_screen_and_kept(simulated: Arcade) -> None:
     crate, tape = thing(ThingKind.TALL, 700.0, 300.0, 90.0, 60.0), thing(ThingKind.FLAT, 1100.0, 300.0, 200.0, 20.0)
     keep(simulated, crate, tape)
-    page = ArenaPage(simulated.context)
-    simulated.open(page)
+    page = simulated.open(ArenaPage(simulated.context))
     assert page.selected == crate
     simulated.press(Button.Y)  # no mud of a box
     simulated.press(Button.RIGHT)
@@ -129,8 +129,7 @@ def test_an_arena_that_things_block_is_built_again_or_played_without_them(simula
 
 def test_results_among_things_are_no_records_and_a_rematch_keeps_the_things(simulated: Arcade) -> None:
     keep(simulated, thing(ThingKind.TALL, 700.0, 300.0, 90.0, 60.0))
-    match = match_of(simulated.context, match_for("pitanks", "level1 level1 off off", 2.0), [], (0, 1))
-    assert isinstance(match, RealMatch)
+    match = opened(simulated, "pitanks", "level1 level1 off off", 2.0)
     assert match.sequel.without_records == range(4)
     keep(simulated)
     again = match.sequel.rematch(simulated.context, match.setup, [])
@@ -149,9 +148,7 @@ def test_a_match_among_scanned_things_has_no_false_alarm_and_stops_when_one_is_p
     assert [one.kind for one in layout.things].count(ThingKind.TALL) == len(things)
     brains = "level1 level1 level1 level1" if game == "factory" else "level5 level5 level5 off"
     real = (0, 1, 2, 3) if game == "factory" else (0, 1, 2)
-    match = match_of(arcade.context, match_for(game, brains, 5.0), [], real)
-    assert isinstance(match, RealMatch)
-    arcade.open(match)
+    match = opened(arcade, game, brains, 5.0, real)
     frames(arcade, mat, lambda _: match.gathering is None, 60.0)
     began = match.match.seconds
     frames(arcade, mat, lambda top: isinstance(top, MovedPage) or match.match.seconds > began + 60.0, 120.0)
@@ -191,9 +188,7 @@ def test_things_pushed_against_a_robot_explain_that_it_does_not_follow_its_comma
     mat = cleared
     things = [box(x, y, 90.0, 70.0, 90.0, 0.3, 0.45, "printed", i) for i, (x, y) in enumerate(BOXES["pitanks"])]
     scanned(arcade, mat, things)
-    match = match_of(arcade.context, match_for("pitanks", "level5 level5 off off", 5.0), [], (0, 1))
-    assert isinstance(match, RealMatch)
-    arcade.open(match)
+    match = opened(arcade, "pitanks", "level5 level5 off off", 5.0)
     frames(arcade, mat, lambda _: match.gathering is None, 60.0)
     frames(arcade, mat, lambda _: match.match.seconds > 1.0, 20.0)
 
@@ -229,9 +224,7 @@ def test_a_block_that_is_moved_by_hand_is_a_wall_where_it_is_and_in_the_replay(
 ) -> None:
     mat, arcade.context.settings.blocks = cleared, True
     mat.arena.furnish([box(-100.0, -100.0, 160.0, 70.0, 50.0, 0.3, 0.5, marker=32)])
-    match = match_of(arcade.context, match_for(game, "level5 level5 level5 level5", 5.0), [], (0, 1))
-    assert isinstance(match, RealMatch)
-    arcade.open(match)
+    match = opened(arcade, game, "level5 level5 level5 level5", 5.0)
     frames(arcade, mat, lambda _: match.gathering is None, 40.0)
     frames(arcade, mat, lambda _: match.match.seconds > 1.0, 20.0)
     block = mat.arena.things[0]
@@ -246,3 +239,33 @@ def test_a_block_that_is_moved_by_hand_is_a_wall_where_it_is_and_in_the_replay(
     replay = replay_of(match.match)
     assert replay is not None
     assert verify(decode(pack(replay), "match"))
+
+
+def crate(x: float, y: float, wide: float = 60.0, high: float = 60.0) -> ThingSpec:
+    return ThingSpec(Use.WALL, ((x, y), (x + wide, y), (x + wide, y + high), (x, y + high)), 3.0)
+
+
+def slot_of_hall() -> ThingSpec:
+    slot = load("factory", "hall").plan.slots[0]
+    return crate(slot.x - 30.0, slot.y - 30.0)
+
+
+@pytest.mark.parametrize(
+    ("game", "name", "things", "culprits"),
+    [
+        ("factory", "hall", [crate(760.0, 300.0), slot_of_hall(), crate(800.0, 500.0)], {1}),
+        ("pitanks", "classic", [crate(760.0, -20.0, 30.0, 500.0), crate(760.0, 440.0, 30.0, 480.0)], {0, 1}),
+        ("pitanks", "classic", [crate(760.0, 300.0)], set()),
+    ],
+    ids=["one covers a slot", "two close the way together", "none"],
+)
+def test_things_in_the_way_are_found(
+    monkeypatch: pytest.MonkeyPatch, game: str, name: str, things: list[ThingSpec], culprits: set[int]
+) -> None:
+    monkeypatch.setattr(playable, "games", lambda: [game])
+    monkeypatch.setattr(playable, "playable_arenas", lambda _: [name])
+    arenas = PlayableArenas(things)
+    arenas._thread.join(10.0)
+    assert arenas.done
+    assert arenas.blocked == ({game: [name]} if culprits else {})
+    assert arenas.culprits == culprits
