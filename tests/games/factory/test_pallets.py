@@ -46,6 +46,8 @@ PAIRS, TWO = "hand3 random hand2 hand1", "hand3 hand1"
 class Watch:
     """Checks the invariants of all pallets of a match after every tick."""
 
+    steps = STEPS
+
     def __init__(self, state):
         self.state = state
         self.there = [p for p, pallet in enumerate(state.pallets) if pallet.exists]
@@ -57,13 +59,16 @@ class Watch:
         """Assert the invariants of all pallets, now and in comparison with the last check."""
         state = self.state
         assert [p for p, pallet in enumerate(state.pallets) if pallet.exists] == self.there
-        assert [state.pallets[p].team for p in self.there] == self.teams
         assert self.held() == {p: (state.pallets[p].place, state.pallets[p].at) for p in self.there if self.shown(p)}
         for p in self.there:
             self.look_at(p)
-        for team in (0, 1):
-            out = [p for p in self.there if state.pallets[p].state == DELIVERED and state.pallets[p].team == team]
-            assert state.delivered[team] == len(out)
+        self.look_at_teams()
+
+    def look_at_teams(self):
+        """Assert that each team has its pallets and what it has delivered."""
+        assert [self.state.pallets[p].team for p in self.there] == self.teams
+        out = [self.state.pallets[p].team for p in self.there if self.state.pallets[p].state == DELIVERED]
+        assert self.state.delivered == [out.count(0), out.count(1)]
 
     def shown(self, p):
         """True if any place holds pallet p."""
@@ -91,7 +96,7 @@ class Watch:
         pallet = self.state.pallets[p]
         if pallet.state != self.before[p]:
             step = self.before[p], pallet.state
-            assert step in STEPS
+            assert step in self.steps
             self.seen.add(step)
             self.before[p] = pallet.state
         if pallet.place == ON_ROBOT:

@@ -234,17 +234,6 @@ def test_at_point_blank_with_a_wall_beside_the_victim(way, gap, aside, off, lean
     assert not shots.wrong()[0]
 
 
-@pytest.mark.parametrize("gap", [72.0, 80.0, 95.0, 110.0, 117.0])
-@pytest.mark.parametrize("degrees", range(0, 360, 45))
-def test_a_victim_before_the_muzzle_is_hit_on_the_tick_of_the_shot(gap, degrees):
-    way = degrees * pi / 180
-    match = pitanks([(800.0, 450.0, way), (800.0 + gap * cos(way), 450.0 + gap * sin(way), 0.0)])
-    match.actions[0].fire = 1
-    judge(match)
-    assert [robot.score for robot in match.robots] == [1, -1, 0, 0]
-    assert hypot(match.bullets[0].x - match.robots[1].x, match.bullets[0].y - match.robots[1].y) == pytest.approx(42.0)
-
-
 # --------------------------------------------------------------------------------------------------- bouncing bullets
 
 

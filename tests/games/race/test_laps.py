@@ -15,7 +15,7 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.race.course import point_at
 from tests.cases import one_in
 from tests.games.rails import Ride
-from tests.matches import match_of, run
+from tests.matches import match_of
 
 TRACKS = arenas("race")
 
@@ -215,95 +215,13 @@ def nearer(at, to, limit):
 # ---------------------------------------------------------------------------------------------------- specified cases
 
 
-@pytest.mark.parametrize("track", TRACKS)
-def test_laps_driven_properly_count(track):
-    ride = Ride(track, present=(2,), laps=2)
-    ride.lap(2)
-    assert ride.state.robots[2].score == 1
-    ride.lap(2, aside=30.0)
-    assert ride.racers[2].finished
-    assert not ride.racers[2].void
-
-
-@pytest.mark.parametrize("track", TRACKS)
-def test_a_lap_driven_backwards_counts_nothing_and_takes_nothing(track):
-    ride = Ride(track, present=(0,))
-    ride.lap(0)
-    own = ride.lines[0].along
-    passed = ride.racers[0].passed
-    ride.along(0, own + ride.course.length + 30.0, own + 60.0)
-    assert (ride.racers[0].passed, ride.state.robots[0].score) == (passed, 1)
-    ride.along(0, own + 60.0, own + ride.course.length + 30.0)
-    assert ride.state.robots[0].score == 2
-    assert ride.racers[0].void == 0, "coming forward again over what it went back over is no miss"
-
-
-@pytest.mark.parametrize("track", TRACKS)
-def test_going_to_and_fro_over_the_own_line_is_no_lap(track):
-    ride = Ride(track, present=(1,))
-    own = ride.lines[1].along
-    for _ in range(10):
-        ride.along(1, own - 30.0, own + 30.0)
-        ride.along(1, own + 30.0, own - 30.0)
-    assert ride.state.robots[1].score == 0
-    assert ride.racers[1].passed == 1
-    assert not ride.racers[1].missed
-
-
-@pytest.mark.parametrize("track", TRACKS)
-def test_cutting_through_the_middle_is_no_lap_and_says_so(track):
-    """Over the own line, through the infield, over the own line again: the lap does not count."""
-    ride = Ride(track, present=(0,))
-    own, second, last = (ride.lines[i].along for i in (0, 1, 3))
-    ride.along(0, own - 30.0, own + 60.0)
-    ride.put(0, *point_at(ride.course, last - 60.0, 0.0))
-    ride.along(0, last - 60.0, own + (ride.course.length if own < last else 0.0) + 30.0)
-    assert ride.state.robots[0].score == 0
-    assert ride.racers[0].missed == 2
-    assert ride.racers[0].void == 1
-    ride.along(0, second - 30.0, second + 30.0)
-    assert not ride.racers[0].missed
-    ride.along(0, second + 30.0, own + (ride.course.length if own < second else 0.0) + 30.0)
-    assert ride.state.robots[0].score == 1, "after going back properly the lap counts"
-
-
 LINE_OF_TRACK = [(track, seat) for track in TRACKS for seat in range(4)]
-
-
-def round_the_end(ride, seat, side):
-    """Drive from past a line back to before it, around one of its ends, without crossing it."""
-    line = ride.lines[seat]
-    out = (ride.course.half[0] + 60.0) * side
-    ride.along(seat, line.along + 50.0, line.along + 51.0, aside=out)
-    ride.along(seat, line.along + 51.0, line.along - 51.0, aside=out)
-    ride.along(seat, line.along - 51.0, line.along - 50.0)
 
 
 def carry(ride, seat, along):
     """Carry a robot to another position on the course."""
     ride.put(seat, *point_at(ride.course, along % ride.course.length, 0.0))
     ride.match.tick()
-
-
-@pytest.mark.parametrize(("track", "seat"), LINE_OF_TRACK)
-def test_crossing_only_the_own_line_repeatedly_misses_the_next(track, seat):
-    """Around either end of the line, through the mud, and carried: it is reported after the second crossing."""
-    for way in (1.0, -1.0, 0.0):
-        ride = Ride(track, present=(seat,))
-        racer, own = ride.racers[seat], ride.lines[seat].along
-        ride.along(seat, own - 50.0, own + 50.0)
-        for void in (1, 2, 3):
-            assert racer.missed == (0 if void == 1 else 1 + (seat + 1) % 4)
-            if way:
-                round_the_end(ride, seat, way)
-            else:
-                carry(ride, seat, own - 50.0)
-            ride.along(seat, own - 50.0, own + 50.0)
-            assert (racer.passed, racer.void, ride.state.robots[seat].score) == (1, void, 0)
-            assert racer.missed == 1 + (seat + 1) % 4
-        ahead = ride.lines[(seat + 1) % 4].along
-        ride.along(seat, ahead - 30.0, ahead + 30.0)
-        assert (racer.passed, racer.missed) == (2, 0)
 
 
 @pytest.mark.parametrize(("track", "seat"), LINE_OF_TRACK)
@@ -323,30 +241,3 @@ def test_the_first_line_left_out_is_the_one_to_go_back_to(track, seat, skipped):
     assert ride.state.robots[seat].score == (0 if skipped else 1)
     assert racer.missed == (1 + (seat + skipped[0]) % 4 if skipped else 0)
     assert racer.void == (1 if skipped else 0)
-
-
-@pytest.mark.parametrize(("track", "seat"), LINE_OF_TRACK)
-def test_at_the_start_and_over_the_own_line_and_back_no_sign_is_shown(track, seat):
-    ride = Ride(track, present=(seat,))
-    racer, own = ride.racers[seat], ride.lines[seat].along
-    ride.along(seat, own - 55.0, own + 40.0)
-    assert (racer.passed, racer.missed) == (1, 0)
-    for _ in range(3):
-        ride.along(seat, own + 40.0, own - 150.0)
-        assert not racer.missed
-        ride.along(seat, own - 150.0, own + 40.0)
-        assert (racer.passed, racer.missed, racer.void) == (1, 0, 0)
-
-
-def test_parking_on_the_line_is_one_crossing():
-    ride = Ride(present=(0,))
-    line = ride.lines[0]
-    ride.along(0, line.along - 40.0, line.along - 1.0)
-    x, y = (line.ax + line.bx) / 2, (line.ay + line.by) / 2
-    ride.to(0, x, y)
-    run(ride.match, 100)
-    assert ride.racers[0].passed <= 1
-    ride.along(0, line.along - 1.0, line.along + 1.0)
-    ride.along(0, line.along + 1.0, line.along - 1.0)
-    ride.along(0, line.along - 1.0, line.along + 40.0)
-    assert ride.racers[0].passed == 1

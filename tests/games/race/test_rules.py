@@ -71,21 +71,6 @@ def test_turbo_is_a_meter_of_two_seconds():
 # --------------------------------------------------------------------------------------------------------------- lines
 
 
-def test_the_first_crossing_of_the_own_line_begins_the_first_lap():
-    ride = Ride(present=(0,))
-    own = ride.lines[0].along
-    assert ride.racers[0].passed == 0
-    ride.along(0, own - 30.0, own + 30.0)
-    assert ride.racers[0].passed == 1
-    assert ride.state.robots[0].score == 0
-
-
-def test_before_the_own_line_nothing_is_missed():
-    ride = Ride(present=(0,))
-    ride.along(0, ride.before(0, 2), ride.lines[2].along + 50.0)
-    assert (ride.racers[0].passed, ride.racers[0].missed, ride.racers[0].void) == (0, 0, 0)
-
-
 def test_a_missed_line_is_named_and_must_be_gone_back_to():
     """A robot bypasses line 2: crossing line 3 reveals it, and the lap does not count."""
     ride = Ride(present=(0,))
@@ -102,25 +87,6 @@ def test_a_missed_line_is_named_and_must_be_gone_back_to():
     assert (racer.missed, racer.passed) == (0, 2)
     ride.along(0, two + 30.0, one + ride.course.length + 30.0)
     assert ride.state.robots[0].score == 1
-
-
-def test_only_the_width_of_the_course_is_the_line():
-    ride = Ride(present=(0,))
-    own = ride.lines[0].along
-    ride.along(0, own - 100.0, own + 100.0, aside=ride.course.half[0] + 20.0)
-    assert ride.racers[0].passed == 0
-
-
-def test_a_robot_that_is_carried_over_a_line_has_not_crossed_it():
-    ride = Ride(present=(0,))
-    own = ride.lines[0].along
-    ride.along(0, own - 60.0, own - 25.0)
-    for step, passed in ((50.0, 0), (-50.0, 0)):
-        ride.put(0, *point_at(ride.course, own + step / 2, 0.0))
-        ride.match.tick()
-        assert ride.racers[0].passed == passed
-    ride.along(0, own - 25.0, own + 25.0)
-    assert ride.racers[0].passed == 1
 
 
 # --------------------------------------------------------------------------------------------------------------- times
