@@ -1,12 +1,13 @@
 """Test arenas: walls and robots at given places, without an arena file."""
 
 from collections.abc import Sequence
+from math import cos, hypot, sin
 
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.pitanks import GAME as PITANKS
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.arena import Arena, StartPose, WallSpec, build
-from pigaming_app.sim.world import World
+from pigaming_app.sim.world import Wall, World
 
 CORNERS = ((110.0, 110.0, 0.0), (1490.0, 790.0, 3.0), (110.0, 790.0, 0.0), (1490.0, 110.0, 3.0))
 Line = tuple[float, float, float, float]
@@ -44,3 +45,23 @@ def pitanks(
     setup = Setup("pitanks", "test", (one, two, three, four), minutes, 1, variant)
     PITANKS.start(match, arena(walls, poses, health, half), setup)
     return match
+
+
+def from_segment(x: float, y: float, ax: float, ay: float, bx: float, by: float) -> float:
+    """Distance from a point to a segment, px: for oracles, which share no code with the rules."""
+    ex, ey = bx - ax, by - ay
+    length2 = ex * ex + ey * ey
+    t = min(1.0, max(0.0, ((x - ax) * ex + (y - ay) * ey) / length2)) if length2 else 0.0
+    return hypot(x - ax - t * ex, y - ay - t * ey)
+
+
+def from_wall(wall: Wall | WallSpec, x: float, y: float) -> float:
+    """Distance from a point to a wall's centre line, px."""
+    return from_segment(x, y, wall.ax, wall.ay, wall.bx, wall.by)
+
+
+def box(x: float, y: float, w: float, h: float, angle: float = 0.0) -> tuple[tuple[float, float], ...]:
+    """The outline of a thing with four corners round (x, y)."""
+    c, s = cos(angle), sin(angle)
+    corners = ((-w / 2, -h / 2), (w / 2, -h / 2), (w / 2, h / 2), (-w / 2, h / 2))
+    return tuple((x + c * u - s * v, y + s * u + c * v) for u, v in corners)

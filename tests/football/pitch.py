@@ -5,6 +5,7 @@ from math import dist, hypot, isfinite
 from pigaming_app.games.arenas import load
 from pigaming_app.games.match import Match
 from pigaming_football.rules import side_of
+from tests.floor import from_wall
 from tests.matches import setup_of
 
 BALL, ROBOT = 22.0, 36.0  # px, radii
@@ -50,16 +51,8 @@ def overlap(football):
         depths += [BALL - ball.x, ball.x - (1600.0 - BALL)]
     depths += [BALL - dist((ball.x, ball.y), (x, 450.0 + s * half)) for x in (0.0, 1600.0) for s in (-1, 1)]
     depths += [ROBOT + BALL - hypot(ball.x - r.x, ball.y - r.y) for r in football.robots if r.present]
-    depths += [wall.half + BALL - from_segment(ball.x, ball.y, wall) for wall in arena.walls]
+    depths += [wall.half + BALL - from_wall(wall, ball.x, ball.y) for wall in arena.walls]
     return max(depths)
-
-
-def from_segment(x, y, wall):
-    """Distance of a point from a wall's centre line."""
-    ex, ey = wall.bx - wall.ax, wall.by - wall.ay
-    t = ((x - wall.ax) * ex + (y - wall.ay) * ey) / (ex * ex + ey * ey)
-    t = max(0.0, min(1.0, t))
-    return hypot(x - wall.ax - t * ex, y - wall.ay - t * ey)
 
 
 def name_of(football):

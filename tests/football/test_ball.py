@@ -17,6 +17,7 @@ from pigaming_app.sim.world import DT
 from pigaming_football.physics import note_steps, reflect
 from pigaming_football.rules import judge, move
 from pigaming_football.state import Ball
+from tests.floor import from_wall
 from tests.football.pitch import ARENAS, BALL, ROBOT, overlap, put_ball, put_robot, state
 
 SLOP = 2e-6  # px
@@ -276,10 +277,8 @@ def test_a_ball_that_has_no_place_is_dropped_anew():
 
 
 def overlap_of_walls(football):
-    from tests.football.pitch import from_segment
-
     walls = football.walls[: football.wall_count]
-    return max(wall.half + BALL - from_segment(football.ball.x, football.ball.y, wall) for wall in walls)
+    return max(wall.half + BALL - from_wall(wall, football.ball.x, football.ball.y) for wall in walls)
 
 
 @pytest.mark.long

@@ -1,6 +1,6 @@
 """Things on the mat in the three games: nobody drives or shoots through them, and every AI goes round them."""
 
-from math import cos, dist, pi, sin
+from math import dist, pi
 from random import Random
 
 import pytest
@@ -18,13 +18,12 @@ from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.things.convex import contains, distance
 from pigaming_app.sim.things.cover import from_capsule
 from pigaming_app.sim.things.spec import ThingSpec, Use, wall_capsules, written
+from tests.floor import box as outline_of
 from tests.matches import finished, match_of, run
 
 
 def box(x, y, w, h, angle=0.0, use=Use.WALL, margin=4.0):
-    c, s = cos(angle), sin(angle)
-    corners = ((-w / 2, -h / 2), (w / 2, -h / 2), (w / 2, h / 2), (-w / 2, h / 2))
-    return ThingSpec(use, tuple((x + c * u - s * v, y + s * u + c * v) for u, v in corners), margin)
+    return ThingSpec(use, outline_of(x, y, w, h, angle), margin)
 
 
 def arena_with(game, name, *things):

@@ -14,7 +14,7 @@ from pigaming_app.sim.contact import SHOVE, drive, in_wall
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
-from tests.floor import floor
+from tests.floor import floor, from_wall
 
 FASTEST = 325.0 * 1.3  # px/s, with turbo on a track; with turbo and the pick-up it is the same
 DEEPEST = 2.0  # px by which two robots may overlap
@@ -28,13 +28,6 @@ def driven(world, seconds):
     for _ in range(round(seconds * HZ)):
         drive(world)
     return world
-
-
-def from_wall(wall, x, y):
-    ex, ey = wall.bx - wall.ax, wall.by - wall.ay
-    length2 = ex * ex + ey * ey
-    t = min(1.0, max(0.0, ((x - wall.ax) * ex + (y - wall.ay) * ey) / length2)) if length2 else 0.0
-    return hypot(x - wall.ax - t * ex, y - wall.ay - t * ey)
 
 
 def depth(world):

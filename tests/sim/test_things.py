@@ -24,12 +24,7 @@ from pigaming_app.sim.things.mud import in_mud
 from pigaming_app.sim.things.spec import ThingSpec, Use, mud_capsules, read_things, wall_capsules, written
 from pigaming_app.sim.toml_table import FieldError, TomlTable
 from pigaming_app.sim.world import CELL, COLUMNS, NODES, World
-
-
-def box(x, y, w, h, angle=0.0):
-    c, s = cos(angle), sin(angle)
-    corners = ((-w / 2, -h / 2), (w / 2, -h / 2), (w / 2, h / 2), (-w / 2, h / 2))
-    return tuple((x + c * u - s * v, y + s * u + c * v) for u, v in corners)
+from tests.floor import box
 
 
 def disc(x, y, r, corners=16):

@@ -18,7 +18,7 @@ from pigaming_app.games.pitanks.state import OUTER, OWN_BULLETS, RICOCHET, TRIPL
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HEIGHT, WIDTH
-from tests.floor import pitanks
+from tests.floor import from_segment, pitanks
 
 BULLET, SPEED, MUZZLE = 6.0, 560.0, 64.0  # px, px/s, px: the published rules
 NEVER = 2.0
@@ -139,7 +139,7 @@ def crowd(random, walls):
         py = y + random.uniform(-160, 160) if near else random.uniform(40, HEIGHT - 40)
         free = RADIUS <= px <= WIDTH - RADIUS and RADIUS <= py <= HEIGHT - RADIUS
         free = free and all(hypot(px - a, py - b) >= 2 * RADIUS - 2.0 for a, b, _ in poses)
-        if free and all(segment(px, py, *wall) >= RADIUS + 15.0 for wall in walls):
+        if free and all(from_segment(px, py, *wall) >= RADIUS + 15.0 for wall in walls):
             poses.append((px, py, 0.0))
     aims = []
     for i, (px, py, _) in enumerate(poses):
@@ -147,13 +147,6 @@ def crowd(random, walls):
         spread = random.choice((0.1, 0.6, pi))
         aims.append((px, py, (atan2(ay - py, ax - px) + random.uniform(-spread, spread)) % (2 * pi)))
     return aims
-
-
-def segment(x, y, ax, ay, bx, by):
-    """Distance from a point to a segment, px."""
-    ex, ey = bx - ax, by - ay
-    t = min(1.0, max(0.0, ((x - ax) * ex + (y - ay) * ey) / (ex * ex + ey * ey)))
-    return hypot(x - ax - t * ex, y - ay - t * ey)
 
 
 def stroke(random):
@@ -247,7 +240,7 @@ def ricochet(match, x, y, way, bounces):
 
 def clear_of(walls, x, y, room):
     """True if a point is at least `room` px from the centre line of every wall."""
-    return all(segment(x, y, *wall) >= room for wall in walls)
+    return all(from_segment(x, y, *wall) >= room for wall in walls)
 
 
 def bounces_inside(match, walls, half, bullet, ticks):
