@@ -1,14 +1,12 @@
 """A user without HOME and without an entry in the list of users: one sentence, and nothing is written."""
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from pigaming_app import ROOT
 from pigaming_app.boot import interpreter
+from tests.processes import python
 
 pwd = pytest.importorskip("pwd")
 NOBODY = """
@@ -19,19 +17,17 @@ pwd.getpwuid = getpwuid
 from pigaming_app.jobs import cli
 sys.exit(cli.main(sys.argv[1:]))
 """
-HOMES = ("HOME", "PIGAMING_HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_CACHE_HOME")
-HEADLESS = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PYTHONPATH": str(ROOT)}
 
 
-def run(folder: Path, *words: str) -> "subprocess.CompletedProcess[str]":
-    environment = {key: value for key, value in os.environ.items() if key not in HOMES} | HEADLESS
-    command = [sys.executable, "-W", "error", "-X", "pigaming", "-c", NOBODY, *words]
-    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+@pytest.fixture(autouse=True)
+def _nobody(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("HOME", "PIGAMING_HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_CACHE_HOME"):
+        monkeypatch.delenv(name, raising=False)
 
 
 @pytest.mark.parametrize("words", ["--frames 1", "--kiosk", "games list", "robots", "play pitanks --headless"])
 def test_a_job_ends_in_one_sentence(words: str, tmp_path: Path) -> None:
-    ended = run(tmp_path, *words.split())
+    ended = python(NOBODY, *words.split(), cwd=tmp_path)
     assert (ended.returncode, ended.stdout) == (2, "")
     assert ended.stderr.splitlines() == [
         "PiGaming: this user has no home folder: set HOME or PIGAMING_HOME to a folder that can be written."
@@ -40,7 +36,7 @@ def test_a_job_ends_in_one_sentence(words: str, tmp_path: Path) -> None:
 
 
 def test_the_doctor_names_it_and_goes_on(tmp_path: Path) -> None:
-    ended = run(tmp_path, "doctor")
+    ended = python(NOBODY, "doctor", cwd=tmp_path)
     assert (ended.returncode, ended.stderr) == (1, "")
     (line,) = [line for line in ended.stdout.splitlines() if line.startswith("problem")]
     assert "no home folder" in line
@@ -52,8 +48,6 @@ def test_the_packages_go_beside_the_program(monkeypatch: pytest.MonkeyPatch) -> 
     def unknown(uid: int) -> object:
         raise KeyError(uid)
 
-    for name in HOMES:
-        monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(pwd, "getpwuid", unknown)
     assert interpreter.environment_folders() == [ROOT / ".venv"]
     monkeypatch.setenv("PIGAMING_HOME", "/srv/arcade")

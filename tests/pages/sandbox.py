@@ -22,6 +22,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.jobs import arcade, cli, play
 from pigaming_app.jobs.bench import phones
 from pigaming_app.jobs.learning.train import ppo_training
+from pigaming_app.jobs.mat import robots
 from pigaming_app.jobs.registry import jobs
 from pigaming_app.jobs.terminal import refusal
 from pigaming_app.scenes import start
@@ -124,7 +125,9 @@ class Sandbox:
                     raise AssertionError(f"{parser.prog}: {rest}")
                 raise Accepted
             if parser.prog.endswith(EMULATED) and not any(getattr(found, name, None) for name in WITHOUT_ROBOTS):
-                found.emulate = found.emulate or 1
+                found.emulate = 1
+            if getattr(found, "emulate", None):
+                found.emulate = 1  # the arena that is calibrated already
             if getattr(found, "speed", None) == "1" and found.headless:
                 found.speed = "max"
             for name, most in next((row for end, row in LIMITS.items() if parser.prog.endswith(f" {end}")), {}).items():
@@ -138,7 +141,9 @@ COMPILES = kernel.can_compile
 
 
 def least(value: Any, most: Any) -> Any:
-    """The smaller of two numbers; `most` if one is none."""
+    """The smaller of two numbers, as many of a list, or else `most`."""
+    if isinstance(value, list):
+        return value[:most]
     return min(value, most) if isinstance(value, int | float) and isinstance(most, int | float) else most
 
 
@@ -170,10 +175,11 @@ def shorten_trainings(patch: pytest.MonkeyPatch) -> None:
 
 
 def close_windows(patch: pytest.MonkeyPatch) -> None:
-    """Close windows after two frames; a kiosk needs no supervisor then, and phones are measured for a moment."""
+    """Close windows after two frames; a kiosk has no supervisor then, and phones and robots are heard for a moment."""
     run, measure = start.run, phones.measure
     patch.setattr(start, "run", lambda options: run(replace(options, frames=2)))
     patch.setattr(phones, "measure", lambda: measure(0.5))
+    patch.setattr(robots, "LISTEN", 0.1)
     for job in (arcade, play):
         patch.setattr(job, "needs_supervisor", lambda arguments: False)
 

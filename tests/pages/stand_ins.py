@@ -60,7 +60,7 @@ MINUTES = 0.05  # of every match
 LIMITS = {  # of parsed arguments, by the end of the program's name: the same work, less of it
     "play": {"minutes": MINUTES, "at": 1.0},
     "duel": {"minutes": MINUTES, "matches": 2},
-    "league": {"minutes": MINUTES, "matches": 2},
+    "league": {"minutes": MINUTES, "matches": 2, "brains": 3},
     "train qlearning": {"minutes": MINUTES, "matches": 1},
     "train ppo": {"minutes": None, "updates": 1},
     "tests.bench.fairness": {"matches": 4},

@@ -26,6 +26,7 @@ from pigaming_app.storage.day_log import (
     read_day,
     to_line,
 )
+from tests.processes import python
 
 DAY = date(2026, 11, 23)
 
@@ -103,6 +104,7 @@ def test_a_line_torn_by_a_power_cut_costs_only_itself(tmp_path: Path) -> None:
     assert ([replace(record, arcade="") for record in records], skipped) == ([MATCH, RECORDS[2]], 1)
 
 
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no SIGKILL here")
 def test_a_killed_process_loses_no_line(tmp_path: Path) -> None:
     code = (
         "import os, signal, sys\nfrom pathlib import Path\nfrom datetime import datetime\n"
@@ -111,9 +113,7 @@ def test_a_killed_process_loses_no_line(tmp_path: Path) -> None:
         "for i in range(7): log.add(PlayedMatch(datetime(2026, 11, 23, 10, i), 'race', 60.0, 1, 3))\n"
         "os.kill(os.getpid(), signal.SIGKILL)\n"
     )
-    if not hasattr(signal, "SIGKILL"):
-        pytest.skip("no SIGKILL here")
-    assert subprocess.run([sys.executable, "-c", code, str(tmp_path)]).returncode == -signal.SIGKILL
+    assert python(code, str(tmp_path)).returncode == -signal.SIGKILL
     assert len(report_of(tmp_path, DAY).matches) == 7
 
 

@@ -1,6 +1,7 @@
 """The job `test`: selection of tools and tests by its options, and its exit code."""
 
 import subprocess
+from unittest.mock import MagicMock
 
 import pytest
 
@@ -8,27 +9,6 @@ from pigaming_app.jobs.bench import test as checks
 from pigaming_app.jobs.cli import main
 
 EVERYTHING = {"pytest", "ruff", "mypy"}
-
-
-class Process:
-    """A process that has ended."""
-
-    pid = 0
-
-    def __init__(self, words, code):
-        self.words, self.returncode = words, code
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        pass
-
-    def wait(self):
-        return self.returncode
-
-    def communicate(self):
-        return b"line 7 is too long\n" if self.returncode else b"", None
 
 
 @pytest.fixture
@@ -39,7 +19,11 @@ def started(monkeypatch):
     def start(words, output=None):
         assert output == (None if words[0] == "pytest" else subprocess.PIPE)
         seen.append(tuple(words))
-        return Process(words, int(words[0] in start.failing))
+        process = MagicMock(pid=0, returncode=int(words[0] in start.failing))
+        process.__enter__.return_value = process
+        process.wait.return_value = process.returncode
+        process.communicate.return_value = b"line 7 is too long\n" * process.returncode, None
+        return process
 
     start.failing, start.seen = (), seen
     monkeypatch.setattr(checks, "_python", start)
@@ -83,7 +67,6 @@ def test_whatever_fails_fails_the_job_and_is_named(started, capfd, tool):
     assert err.count("line 7 is too long") == err.count("FAILED")
 
 
-def test_two_choices_at_once_are_refused_in_one_line(started, capsys):
-    assert main(["test", "--quick", "--long"]) == 2
-    assert capsys.readouterr().err.count("\n") == 1
+def test_two_choices_at_once_are_refused_in_one_line(started, refused):
+    refused("test", "--quick", "--long")
     assert started.seen == []

@@ -18,11 +18,6 @@ def run(words: str) -> int:
     return main(["league", *words.split()])
 
 
-@pytest.fixture(autouse=True)
-def home(tmp_path, monkeypatch):
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
-
-
 def made_up(brains: list[str], matches: int) -> League:
     """A league in which the first AI of each pair wins all its matches."""
 
@@ -102,19 +97,15 @@ def test_json_is_one_object_and_nothing_else(capsys):
         "race level1 level5 --loud",
     ],
 )
-def test_wrong_words_are_one_line_and_exit_code_2(words, capsys):
-    assert run(words) == 2
-    captured = capsys.readouterr()
-    assert captured.out == ""
-    assert len(captured.err.strip().splitlines()) == 1
+def test_wrong_words_are_one_line_and_exit_code_2(words, refused):
+    refused("league", *words.split())
 
 
-def test_a_league_is_written_for_the_page_of_strengths(tmp_path, capsys):
+def test_a_league_is_written_for_the_page_of_strengths(tmp_path, capsys, refused):
     path = tmp_path / "league_pitanks.json"
     assert run(f"pitanks idle random --matches 2 --minutes 0.05 --out {path}") == 0
     assert "rating" in capsys.readouterr().out, "the tables are still printed"
     ratings, problems = ratings_of("pitanks", [tmp_path])
     assert problems == []
     assert {one.brain for one in ratings.strengths} == {"idle", "random"}
-    assert run(f"pitanks idle random --matches 2 --out {tmp_path}") == 2, "refused before it is played"
-    assert capsys.readouterr().err.count("\n") == 1
+    refused("league", "pitanks", "idle", "random", "--out", str(tmp_path))

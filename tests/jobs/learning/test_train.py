@@ -4,7 +4,6 @@ import csv
 import json
 import os
 import signal
-import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -19,7 +18,7 @@ from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import Words
 from tests.disks import content, failing_at, room_for
 
-ROOT = Path(__file__).resolve().parents[3]
+TRAIN = ["train", "qlearning", "--plain", "--minutes", "0.1", "--matches", "4", "--out"]
 
 
 def read(path):
@@ -28,7 +27,7 @@ def read(path):
 
 
 def train(out, *more):
-    return main(["train", "qlearning", "--plain", "--minutes", "0.1", "--matches", "4", "--out", str(out), *more])
+    return main([*TRAIN, str(out), *more])
 
 
 def test_the_job_trains_and_prints_its_result(tmp_path, capsys):
@@ -66,16 +65,12 @@ def test_the_job_goes_on_from_a_table_of_another_engine_with_a_warning(tmp_path,
     assert not read(out).other_engine
 
 
-def test_a_file_that_cannot_be_resumed_is_refused_in_one_line(tmp_path, capsys):
+def test_a_file_that_cannot_be_resumed_is_refused_in_one_line(tmp_path, refused):
     out = tmp_path / "a.npz"
-    assert train(out, "--resume") == 2
+    refused(*TRAIN, str(out), "--resume")
     assert train(out, "--matches", "1") == 0
-    capsys.readouterr()
     for word, more in (("reward", ["--reward", "2"]), ("seed", ["--seed", "9"]), ("reward", ["--set", "gamma=0.5"])):
-        assert train(out, "--resume", *more) == 2
-        output = capsys.readouterr()
-        assert (output.out, output.err.count("\n")) == ("", 1)
-        assert f"another {word}" in output.err
+        assert f"another {word}" in refused(*TRAIN, str(out), "--resume", *more)
 
 
 @pytest.mark.parametrize(
@@ -96,25 +91,22 @@ def test_a_file_that_cannot_be_resumed_is_refused_in_one_line(tmp_path, capsys):
         (["--curve", "a.xyz"], ".png"),
     ],
 )
-def test_a_wrong_option_is_one_line_and_exit_code_2(tmp_path, capsys, more, word):
-    assert train(tmp_path / "a.npz", *more) == 2
-    output = capsys.readouterr()
-    assert (output.out, output.err.count("\n")) == ("", 1)
-    assert word in output.err
+def test_a_wrong_option_is_one_line_and_exit_code_2(tmp_path, refused, more, word):
+    assert word in refused(*TRAIN, str(tmp_path / "a.npz"), *more)
     assert not (tmp_path / "a.npz").exists()
 
 
-def test_a_disk_that_is_full_from_the_start_is_refused_before_the_training(tmp_path, capsys):
+def test_a_disk_that_is_full_from_the_start_is_refused_before_the_training(tmp_path, refused):
     with failing_at(0):
-        assert train(tmp_path / "a.npz") == 2
-    assert capsys.readouterr().err == f"PiGaming: {tmp_path / 'a.npz'} cannot be written: the disk is full.\n"
+        line = refused(*TRAIN, str(tmp_path / "a.npz"))
+    assert line == f"PiGaming: {tmp_path / 'a.npz'} cannot be written: the disk is full.\n"
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no such device here")
-def test_a_device_is_refused_before_the_training(tmp_path, capsys):
+def test_a_device_is_refused_before_the_training(tmp_path, refused):
     (tmp_path / "a.csv").symlink_to("/dev/full")
-    assert train(tmp_path / "a.npz", "--csv", str(tmp_path / "a.csv")) == 2
-    assert f"{tmp_path / 'a.csv'} cannot be written: it is not a file" in capsys.readouterr().err
+    line = refused(*TRAIN, str(tmp_path / "a.npz"), "--csv", str(tmp_path / "a.csv"))
+    assert f"{tmp_path / 'a.csv'} cannot be written: it is not a file" in line
     assert not (tmp_path / "a.npz").exists()
 
 
@@ -129,25 +121,26 @@ def test_a_disk_that_is_full_after_the_training_leaves_the_table_before(tmp_path
     assert content(tmp_path) == before
 
 
-def test_a_curve_without_matplotlib_is_refused_before_the_training(tmp_path, capsys, monkeypatch):
+def test_a_curve_without_matplotlib_is_refused_before_the_training(tmp_path, refused, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    assert train(tmp_path / "a.npz", "--curve", str(tmp_path / "a.png")) == 2
-    assert "matplotlib" in capsys.readouterr().err
+    assert "matplotlib" in refused(*TRAIN, str(tmp_path / "a.npz"), "--curve", str(tmp_path / "a.png"))
     assert not (tmp_path / "a.npz").exists()
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to another process there")
-def test_ctrl_c_keeps_what_has_been_learned(tmp_path):
+def test_ctrl_c_keeps_what_has_been_learned(tmp_path, capsys, monkeypatch):
+    run, presses = TableTraining.run, iter([signal.SIGINT])
+
+    def interrupted(training, ticks):
+        run(training, ticks)
+        for press in presses:
+            os.kill(os.getpid(), press)
+
+    monkeypatch.setattr(TableTraining, "run", interrupted)
     out = tmp_path / "a.npz"
-    job = [sys.executable, "main.py", "train", "qlearning", "--plain", "--minutes", "0.1", "--out", str(out)]
-    running = subprocess.Popen([*job, "--matches", "400"], cwd=ROOT, stderr=subprocess.PIPE, stdout=subprocess.PIPE)
-    assert running.stderr is not None
-    assert b"Ctrl-C" in running.stderr.readline()
-    assert b"/400 matches" in running.stderr.readline()
-    running.send_signal(signal.SIGINT)
-    _, errors = running.communicate(timeout=60)
-    assert running.returncode == 130
-    assert errors.endswith(b"PiGaming: stopped before the end; continue with --resume\n")
+    assert train(out, "--matches", "400") == 130
+    errors = capsys.readouterr().err
+    assert "Ctrl-C" in errors
+    assert errors.endswith("PiGaming: stopped before the end; continue with --resume\n")
     trained = read(out)
-    assert trained.matches > 0
+    assert 0 < trained.matches < 400
     assert int(trained.rows["experiences"][0]) == 120 * trained.matches

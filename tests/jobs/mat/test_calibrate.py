@@ -1,9 +1,6 @@
 """The job `calibrate`: unattended calibration, the marker sheet, and refusals in one line."""
 
 import json
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -12,24 +9,25 @@ pytest.importorskip("cv2")
 
 from pigaming_app.jobs.cli import main
 
-ROOT = Path(__file__).resolve().parents[3]
 
+@pytest.fixture
+def calibrate(capsys):
+    """A function that runs the job and returns its exit code, the object that it prints and its errors."""
 
-def calibrate(home, *arguments):
-    """Run the job; returns its output and exit code."""
-    environment = {**os.environ, "PIGAMING_HOME": str(home)}
-    code = "import sys; from pigaming_app.jobs.cli import main; sys.exit(main(sys.argv[1:]))"
-    command = [sys.executable, "-W", "error", "-c", code, "calibrate", *map(str, arguments)]
-    return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300)
+    def run(*words):
+        code = main(["calibrate", "--json", *words])
+        told = capsys.readouterr()
+        return code, json.loads(told.out), told.err
+
+    return run
 
 
 @pytest.mark.long
-def test_on_the_emulated_arena_the_wizard_matches_ground_truth(tmp_path):
-    ran = calibrate(tmp_path, "--emulate", 5, "--json")
-    assert (ran.returncode, ran.stderr) == (0, "")
-    result = json.loads(ran.stdout)
+def test_on_the_emulated_arena_the_wizard_matches_ground_truth(tmp_path, calibrate):
+    code, result, errors = calibrate("--emulate", "5")
+    assert (code, errors) == (0, "")
     assert result["saved"]
-    assert Path(result["file"]).parent == tmp_path / "config"
+    assert Path(result["file"]).parent == tmp_path / "home" / "config"
     assert result["calibration_mean_mm"] <= 1.5
     assert result["calibration_max_mm"] <= 3.0
     assert result["true_mean_mm"] <= 1.5
@@ -50,10 +48,9 @@ def test_on_the_emulated_arena_the_wizard_matches_ground_truth(tmp_path):
         ("dark", 1, None, None),
     ],
 )
-def test_a_camera_that_misses_markers_fails(tmp_path, view, code, exposure, enough):
-    ran = calibrate(tmp_path, "--emulate", 3, "--json", "--view", view)
-    result = json.loads(ran.stdout)
-    assert (ran.returncode, result["saved"]) == (code, not code)
+def test_a_camera_that_misses_markers_fails(calibrate, view, code, exposure, enough):
+    ended, result, _ = calibrate("--emulate", "3", "--view", view)
+    assert (ended, result["saved"]) == (code, not code)
     if enough is None:
         assert result["trouble"] == "Too dark for a short exposure: add even light."
         return
@@ -66,27 +63,24 @@ def test_a_camera_that_misses_markers_fails(tmp_path, view, code, exposure, enou
 
 
 @pytest.mark.long
-def test_it_is_saved_anyway_if_asked_for(tmp_path):
-    ran = calibrate(tmp_path, "--emulate", 3, "--json", "--view", "stubborn", "--anyway")
-    result = json.loads(ran.stdout)
-    assert (ran.returncode, result["saved"], result["sufficient"]) == (0, True, False)
+def test_it_is_saved_anyway_if_asked_for(calibrate):
+    code, result, _ = calibrate("--emulate", "3", "--view", "stubborn", "--anyway")
+    assert (code, result["saved"], result["sufficient"]) == (0, True, False)
     assert "anyway = true" in Path(result["file"]).read_text()
 
 
 @pytest.mark.long
-def test_a_folder_that_cannot_be_written_is_reported_as_a_failure(tmp_path):
-    (tmp_path / "config").write_text("a file in the way")
-    ran = calibrate(tmp_path, "--emulate", "--json")
-    assert ran.returncode == 1
-    assert "Traceback" not in ran.stderr
-    result = json.loads(ran.stdout)
-    assert not result["saved"]
+def test_a_folder_that_cannot_be_written_is_reported_as_a_failure(home, calibrate):
+    home.mkdir()
+    (home / "config").write_text("a file in the way")
+    code, result, errors = calibrate("--emulate")
+    assert (code, result["saved"]) == (1, False)
+    assert "Traceback" not in errors
     assert result["file"] in result["trouble"]
 
 
 def test_the_sheet_is_written_where_it_was_asked_for(tmp_path):
-    ran = calibrate(tmp_path, "--sheet", tmp_path / "sheet.pdf")
-    assert ran.returncode == 0
+    assert main(["calibrate", "--sheet", str(tmp_path / "sheet.pdf")]) == 0
     assert (tmp_path / "sheet.pdf").read_bytes().startswith(b"%PDF")
 
 
@@ -101,10 +95,5 @@ def test_the_sheet_is_written_where_it_was_asked_for(tmp_path):
         (("--camera", "first"), "first"),
     ],
 )
-def test_what_cannot_be_done_is_one_line(tmp_path, monkeypatch, capsys, arguments, part):
-    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
-    assert main(["calibrate", *arguments]) == 2
-    out, err = capsys.readouterr()
-    assert part in err
-    assert err.count("\n") == 1
-    assert out == ""
+def test_what_cannot_be_done_is_one_line(refused, arguments, part):
+    assert part in refused("calibrate", *arguments)
