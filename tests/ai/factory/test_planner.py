@@ -13,12 +13,10 @@ from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.state import (
-    DONE,
     HALF,
     ICE,
     MACHINE_SLOTS,
     A,
-    B,
 )
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.sim.kernel import can_compile
@@ -107,20 +105,6 @@ def test_four_of_the_best_spoil_nothing_and_one_team_delivers_everything(floor):
     assert match.seconds < 120.0
     assert sum(load.spoiled for load in match.state.loads) == 0
     assert sum(load.hits for load in match.state.loads) <= 2
-
-
-def test_it_leaves_to_a_person_what_the_person_is_about():
-    for mine in (0, 1):
-        shop = Shop(present=(0, 2))
-        near, far = shop.output_of(B, 0), shop.output_of(B, 1)
-        shop.give(shop.own(ICE)[0], DONE, near)
-        shop.give(shop.own(ICE)[1], DONE, far)
-        shop.rails.poses[0] = (0.5 * (shop.slots[near].x + shop.slots[far].x), 640.0, 0.0)
-        person = (near, far)[mine]
-        shop.rails.poses[2] = (shop.slots[person].x, shop.slots[person].y - 90.0, 1.57)
-        shop.match.sit(0, make_brain("factory", "level5", 0))
-        shop.tick(round(0.6 * HZ))
-        assert shop.loads[0].aim - 1 != person
 
 
 def test_the_way_round_a_machine_is_the_shorter_one():

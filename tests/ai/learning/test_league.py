@@ -107,18 +107,6 @@ def test_left_and_right_swapped_is_the_same_duel_seen_from_the_other_side():
     assert one.wilson95 == wilson(one.wins, 8)
 
 
-@pytest.mark.again  # both bodies: test_every_game.py
-@pytest.mark.long
-def test_compiled_or_plain_the_scores_are_the_same():
-    plain, fast = (  # the loop of another test, which is in the cache
-        duel("pitanks", "fsm", "level5", matches=4, seed=11, minutes=0.5, variant="plain", fast=fast)
-        for fast in (False, True)
-    )
-    assert (plain.wins, plain.ties, plain.losses) == (fast.wins, fast.ties, fast.losses)
-    assert plain.mean_score_left == fast.mean_score_left
-    assert plain.mean_score_right == fast.mean_score_right
-
-
 def test_a_brain_that_is_not_there_is_refused():
     with pytest.raises(ChoiceError, match="no seat 'genius'"):
         duel("pitanks", "genius", "random", matches=2, seed=1)

@@ -2,7 +2,6 @@
 
 import pytest
 
-from pigaming_app.ai.learning.league import duel, wilson
 from pigaming_app.games.arenas import arenas
 from pigaming_app.sim.record import digest
 from tests.ai.pitanks.stuck import stuck
@@ -24,13 +23,6 @@ DIGESTS = {
 def test_their_play_does_not_change(brain, arena, variant):
     match = run(match_of("pitanks", [brain] * 4, arena, 1.0, SEED, variant), TICKS)
     assert digest(match.state) == DIGESTS[brain, arena, variant]
-
-
-def test_fsm_beats_random():
-    """Of 100 such matches it won 73 and lost 5 when measured; here it must win more than half of those decided."""
-    result = duel("pitanks", "fsm", "random", matches=40, seed=200, minutes=1.0, variant="plain", fast=False)
-    assert wilson(result.wins, result.wins + result.losses)[0] > 0.5
-    assert result.mean_score_left > 0
 
 
 @pytest.mark.parametrize("arena", one_in(5, arenas("pitanks")))

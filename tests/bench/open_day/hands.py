@@ -1,7 +1,6 @@
 """What a visitor or the operator holds: a virtual pad, a phone, or the keyboard. All press the arcade's own buttons."""
 
 from collections.abc import Callable
-from typing import Protocol
 
 import pygame
 
@@ -22,29 +21,6 @@ KEYS = {
 }  # fmt: skip
 
 
-class Hands(Protocol):
-    """A device in use."""
-
-    @property
-    def device(self) -> Device | None:
-        """The arcade's name of it; None while it is gone."""
-
-    def press(self, button: Button) -> None:
-        """Hold a button down."""
-
-    def release(self, button: Button) -> None:
-        """Release it."""
-
-    def steer(self, x: float, y: float, fire: bool, turbo: bool) -> None:
-        """Drive from now on; axes in [-1, 1], y down."""
-
-    def unplug(self) -> None:
-        """Pull the cable, or lock the phone."""
-
-    def plug(self) -> None:
-        """Put it back."""
-
-
 class PadHands:
     """A pad that the visitors hand on."""
 
@@ -53,6 +29,7 @@ class PadHands:
 
     @property
     def device(self) -> Device | None:
+        """The arcade's name of it; None while it is gone."""
         return Device("pad", self.pad.number) if self.pad.plugged else None
 
     def press(self, button: Button) -> None:
@@ -64,6 +41,7 @@ class PadHands:
             self.pad.release(PAD[button])
 
     def steer(self, x: float, y: float, fire: bool, turbo: bool) -> None:
+        """Drive from now on; axes in [-1, 1], y down."""
         if self.pad.plugged:
             self.pad.stick(x, y)
             (self.pad.press if fire else self.pad.release)("a")
@@ -163,3 +141,6 @@ class KeyHands:
     @staticmethod
     def _post(kind: int, scancode: int) -> None:
         pygame.event.post(pygame.Event(kind, key=0, scancode=scancode, mod=0))
+
+
+Hands = PadHands | PhoneHands | KeyHands

@@ -10,11 +10,11 @@ from pigaming_app.games.pitanks.observation import PiTanksObservation, PiTanksSe
 from pigaming_app.games.pitanks.rules import judge
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, OWN_MINES, SHIELD
 from pigaming_app.games.replay import decode, encode, verify
-from pigaming_app.sim.contact import drive
 from pigaming_app.sim.rng import uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
 from tests.floor import pitanks
+from tests.games.pitanks.test_rules import scores, ticks
 from tests.matches import finished, match_of, run
 
 LENGTH = 2 * RADIUS
@@ -29,25 +29,12 @@ def party(poses=THREE[:2], walls=(), **more):
     return match
 
 
-def ticks(match, count, fire=()):
-    for _ in range(count):
-        for seat, action in enumerate(match.actions):
-            action.fire = int(seat in fire)
-        judge(match)
-        drive(match)
-    return match
-
-
 def hit(match, shooter, victim, place=0):
     """A bullet of `shooter` meets `victim` within the next tick, from above."""
     robot = match.robots[victim]
     bullet = match.bullets[shooter * OWN_BULLETS + place]
     bullet.alive, bullet.fresh, bullet.bounces = 1, 0, 0
     bullet.x, bullet.y, bullet.vx, bullet.vy = robot.x, robot.y - 48.0, 0.0, 560.0
-
-
-def scores(match):
-    return [robot.score for robot in match.robots]
 
 
 # -------------------------------------------------------------------------------------------------------------- a hit
