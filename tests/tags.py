@@ -24,8 +24,7 @@ from pigaming_app.games import arenas, replay
 from pigaming_app.games.drawing.values import Part, drawing_of
 from pigaming_app.games.match import Match
 from pigaming_app.games.setup import make_setup
-from pigaming_app.hardware.calibration.ground_plane import GroundPlane
-from pigaming_app.hardware.calibration.lens import Lens
+from pigaming_app.hardware.calibration.ground_plane import GroundPlane, Lens
 from pigaming_app.hardware.control import match_recording
 from pigaming_app.hardware.scan.things import Thing, ThingKind, ThingLayout
 from pigaming_app.hardware.session import store

@@ -1,10 +1,14 @@
-"""Kinds of robots: battery limits, size and radio of each.
+"""Kinds of robots: battery limits, size and radio of each; files and commands that set them up.
 
 A robot on Wi-Fi announces its board; that of any other is a setting, by default the 3pi. Battery limits are for four
 rechargeable cells; the firmware of a robot applies its own limits in addition.
 """
 
+from pathlib import Path
 from typing import NamedTuple
+
+PROGRAM = Path(__file__).parent / "firmware" / "micropython"
+RELAY = 0  # number of the micro:bit on USB
 
 
 class RobotKind(NamedTuple):
@@ -34,3 +38,27 @@ def robot_kind(chosen: str, board: int | None = None) -> RobotKind:
     """The kind of a robot: as chosen in the settings; else, if that is empty or unknown, by its announced board."""
     named = next((kind for kind in KINDS if kind.key == chosen), None)
     return named or next((kind for kind in KINDS if board in kind.boards), DEFAULT)
+
+
+def robot_config(robot: int, arena: int, key: bytes) -> str:
+    """`config.py` of a Wi-Fi robot (1 to 4): the example with the values of this arena."""
+    text = (PROGRAM / "config_example.py").read_text("utf-8")
+    text = text.replace("ROBOT = 1", f"ROBOT = {robot}").replace("Robot 1", f"Robot {robot}")
+    return text.replace("ARENA = 0", f"ARENA = {arena}").replace("0" * 32, key.hex())
+
+
+def microbit_program(number: int, arena: int) -> str:
+    """The program of a micro:bit: of robot 1 to 4, or of the RELAY."""
+    text = (PROGRAM / "microbit" / ("robot.py" if number else "relay.py")).read_text("utf-8")
+    return text.replace("ROBOT, ARENA = 1, 0", f"ROBOT, ARENA = {number}, {arena}").replace(
+        "ARENA = 0  #", f"ARENA = {arena}  #"
+    )
+
+
+def set_up_command(robot: int, arena: int, radio: str, kind: str = "") -> str:
+    """The command that gives a robot (1 to 4) its numbers. `radio`: of the settings; `kind`: see robot_kinds."""
+    if radio == "udp":
+        return f"python3 main.py robots --wifi-config {robot} --out config.py"
+    if kind == "microbit":
+        return f"python3 main.py robots --microbit {robot} --out robot{robot}.py"
+    return f"make flash ADDRESS={robot} ARENA={arena}"

@@ -8,8 +8,7 @@ from math import cos, exp, sin
 
 import numpy as np
 
-from pigaming_app.hardware.calibration.ground_plane import GroundPlane
-from pigaming_app.hardware.calibration.lens import Lens
+from pigaming_app.hardware.calibration.ground_plane import GroundPlane, Lens
 from pigaming_app.hardware.control.kinematics import IDEAL
 from pigaming_app.hardware.control.rig import UNMEASURED, Rig
 from pigaming_app.hardware.radio.protocol import LinkQuality

@@ -26,7 +26,7 @@ MODULES = sorted(
 PAGE = (ROOT / "docs/hardware.md").read_text(encoding="utf-8")
 QUOTED = re.findall(r"^    python3 main\.py(.*)$|`python3 main\.py([^`]*)`", PAGE, re.MULTILINE)
 COMMANDS = sorted({re.split("#|>", line or inline)[0] for line, inline in QUOTED})
-SHARED = {"recordings", "robot_files", "robot_kinds", "run_writer", "signals"}
+SHARED = {"recordings", "robot_kinds", "run_writer", "signals"}
 MAY = {
     "radio": set(),
     "vision": set(),

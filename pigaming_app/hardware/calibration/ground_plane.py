@@ -14,7 +14,6 @@ import numpy as np
 from msgspec import Meta
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.calibration.lens import Coefficient, Lens
 from pigaming_app.hardware.calibration.quality import CameraQuality
 from pigaming_app.hardware.signals import DetectedMarker, Fix
 from pigaming_app.hardware.vision.markers import WEARERS
@@ -30,9 +29,14 @@ MAX_SIZE_ERROR = 0.04  # relative deviation of the markers' size beyond which th
 SIZE_TOLERANCE = 0.12  # relative deviation beyond which a marker is not on a lid
 SKEW_TOLERANCE = 1.18  # longest edge by shortest, beyond which a marker is tilted
 
+ROUNDS = 6  # of Newton's method: to 1e-6 of the width for every lens that maps each point once
+
 Points = NDArray[np.float64]  # (n, 2)
 
 
+Side = Annotated[int, between(16, 16_384)]  # px
+Centre = Annotated[float, between(0.0, 16_384.0)]  # px
+Coefficient = Annotated[float, between(-1e6, 1e6)]
 Plane = Annotated[tuple[Coefficient, ...], Meta(min_length=9, max_length=9)]
 Place = Annotated[float, between(-1e5, 1e5)]  # arena px
 Error = Annotated[float, between(0.0, 1e6)]
@@ -40,6 +44,44 @@ Error = Annotated[float, between(0.0, 1e6)]
 
 class CalibrationError(OperatorError):
     """A calibration that is missing or unusable."""
+
+
+@dataclass(frozen=True)
+class Lens:
+    """Distortion of pictures of `size` px: two radial coefficients about `centre`, px, by default their middle.
+
+    An undistorted point u (from the centre, in units of the picture's width) appears at u (1 + k1 r^2 + k2 r^4),
+    r = |u|: the radial part of Brown's model (D. C. Brown, 1966). Combined with a homography the unit of length is
+    free, so the focal length is not needed.
+    """
+
+    size: tuple[Side, Side]
+    k1: Coefficient = 0.0
+    k2: Coefficient = 0.0
+    centre: tuple[Centre, Centre] = (-1.0, -1.0)
+
+    def __post_init__(self) -> None:
+        if self.centre[0] < 0.0:
+            object.__setattr__(self, "centre", ((self.size[0] - 1) / 2.0, (self.size[1] - 1) / 2.0))
+
+    def distort(self, straight: Points) -> Points:
+        """Distort points, (n, 2) px."""
+        away = (straight - self.centre) / self.size[0]
+        r2 = (away * away).sum(axis=1)
+        grown = 1.0 + r2 * (self.k1 + r2 * self.k2)
+        return np.asarray(self.centre + away * (grown * self.size[0])[:, None])
+
+    def undistort(self, seen: Points) -> Points:
+        """Undistort points, (n, 2) px: the inverse of `bend`, by Newton's method."""
+        away = (seen - self.centre) / self.size[0]
+        bent = np.sqrt((away * away).sum(axis=1))
+        r = bent.copy()
+        for _ in range(ROUNDS if self.k1 or self.k2 else 0):
+            r2 = r * r
+            slope = 1.0 + r2 * (3.0 * self.k1 + r2 * 5.0 * self.k2)
+            r -= (r * (1.0 + r2 * (self.k1 + r2 * self.k2)) - bent) / np.maximum(slope, 0.05)
+        share = np.divide(r, bent, out=np.ones_like(r), where=bent > 1e-9)
+        return np.asarray(self.centre + away * (share * self.size[0])[:, None])
 
 
 @dataclass(frozen=True)

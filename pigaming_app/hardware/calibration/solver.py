@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pigaming_app.hardware.calibration.boards import MIN_MARKERS, CalibrationBoard
-from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, Points, project
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, Lens, Points, project
 from pigaming_app.hardware.calibration.least_squares import least_squares
-from pigaming_app.hardware.calibration.lens import Lens
 from pigaming_app.hardware.vision.markers import opencv
 from pigaming_app.storage.messages import OperatorMessage
 

@@ -20,8 +20,7 @@ from pigaming_app.hardware.emulator.optics import CANVAS, SENSOR, Floats, Optics
 from pigaming_app.hardware.emulator.radio import EmulatedRadio, RadioChannel
 from pigaming_app.hardware.emulator.renderer import ExposureSetup, SceneRenderer
 from pigaming_app.hardware.emulator.robots import STEP, EmulatedRobot, push_apart, random_parameters
-from pigaming_app.hardware.emulator.things.contact import Obstacle, obstacles, push_off
-from pigaming_app.hardware.emulator.things.prism import Prism
+from pigaming_app.hardware.emulator.things.prism import Obstacle, Prism, obstacles, push_off
 from pigaming_app.hardware.signals import Image
 from pigaming_app.sim.plant import Pose
 

@@ -1,15 +1,22 @@
 """Stopping times of the motors in every emergency, measured on the emulated arena.
 
-`stop` injects and clears one fault of EMERGENCIES; `hang` and `leave` end the driving program in two ways. For the ends
-of whole arcades see `outside`.
+`stop` injects and clears one fault of EMERGENCIES; `hang` and `leave` end the driving program in two ways. For Wi-Fi
+robots `wifi_faults` does the same: their own program, in MicroPython, stops the motors. For the ends of whole arcades
+see `outside`.
 """
 
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
+from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
+from pigaming_app.hardware.emulator.wifi.air import WifiChannel
+from pigaming_app.hardware.proof.testbed import Testbed
 from pigaming_app.hardware.proof.trials import FigureEight
-from pigaming_app.sim.world import DT, HZ
+from pigaming_app.sim.world import DT, HZ, ROBOTS
 
+LOSSY = WifiChannel(0.002, 0.040, loss=0.05, duplicates=0.02)  # overtaking included
+WIFI_FAULTS = ("radio dead", "robot mute", "robot off", "battery empty", "all-stop")  # of EMERGENCIES
+LISTEN = 3  # s, within which robots announce themselves and report
 ENOUGH = 0.6  # s of observation after the fault is reported
 
 
@@ -121,3 +128,34 @@ def leave(trail: FigureEight) -> float:
     trail.bed.rig.close()
     trail.bed.arena.advance(1.0)
     return max(trail.bed.arena.last_driven) - began
+
+
+def wifi_faults(seed: int, channel: WifiChannel = LOSSY) -> dict[str, float]:
+    """Stopping times, s, of paired robots in the emulated arena. Raises RuntimeError if a fault is not reported."""
+    bed = Testbed(seed, 30.0, wifi=channel)
+    try:
+        bed.session.find()
+        pair(bed)
+        trail = FigureEight(bed)
+        stops = {}
+        for i, name in enumerate(WIFI_FAULTS):
+            result = stop(trail, name, i % ROBOTS)
+            if not result.reported:
+                raise RuntimeError(f"{name}: the fault was not reported")
+            stops[name] = result.seconds
+        return stops | {"program hangs": hang(trail), "program ends": leave(trail)}
+    finally:
+        bed.session.end()
+
+
+def pair(bed: Testbed) -> None:
+    """Spin each robot in turn, once all report. Raises RuntimeError unless each turns the marker of its number."""
+    for _ in range(LISTEN * HZ):
+        bed.tick()
+    pairing = Pairing(bed.rig)
+    while not pairing.tick():
+        bed.tick()
+    cases = [finding.case for finding in pairing.findings]
+    bed.rig.channels = pairing.channels
+    if cases != [PairingCase.FITS] * ROBOTS:
+        raise RuntimeError(f"pairing: {', '.join(cases)}")

@@ -22,8 +22,8 @@ from pigaming_app.hardware.emulator.radio import MODERATE
 from pigaming_app.hardware.emulator.realtime import PseudoTerminal, RealtimeArena
 from pigaming_app.hardware.emulator.wifi.boards import Boards
 from pigaming_app.hardware.emulator.wifi.radio import WifiRadio
+from pigaming_app.hardware.proof.emergencies import LOSSY
 from pigaming_app.hardware.proof.frame_feed import FrameWriter
-from pigaming_app.hardware.proof.wifi import LOSSY
 from pigaming_app.hardware.session.emulated import calibrated
 from pigaming_app.hardware.signals import Image
 

@@ -13,7 +13,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython, interpreter
-from pigaming_app.hardware.proof import trials, wifi
+from pigaming_app.hardware.proof import emergencies, trials
 from pigaming_app.hardware.proof.testbed import Testbed
 from pigaming_app.hardware.proof.trials import ButtonMasher, MatchResult
 from pigaming_app.sim.world import ROBOTS
@@ -37,7 +37,7 @@ def submit(pool: Executor, note: Callable[[str], None]) -> WifiRuns | None:
         note(f"Wi-Fi robots were not tried: {reason}")
         return None
     played = {game: pool.submit(play, game, seed) for seed, game in enumerate(games(), 1)}
-    return WifiRuns(played, pool.submit(wifi.faults, 1))
+    return WifiRuns(played, pool.submit(emergencies.wifi_faults, 1))
 
 
 def collect(runs: WifiRuns | None, note: Callable[[str], None]) -> dict[str, float]:
@@ -63,11 +63,11 @@ def play(game: str, seed: int, minutes: float = MINUTES, paired: bool = False) -
     setup = Setup(
         game, arenas(game)[0], (one, two, three, four), minutes, seed, rules.name, max(rules.goals, default=0)
     )
-    bed = Testbed(seed, FPS, wifi=wifi.LOSSY)
+    bed = Testbed(seed, FPS, wifi=emergencies.LOSSY)
     try:
         if paired:
             bed.session.find()
-            wifi.pair(bed)
+            emergencies.pair(bed)
         match = Match(setup, lambda world: RealPlant(world, bed.rig))
         for seat in range(ROBOTS):
             match.sit(seat, ButtonMasher(ROBOTS * seed + seat))

@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, to_toml
-from pigaming_app.hardware.calibration.lens import Lens
+from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, Lens, read, to_toml
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.signals import DetectedMarker
 from pigaming_app.hardware.vision.markers import ROBOT_IDS

@@ -8,7 +8,7 @@ import pytest
 
 from pigaming_app.hardware.emulator.wifi.boards import BoardConfig, Boards, WheelPins
 from pigaming_app.hardware.radio.packets import RESTARTED, drive_packet
-from pigaming_app.hardware.robot_files import PROGRAM
+from pigaming_app.hardware.robot_kinds import PROGRAM
 from pigaming_app.hardware.signals import WheelCommand
 from tests.cases import repeated
 from tests.hardware.emulator.one_board import ARENA, BACK, GO, ON, Arcade

@@ -9,9 +9,8 @@ import pytest
 from pigaming_app.hardware.emulator.arena import STARTS, EmulatedArena
 from pigaming_app.hardware.emulator.optics import LAMP, Optics
 from pigaming_app.hardware.emulator.robots import RADIUS, STEP, EmulatedRobot, random_parameters
-from pigaming_app.hardware.emulator.things.contact import distance, obstacles, push_off
 from pigaming_app.hardware.emulator.things.overlay import patches, shaded
-from pigaming_app.hardware.emulator.things.prism import TAPE, box, cylinder
+from pigaming_app.hardware.emulator.things.prism import TAPE, box, cylinder, distance, obstacles, push_off
 from pigaming_app.hardware.emulator.things.random_scene import AWAY, some_things
 from tests.hardware.emulator.test_emulator import found, newest
 

@@ -17,8 +17,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.emulator.arena import STARTS
 from pigaming_app.hardware.emulator.robots import RADIUS
-from pigaming_app.hardware.emulator.things.contact import Obstacle, distance, obstacles
-from pigaming_app.hardware.emulator.things.prism import Prism
+from pigaming_app.hardware.emulator.things.prism import Obstacle, Prism, distance, obstacles
 from pigaming_app.hardware.emulator.things.random_scene import some_things
 from pigaming_app.hardware.proof import testbed
 from pigaming_app.hardware.proof.trials import play

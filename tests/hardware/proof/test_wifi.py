@@ -3,7 +3,7 @@
 import pytest
 
 from pigaming_app.games.registry import games
-from pigaming_app.hardware.proof.wifi import faults
+from pigaming_app.hardware.proof.emergencies import wifi_faults
 from pigaming_app.jobs.bench import robots_arcade
 from pigaming_app.jobs.bench.robots import TARGETS
 from pigaming_app.jobs.bench.wifi import play
@@ -16,7 +16,7 @@ ADDED = [plugin.name for plugin in plugins()]
 
 @pytest.mark.again  # pairing: before the match; faults: bench robots
 def test_every_fault_stops_the_motors_of_boards_that_were_paired():
-    stops = faults(1)
+    stops = wifi_faults(1)
     assert len(stops) == 7
     assert max(stops.values()) <= LONGEST
 

@@ -1,18 +1,23 @@
-"""Things on the emulated mat as upright convex prisms: boxes, cups, books, strips of tape.
+"""Things on the emulated mat as upright convex prisms, and the robots' contact with them: boxes, cups, books, tape.
 
 Lengths are mm on the mat, as in `optics`. A ray is a line over the mat: its point at height z is `p + z v`, so a prism
 cuts an interval of heights out of it.
 """
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from math import cos, pi, sin
+from math import cos, hypot, inf, pi, sin
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pigaming_app.hardware.emulator.robots import RADIUS, EmulatedRobot
+
 FACES = 32  # of a cylinder
 TAPE = 0.2  # mm, thickness
+CLEARANCE = 3.0  # mm, height of things that a robot drives over
 TEXELS = 512  # mm, edge of a texture, one texel a mm
 
 Floats = NDArray[np.float64]
@@ -123,3 +128,58 @@ def texture(look: str, grey: float, seed: int) -> Map:
         wide = int(random.integers(8, 20))
         light[:, (np.arange(TEXELS) // wide) % 2 == 0] *= 0.55
     return np.asarray(light.clip(0.03, 0.95), dtype=np.float32)
+
+
+class Obstacle(NamedTuple):
+    """A tall thing. Lengths are mm on the mat."""
+
+    x: float
+    y: float
+    reach: float  # of its corners from (x, y)
+    corners: tuple[tuple[float, float], ...]
+    faces: tuple[tuple[float, float, float], ...]  # outward normals and offsets
+
+
+def obstacles(things: Iterable[Prism]) -> list[Obstacle]:
+    """The things that robots cannot drive over."""
+    return [
+        Obstacle(
+            float(thing.middle[0]),
+            float(thing.middle[1]),
+            thing.reach,
+            thing.outline,
+            tuple((nx, ny, offset) for (nx, ny), offset in zip(*(part.tolist() for part in thing.faces), strict=True)),
+        )
+        for thing in things
+        if thing.height > CLEARANCE
+    ]
+
+
+def push_off(robots: Sequence[EmulatedRobot], things: Sequence[Obstacle]) -> None:
+    """Move robots that overlap a thing out of it, with their wheels slipping; the thing stays."""
+    for robot in robots:
+        if robot.height > 0.0:
+            continue
+        for thing in things:
+            if hypot(robot.x - thing.x, robot.y - thing.y) < RADIUS + thing.reach:
+                gap, nx, ny = distance(thing, robot.x, robot.y)
+                if gap < RADIUS:
+                    robot.x += (RADIUS - gap) * nx
+                    robot.y += (RADIUS - gap) * ny
+
+
+def distance(thing: Obstacle, x: float, y: float) -> tuple[float, float, float]:
+    """Distance of a point from a thing, mm, negative inside, and the unit vector away from it."""
+    depth, nx, ny = max((fx * x + fy * y - offset, fx, fy) for fx, fy, offset in thing.faces)
+    if depth <= 0.0:
+        return depth, nx, ny
+    nearest, away = inf, (nx, ny)
+    for (ax, ay), (bx, by) in zip(thing.corners, (*thing.corners[1:], thing.corners[0]), strict=True):
+        ex, ey = bx - ax, by - ay
+        share = max(0.0, min(1.0, ((x - ax) * ex + (y - ay) * ey) / (ex * ex + ey * ey)))
+        dx, dy = x - ax - share * ex, y - ay - share * ey
+        gap = hypot(dx, dy)
+        if gap < nearest:
+            nearest, away = gap, (dx, dy) if gap > 1e-9 else (nx * 1e-9, ny * 1e-9)
+    length = hypot(*away)
+    return nearest, away[0] / length, away[1] / length

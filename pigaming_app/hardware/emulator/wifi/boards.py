@@ -16,7 +16,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any, NamedTuple, Self, cast
 
-from pigaming_app.hardware.robot_files import PROGRAM, microbit_program
+from pigaming_app.hardware.robot_kinds import PROGRAM, microbit_program
 from pigaming_app.storage.settings import folders
 
 HERE = Path(__file__).parent / "micropython"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
-from pigaming_app.hardware.robot_files import set_up_command
+from pigaming_app.hardware.robot_kinds import set_up_command
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, camera_warning
 from pigaming_app.jobs.mat.robots import radio_setup, wifi_setup
 from pigaming_app.jobs.mat.sessions import robots_of

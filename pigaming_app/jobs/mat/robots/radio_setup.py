@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 from pigaming_app.hardware.radio.packets import LAST_ARENA, ROBOTS
 from pigaming_app.hardware.radio.xbee_frames import CHANNELS
-from pigaming_app.hardware.robot_files import set_up_command
+from pigaming_app.hardware.robot_kinds import set_up_command
 from pigaming_app.jobs.mat.sessions import robots_of
 from pigaming_app.jobs.terminal.options import Groups, JsonOption, RadioOptions, hexadecimal, integer, option
 from pigaming_app.jobs.terminal.refusal import Refusal, refused

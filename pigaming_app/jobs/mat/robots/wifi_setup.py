@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.hardware.radio.packets import ROBOTS
-from pigaming_app.hardware.robot_files import RELAY, microbit_program, robot_config
-from pigaming_app.hardware.robot_kinds import robot_kind
+from pigaming_app.hardware.robot_kinds import RELAY, microbit_program, robot_config, robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.jobs.terminal.options import integer, option, path
 from pigaming_app.jobs.terminal.refusal import Refusal, refused

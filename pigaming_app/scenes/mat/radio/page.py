@@ -10,8 +10,7 @@ from pigaming_app.hardware.radio.serial_line import BAUD
 from pigaming_app.hardware.radio.xbee_frames import CHANNELS
 from pigaming_app.hardware.radio.xbee_protocol import XBeeMode
 from pigaming_app.hardware.radio.xbee_setup import RadioNetwork, Steps, XBeeSetup, network_of, parameters
-from pigaming_app.hardware.robot_files import set_up_command
-from pigaming_app.hardware.robot_kinds import KINDS
+from pigaming_app.hardware.robot_kinds import KINDS, set_up_command
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import StackOperation
