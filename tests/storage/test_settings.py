@@ -71,6 +71,9 @@ def test_an_invalid_line_is_reported_and_affects_no_other(tmp_path, line, reason
         "attract_seconds = -1e308",
         "corners = [true, true, true, true, true, true, true, true]",
         f"corners = [{','.join('1' * 5000)}]",
+        *(f"corners = {odd}" for odd in ('"none"', [1, 2], [0.5] * 8, [99999] * 8)),
+        *(f"controls = {odd}" for odd in ('"5"', "{a = {}}", "{keys1 = 5}", "{keys1 = {fire = -1}}")),
+        "controls = {keys1 = {fire = true}}",
         "real = [true]",
         'port = "a\\u0000b"',
         'port = "a\\nb"',
@@ -89,7 +92,7 @@ def test_an_invalid_line_is_reported_and_affects_no_other(tmp_path, line, reason
 def test_an_odd_line_is_reported_in_one_line_and_affects_no_other(tmp_path, line):
     (tmp_path / FILE).write_text(f"sounds = 1\n{line}\n")
     settings, (problem,) = Settings.load(tmp_path)
-    assert settings.sounds == 1
+    assert settings == replace(Settings(), sounds=1, games=settings.games)
     assert "\n" not in problem
     assert len(problem) < 400
     settings.save(tmp_path)

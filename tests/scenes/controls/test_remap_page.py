@@ -91,15 +91,3 @@ def test_nothing_overlaps(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> No
             page.draw(screen)
             assert faults(screen) == []
         arcade.press(Button.DOWN)
-
-
-@pytest.mark.parametrize(
-    "controls_", ["5", {"keys1": 5}, {"keys1": {"fire": -1}}, {"keys1": {"fire": True}}, {"a": {}}]
-)
-def test_a_damaged_setting_is_replaced(tmp_path: Path, controls_: object) -> None:
-    import tomli_w
-
-    (tmp_path / "settings.toml").write_text(tomli_w.dumps({"controls": controls_}))
-    settings, problems = Settings.load(tmp_path)
-    assert settings.controls == {}
-    assert len(problems) == 1

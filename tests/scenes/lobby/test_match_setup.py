@@ -148,6 +148,7 @@ def test_only_what_can_be_chosen_is_a_row() -> None:
         assert ("goal" in boxes) == bool(rules.default.goals)
         assert ("minutes" in boxes) == (len(rules.default.minutes) > 1)
         assert ("rules" in boxes) == (len(rules.variants) > 1)
+        assert ("rounds" in boxes) == (len(rules.rounds) > 1), "best of three"
         heights = sorted((box.top, box.bottom) for box in boxes.values())
         assert all(one[1] < other[0] for one, other in itertools.pairwise(heights))
 
@@ -173,11 +174,6 @@ def test_the_seats_follow_the_team_mode_of_the_chosen_rules(arcade: Arcade) -> N
     arcade.press(Button.FIRE)
     match = arcade.shown(MatchScene)
     assert (match.setup.variant, {seat.team for seat in match.setup.seats}) == ("together", {0})
-
-
-def test_best_of_three_is_offered_where_the_game_has_rounds(arcade: Arcade) -> None:
-    for game in games().values():
-        assert ("rounds" in rows(game, game.default)) == (len(game.rounds) > 1)
 
 
 def test_best_of_three_plays_rounds_of_one_minute_and_is_remembered(arcade: Arcade) -> None:

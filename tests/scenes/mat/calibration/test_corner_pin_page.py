@@ -155,15 +155,6 @@ def test_a_window_of_another_size_is_pinned_too_and_watchers_see_it(arcade: Arca
     assert window.get_at((60, 80))[:3] == (255, 255, 255)
 
 
-@pytest.mark.parametrize("corners", ["none", [1, 2], [0.5] * 8, [99999] * 8, [True] * 9])
-def test_invalid_corners_in_the_settings_are_reported_and_ignored(tmp_path: Path, corners: object) -> None:
-    text = f'corners = "{corners}"' if isinstance(corners, str) else f"corners = {str(corners).lower()}"
-    (tmp_path / "settings.toml").write_text(text + "\n")
-    settings, wrong = Settings.load(tmp_path)
-    assert settings.corners == []
-    assert "corners" in wrong[0]
-
-
 def test_impossible_corners_are_reported_at_the_start(arcade: Arcade) -> None:
     arcade.press(Button.BACK)
     arcade.context.settings.corners = [0, 0, 1920, 0, 0, 1080, 1920, 1080]
