@@ -157,22 +157,19 @@ def sheet_written(arcade: Arcade) -> Scene:
     return page
 
 
-def lobby(game: str, people: int, ais: int) -> Callable[[Arcade], Scene]:
-    def opened(arcade: Arcade) -> Scene:
-        scene = Lobby(arcade.context, game)
-        for device in KEYS[:people]:
-            scene.handle(InputEvent(Button.FIRE, device))
-        for _ in range(ais):
-            scene.handle(InputEvent(Button.Y, KEYS[0]))
-        return scene
-
-    return opened
+def lobby(arcade: Arcade, game: str, people: int, ais: int) -> Scene:
+    scene = Lobby(arcade.context, game)
+    for device in KEYS[:people]:
+        scene.handle(InputEvent(Button.FIRE, device))
+    for _ in range(ais):
+        scene.handle(InputEvent(Button.Y, KEYS[0]))
+    return scene
 
 
 def one_button(arcade: Arcade) -> Scene:
     for device in KEYS[:3]:
         arcade.context.driving.chosen[device] = ONE_BUTTON
-    return lobby("pitanks", 3, 1)(arcade)
+    return lobby(arcade, "pitanks", 3, 1)
 
 
 def seats(game: str) -> LobbySeats:
@@ -188,28 +185,29 @@ def match(arcade: Arcade) -> MatchScene:
     return MatchScene(arcade.context, setup("human human human human", 2.0), [*KEYS[:3], Device("pad", 77)])
 
 
-def best(game: str) -> Callable[[Arcade], Scene]:
-    def opened(arcade: Arcade) -> Scene:
-        rules = games()[game]
-        conditions = ScoreTable(
-            game, max(arenas(game), key=len), "", False, list(rules.variants)[-1], max(rules.default.goals or (5,)), 4
-        )
-        for board in high_score_tables(conditions):
-            for score in (999, 599_990, -100):
-                arcade.context.scores.add(board.table, "WWW", score)
-        scene = HighScores(arcade.context, conditions)
-        scene.age = 9.0
-        return scene
-
-    return opened
+def best(arcade: Arcade, game: str) -> Scene:
+    rules = games()[game]
+    conditions = ScoreTable(
+        game, max(arenas(game), key=len), "", False, list(rules.variants)[-1], max(rules.default.goals or (5,)), 4
+    )
+    for board in high_score_tables(conditions):
+        for score in (999, 599_990, -100):
+            arcade.context.scores.add(board.table, "WWW", score)
+    scene = HighScores(arcade.context, conditions)
+    scene.age = 9.0
+    return scene
 
 
-def lesson(game: str) -> Callable[[Arcade], Scene]:
-    return lambda arcade: HowTo(arcade.context, game)
+def options(arcade: Arcade, section: str = "") -> Scene:
+    return OptionsPage(arcade.context, section=section)
 
 
-def choice(game: str) -> Callable[[Arcade], Scene]:
-    return lambda arcade: MatchSetupPage(arcade.context, game, seats(game))
+def how_to_play(arcade: Arcade, game: str) -> Scene:
+    return HowTo(arcade.context, game)
+
+
+def choice(arcade: Arcade, game: str) -> Scene:
+    return MatchSetupPage(arcade.context, game, seats(game))
 
 
 def climbers(arcade: Arcade) -> Climbers:
@@ -221,9 +219,9 @@ def climbers(arcade: Arcade) -> Climbers:
     return scene
 
 
-def ladder(said: str, **state: Any) -> Callable[[Arcade], Scene]:
+def ladder(arcade: Arcade, said: str, **state: Any) -> Scene:
     climb = Climb("all", **state)
-    return lambda arcade: LadderPage(arcade.context, Climber(climb, 1, KEYS[0]), said)
+    return LadderPage(arcade.context, Climber(climb, 1, KEYS[0]), said)
 
 
 def easier(arcade: Arcade) -> LadderPage:
@@ -249,15 +247,12 @@ def strengths(arcade: Arcade) -> Strengths:
     return scene
 
 
-def event_setup(form: Format, row: str) -> Callable[[Arcade], Scene]:
-    def opened(arcade: Arcade) -> Scene:
-        draft = Draft()
-        draft.choose("format", form)
-        scene = SetupPage(arcade.context, draft, lambda draft: "")
-        scene.focus.move_to(row)
-        return scene
-
-    return opened
+def event_setup(arcade: Arcade, form: Format, row: str) -> Scene:
+    draft = Draft()
+    draft.choose("format", form)
+    scene = SetupPage(arcade.context, draft, lambda draft: "")
+    scene.focus.move_to(row)
+    return scene
 
 
 def event_arenas(arcade: Arcade) -> Scene:
@@ -267,25 +262,19 @@ def event_arenas(arcade: Arcade) -> Scene:
     return scene
 
 
-def entrants(count: int) -> Callable[[Arcade], Scene]:
-    def opened(arcade: Arcade) -> Scene:
-        found = [Entrant(name, "level3" * (i % 3 == 1), "D" * (i % 2)) for i, name in enumerate(drawn.names(count))]
-        draft = Draft(Format.GRAND_PRIX, entrants=[*found[1:], Entrant("WWWWWWWWWWWW")])
-        return EntrantsPage(arcade.context, draft, lambda draft: "")
-
-    return opened
+def entrants(arcade: Arcade, count: int) -> Scene:
+    found = [Entrant(name, "level3" * (i % 3 == 1), "D" * (i % 2)) for i, name in enumerate(drawn.names(count))]
+    draft = Draft(Format.GRAND_PRIX, entrants=[*found[1:], Entrant("WWWWWWWWWWWW")])
+    return EntrantsPage(arcade.context, draft, lambda draft: "")
 
 
 def event(form: Format, count: int, seats: int, matches: int, brains: str = "", wide: bool = False) -> RunningEvent:
     return drawn.running(drawn.played(drawn.an_event(form, count, seats, brains, wide=wide), matches))
 
 
-def next_match(
-    count: int, seats: int, brains: str = "", said: str = "", wide: bool = False
-) -> Callable[[Arcade], Scene]:
-    return lambda arcade: NextMatch(
-        arcade.context, event(Format.SWISS, count, seats, 1, brains, wide), said and arcade.context.words(said)
-    )
+def next_match(arcade: Arcade, count: int, seats: int, brains: str = "", said: str = "", wide: bool = False) -> Scene:
+    run = event(Format.SWISS, count, seats, 1, brains, wide)
+    return NextMatch(arcade.context, run, said and arcade.context.words(said))
 
 
 def sudden_death(arcade: Arcade) -> Scene:
@@ -293,15 +282,10 @@ def sudden_death(arcade: Arcade) -> Scene:
     return NextMatch(arcade.context, drawn.running(event), arcade.context.words("events.tied"))
 
 
-def event_table(
-    form: Format, count: int, page: int = 0, seats: int = 2, wide: bool = False
-) -> Callable[[Arcade], Scene]:
-    def opened(arcade: Arcade) -> Scene:
-        scene = TablePage(arcade.context, event(form, count, seats, count, wide=wide))
-        scene.page, scene.turned = page, 9.0
-        return scene
-
-    return opened
+def event_table(arcade: Arcade, form: Format, count: int, page: int = 0, seats: int = 2, wide: bool = False) -> Scene:
+    scene = TablePage(arcade.context, event(form, count, seats, count, wide=wide))
+    scene.page, scene.turned = page, 9.0
+    return scene
 
 
 def event_podium(arcade: Arcade, wide: bool = False) -> Scene:
@@ -375,6 +359,10 @@ def phones_page(arcade: Arcade, trouble: str = "") -> Scene:
     return page
 
 
+def lobby_with_phones(arcade: Arcade, game: str) -> Scene:
+    return lobby(with_phones(arcade), game, 0, 0)
+
+
 def locked_phone(arcade: Arcade) -> Scene:
     scene = match(arcade)
     scene.devices[3] = PHONES[3]
@@ -406,29 +394,25 @@ def new_game(arcade: Arcade, state: str) -> Scene:
 WIDEST = 9 * "W"  # the longest name of an arena
 
 
-def editor(game: str, problem: str = "", said: str = "") -> Callable[[Arcade], Scene]:
+def editor(arcade: Arcade, game: str, problem: str = "", said: str = "") -> Scene:
     """The editor with the first part of an arena selected; `problem`: of this kind; `said`: a sentence."""
-
-    def opened(arcade: Arcade) -> Scene:
-        drawing = store.titled(drawing_of(load(game, shipped_arenas(game)[0]).source), WIDEST)
-        scene = Editor(arcade.context, game, WIDEST.lower(), drawing)
-        scene.bench.close()
-        for task in (scene.bench.checker._finder, scene.bench.checker._planner):
-            if task._thread:
-                task._thread.join()
-        scene.bench.selected = scene.tools.items(drawing)[-1]
-        found = [Problem(problem, 800.0, 450.0, 60.0, "", problem != "gap", problem)] if problem else []
-        scene.bench.checker.verdict = CheckResult(drawing, found, done=True)
-        if said:
-            scene.say(said, name=WIDEST)
-            scene._message_left = 999.0
-        return scene
-
-    return opened
+    drawing = store.titled(drawing_of(load(game, shipped_arenas(game)[0]).source), WIDEST)
+    scene = Editor(arcade.context, game, WIDEST.lower(), drawing)
+    scene.bench.close()
+    for task in (scene.bench.checker._finder, scene.bench.checker._planner):
+        if task._thread:
+            task._thread.join()
+    scene.bench.selected = scene.tools.items(drawing)[-1]
+    found = [Problem(problem, 800.0, 450.0, 60.0, "", problem != "gap", problem)] if problem else []
+    scene.bench.checker.verdict = CheckResult(drawing, found, done=True)
+    if said:
+        scene.say(said, name=WIDEST)
+        scene._message_left = 999.0
+    return scene
 
 
 def tool_bar(arcade: Arcade) -> Scene:
-    scene = editor("pitanks")(arcade)
+    scene = editor(arcade, "pitanks")
     scene.handle(InputEvent(Button.Y, KEYS[0]))
     return scene
 
@@ -455,28 +439,28 @@ def fetch_page(arcade: Arcade, state: str) -> Scene:
 FETCH_STATES = ("fetching", "offline", "full", "restart", "foreign", "failed", "built")
 
 SCREENS: dict[str, Callable[[Arcade], Scene]] = {
-    **{f"editor {game}": editor(game) for game in EDITORS},
-    "editor with a problem": editor("pitanks", "machine"),
-    "editor with a goal out of reach": editor("football", "goal"),
-    "editor and a full disk": editor("race", said="editor.disk"),
+    **{f"editor {game}": partial(editor, game=game) for game in EDITORS},
+    "editor with a problem": partial(editor, game="pitanks", problem="machine"),
+    "editor with a goal out of reach": partial(editor, game="football", problem="goal"),
+    "editor and a full disk": partial(editor, game="race", said="editor.disk"),
     "editor tool bar": tool_bar,
     "gallery": partial(drawn_arenas, game="race"),
     "page of a drawing": partial(drawn_arenas, game="pitanks", page=True),
     "name of a drawing": lambda arcade: ArenaName(arcade.context, "race", "new-1", WIDEST, lambda name: None),
     **{f"lab fetch {state}": partial(fetch_page, state=state) for state in FETCH_STATES},
     "events": events,
-    **{f"event setup {form.value}": event_setup(form, "format") for form in Format},
-    "event setup order": event_setup(Format.GRAND_PRIX, "order"),
+    **{f"event setup {form.value}": partial(event_setup, form=form, row="format") for form in Format},
+    "event setup order": partial(event_setup, form=Format.GRAND_PRIX, row="order"),
     "event setup arenas": event_arenas,
     "no entrants": lambda arcade: EntrantsPage(arcade.context, Draft(), lambda draft: ""),
-    "entrants": entrants(64),
+    "entrants": partial(entrants, count=64),
     "event letters": lambda arcade: LettersPage(arcade.context, lambda name: "", lambda: drawn.names(20)),
-    "next match": next_match(64, 4),
-    "next match of two": next_match(5, 2, said="events.missing"),
-    "next match of AIs": next_match(8, 3, "level5"),
-    **{f"event table {count}": event_table(Format.SWISS, count) for count in (3, 8, 16, 64)},
+    "next match": partial(next_match, count=64, seats=4),
+    "next match of two": partial(next_match, count=5, seats=2, said="events.missing"),
+    "next match of AIs": partial(next_match, count=8, seats=3, brains="level5"),
+    **{f"event table {count}": partial(event_table, form=Format.SWISS, count=count) for count in (3, 8, 16, 64)},
     **{
-        f"event bracket {count}": event_table(Format.KNOCKOUT, count, page, seats)
+        f"event bracket {count}": partial(event_table, form=Format.KNOCKOUT, count=count, page=page, seats=seats)
         for count, page, seats in ((3, 0, 2), (8, 1, 2), (16, 0, 4), (64, 0, 2))
     },
     "sudden death": sudden_death,
@@ -487,9 +471,12 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "event withdrawal": lambda arcade: event_managed(arcade, "withdraw"),
     "event deletion": lambda arcade: event_managed(arcade, "delete"),
     "event title": lambda arcade: TextPage(arcade.context, arcade.context.words("events.rename"), 20 * "W", 60, str),
-    "widest next match": next_match(64, 4, wide=True),
-    **{f"widest event table {count}": event_table(Format.SWISS, count, wide=True) for count in (8, 16, 64)},
-    "widest event bracket": event_table(Format.KNOCKOUT, 8, wide=True),
+    "widest next match": partial(next_match, count=64, seats=4, wide=True),
+    **{
+        f"widest event table {count}": partial(event_table, form=Format.SWISS, count=count, wide=True)
+        for count in (8, 16, 64)
+    },
+    "widest event bracket": partial(event_table, form=Format.KNOCKOUT, count=8, wide=True),
     "widest event results": lambda arcade: ResultsList(arcade.context, event(Format.KNOCKOUT, 64, 4, 12, wide=True)),
     "widest correction": partial(correction, wide=True),
     "widest event podium": partial(event_podium, wide=True),
@@ -514,21 +501,18 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     **{f"radio {reason}": partial(robots_drawn.radio_page, message=f"setup_{reason}") for reason in RADIO_REFUSALS},
     "event podium": event_podium,
     "ladder": lambda arcade: LadderChoice(arcade.context, "all"),
-    "ladder resumed": ladder("", rung=5, wins=1, losses=1, beaten=4, lost=999),
-    "ladder assisted": ladder("assisted", rung=3, beaten=2),
+    "ladder resumed": partial(ladder, said="", rung=5, wins=1, losses=1, beaten=4, lost=999),
+    "ladder assisted": partial(ladder, said="assisted", rung=3, beaten=2),
     "ladder easier": easier,
     "summit": summit,
     "climbers": climbers,
     "strengths": strengths,
     "title": lambda arcade: Title(arcade.context),
-    "options": lambda arcade: OptionsPage(arcade.context),
+    "options": options,
     "operator": lambda arcade: OptionsPage(arcade.context, operator=True),
     "operator day": lambda arcade: OperatorPage(arcade.context),
     "operator figures": figures,
-    **{
-        f"options {section}": lambda arcade, section=section: OptionsPage(arcade.context, section=section)  # type: ignore[misc]
-        for section in SECTIONS
-    },
+    **{f"options {section}": partial(options, section=section) for section in SECTIONS},
     "remap": lambda arcade: RemapPage(arcade.context),
     "robots menu": lambda arcade: RobotsMenu(arcade.context),
     "marker sheet written": sheet_written,
@@ -543,21 +527,18 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "options of phones": phones_page,
     **{f"join by phone, {key}": partial(join_by_phone, trouble=key) for key in ("missing", "network_gone")},
     **{f"options of phones, {key}": partial(phones_page, trouble=key) for key in ("port_taken", "port_forbidden")},
-    **{
-        f"lobby {game} with phones": lambda arcade, game=game: lobby(game, 0, 0)(with_phones(arcade))  # type: ignore[misc]
-        for game in games()
-    },
+    **{f"lobby {game} with phones": partial(lobby_with_phones, game=game) for game in games()},
     "pause with phones": lambda arcade: Pause(match(with_phones(arcade)), KEYS[0]),
     "still there": lambda arcade: StillThere(match(arcade)),
     "replays": lambda arcade: ReplaysPage(arcade.context),
     "devices": lambda arcade: DeviceTable(
         arcade.context, KEYS, Access(arcade.context, lambda: KEYS), lambda device: POINT
     ),
-    **{f"how to play {game}": lesson(game) for game in games()},
-    **{f"setup {game}": choice(game) for game in games()},
-    **{f"lobby {game}": lobby(game, 0, 0) for game in games()},
-    **{f"full lobby {game}": lobby(game, 3, 1) for game in games()},
+    **{f"how to play {game}": partial(how_to_play, game=game) for game in games()},
+    **{f"setup {game}": partial(choice, game=game) for game in games()},
+    **{f"lobby {game}": partial(lobby, game=game, people=0, ais=0) for game in games()},
+    **{f"full lobby {game}": partial(lobby, game=game, people=3, ais=1) for game in games()},
     "lobby with one button": one_button,
-    **{f"best {game}": best(game) for game in games()},
+    **{f"best {game}": partial(best, game=game) for game in games()},
     **{f"results {name}": ending.results for name, ending in ENDINGS.items()},
 }
