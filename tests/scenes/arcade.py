@@ -1,7 +1,7 @@
 """A headless arcade for scripted play: real controls and scenes, simulated time, recorded sounds."""
 
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import pygame
 
@@ -19,6 +19,7 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.window import Canvas
 from tests.matches import setup_of
+from tests.ui.input.virtual_pad import VirtualPad
 
 S = TypeVar("S")
 Opened = TypeVar("Opened", bound=Scene)
@@ -60,6 +61,7 @@ class Arcade:
         canvas = Canvas.open(Settings(fullscreen=False), headless=True)
         self.screen, self.sounds = canvas.screen, Noted()
         self.context = Context(Settings(), Scores(), Words(language), controls, self.sounds, canvas)
+        self.pads: list[VirtualPad] = []
         self.title, self.setup = Floor(), Floor()
         self.stack = Stack(self.title)
         self.stack.scenes.append(self.setup)
@@ -74,6 +76,12 @@ class Arcade:
         """Press buttons, each on the scene that is then on top."""
         for button in buttons:
             self.stack.apply(self.stack.top.handle(InputEvent(button, device)))
+
+    def plug(self, *about: Any, **more: Any) -> tuple[VirtualPad, Device]:
+        """A virtual pad that is plugged in, and the device that it is."""
+        self.pads.append(VirtualPad(*about, **more))
+        self.frame()
+        return self.pads[-1], Device("pad", self.pads[-1].number)
 
     def click(self, x: float, y: float) -> None:
         self.stack.apply(self.stack.top.handle(InputEvent(Button.CLICK, Device("mouse"), at=(x, y))))

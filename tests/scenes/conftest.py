@@ -26,9 +26,12 @@ def language() -> str:
 
 
 @pytest.fixture
-def arcade(controls: Controls, home: Path, language: str) -> Arcade:
-    """An arcade with folders of its own, `home`."""
-    return Arcade(controls, language)
+def arcade(controls: Controls, home: Path, language: str) -> Iterator[Arcade]:
+    """An arcade with folders of its own, `home`; its pads are unplugged in the end."""
+    arcade = Arcade(controls, language)
+    yield arcade
+    for pad in arcade.pads:
+        pad.unplug()
 
 
 @pytest.fixture

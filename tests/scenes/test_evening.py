@@ -1,7 +1,5 @@
 """A whole evening: from the title through lobby, setup and match to the results, a rematch, and back."""
 
-from contextlib import ExitStack
-
 import pytest
 
 from pigaming_app.scenes.flow.stack import Stack
@@ -12,7 +10,6 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.initials import Initials
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.title.scene import Title
-from pigaming_app.ui.input.events import Device
 from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -27,40 +24,39 @@ def test_two_friends_and_a_loose_cable(arcade: Arcade) -> None:
             pad.tap(button)
             arcade.wait(0.2, draw=True)
 
-    with ExitStack() as plugged:
-        one, two = (plugged.enter_context(VirtualPad()) for _ in range(2))
-        arcade.wait(0.5, draw=True)
-        tap(one, "a")
-        arcade.shown(Lobby)
-        tap(one, "a")
-        tap(two, "a")
-        tap(one, "a")
-        tap(two, "a")
-        arcade.until(lambda: isinstance(arcade.stack.top, MatchSetupPage), 10.0)
-        arcade.wait(0.5, draw=True)
-        tap(two, "a")
-        match = arcade.shown(MatchScene)
-        assert match.devices[:2] == [Device("pad", one.number), Device("pad", two.number)]
-        arcade.wait(8.0)
-        two.unplug()
-        arcade.wait(1.5, draw=True)
-        arcade.shown(Reconnect)
-        again = plugged.enter_context(VirtualPad())
-        arcade.wait(0.5, draw=True)
-        tap(again, "a")
-        assert arcade.shown(MatchScene) is match
-        one.stick(0.2, -1.0)
-        one.press("a")
-        arcade.until(lambda: match.match.over, 80.0)
-        one.release("a")
-        one.stick(0.0, 0.0)
-        arcade.until(lambda: isinstance(arcade.stack.top, Results))
-        arcade.wait(6.0, draw=True)
-        if isinstance(arcade.stack.top, Initials):
-            tap(one, "start", "start")
-            arcade.until(lambda: isinstance(arcade.stack.top, Results), 60.0)
-        tap(one, "a")
-        tap(again, "a")
-        rematch = arcade.shown(MatchScene)
-        assert rematch is not match
-        assert rematch.devices == [Device("pad", one.number), Device("pad", again.number), None, None]
+    (one, first), (two, second) = arcade.plug(), arcade.plug()
+    arcade.wait(0.5, draw=True)
+    tap(one, "a")
+    arcade.shown(Lobby)
+    tap(one, "a")
+    tap(two, "a")
+    tap(one, "a")
+    tap(two, "a")
+    arcade.until(lambda: isinstance(arcade.stack.top, MatchSetupPage), 10.0)
+    arcade.wait(0.5, draw=True)
+    tap(two, "a")
+    match = arcade.shown(MatchScene)
+    assert match.devices[:2] == [first, second]
+    arcade.wait(8.0)
+    two.unplug()
+    arcade.wait(1.5, draw=True)
+    arcade.shown(Reconnect)
+    again, third = arcade.plug()
+    arcade.wait(0.5, draw=True)
+    tap(again, "a")
+    assert arcade.shown(MatchScene) is match
+    one.stick(0.2, -1.0)
+    one.press("a")
+    arcade.until(lambda: match.match.over, 80.0)
+    one.release("a")
+    one.stick(0.0, 0.0)
+    arcade.until(lambda: isinstance(arcade.stack.top, Results))
+    arcade.wait(6.0, draw=True)
+    if isinstance(arcade.stack.top, Initials):
+        tap(one, "start", "start")
+        arcade.until(lambda: isinstance(arcade.stack.top, Results), 60.0)
+    tap(one, "a")
+    tap(again, "a")
+    rematch = arcade.shown(MatchScene)
+    assert rematch is not match
+    assert rematch.devices == [first, third, None, None]

@@ -1,7 +1,6 @@
 """The pages outside a match: each opens in both languages, survives every input, and every text fits."""
 
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
 
 import pytest
 
@@ -30,7 +29,7 @@ from tests.cases import one_in
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.cache import empty_cache
 from tests.scenes.measuring import lit_boxes
-from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
+from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION
 
 SMALLEST = 0.8  # minimum scale of a text
 MOUSE = Device("mouse")
@@ -69,15 +68,14 @@ def top(arcade: Arcade, name: str) -> Scene:
 @pytest.mark.parametrize("language", one_in(2, LANGUAGES))
 @pytest.mark.parametrize("name", PAGES)
 def test_every_page_survives_every_press_of_every_device(arcade: Arcade, name: str) -> None:
-    with VirtualPad() as pad:
-        arcade.frame()
-        for button in Button:
-            for device in (*KEYS, Device("pad", pad.number), MOUSE, Device("pad", 99)):
-                scene = top(arcade, name)
-                at = (960.0, 540.0) if device == MOUSE else None
-                scene.handle(InputEvent(button, device, at=at))
-                scene.update(1 / 60)
-        top(arcade, name).draw(arcade.screen)
+    _, pad = arcade.plug()
+    for button in Button:
+        for device in (*KEYS, pad, MOUSE, Device("pad", 99)):
+            scene = top(arcade, name)
+            at = (960.0, 540.0) if device == MOUSE else None
+            scene.handle(InputEvent(button, device, at=at))
+            scene.update(1 / 60)
+    top(arcade, name).draw(arcade.screen)
 
 
 @pytest.mark.parametrize("language", one_in(2, LANGUAGES))
@@ -124,20 +122,17 @@ def walk(arcade: Arcade, scene: Scene) -> None:
 @pytest.mark.parametrize("name", ["lobby", "setup", "options", "padtest"])
 @pytest.mark.parametrize("kind", ["keys 0", "keys 1", "keys 3", "Xbox", "PlayStation", "Nintendo", "Joystick"])
 def test_the_hints_of_every_device_fit_beside_each_other(arcade: Arcade, name: str, kind: str) -> None:
-    with ExitStack() as plugged:
-        if kind.startswith("keys"):
-            device = KEYS[int(kind[-1])]
-        else:
-            usb = {"PlayStation": PLAYSTATION, "Nintendo": NINTENDO}.get(kind, (0x045E, 0x028E))
-            pad = plugged.enter_context(VirtualPad(f"{kind} pad", usb, plain=kind == "Joystick"))
-            arcade.frame()
-            device = Device("pad", pad.number)
-        arcade.context.controls.last = device
-        scene = top(arcade, name)
-        for prompts in hints(scene, device):
-            ends = places(prompts.labels, prompts.room)
-            assert ends[0][0] >= 72, prompts.labels
-            assert ends[-1][1] <= 1848, prompts.labels
+    if kind.startswith("keys"):
+        device = KEYS[int(kind[-1])]
+    else:
+        usb = {"PlayStation": PLAYSTATION, "Nintendo": NINTENDO}.get(kind, (0x045E, 0x028E))
+        _, device = arcade.plug(f"{kind} pad", usb, plain=kind == "Joystick")
+    arcade.context.controls.last = device
+    scene = top(arcade, name)
+    for prompts in hints(scene, device):
+        ends = places(prompts.labels, prompts.room)
+        assert ends[0][0] >= 72, prompts.labels
+        assert ends[-1][1] <= 1848, prompts.labels
 
 
 def hints(scene: Scene, device: Device) -> Iterator[ButtonPrompts]:

@@ -26,10 +26,10 @@ from pigaming_app.sim.record import digest
 from pigaming_app.ui.draw import BODY, ICONS, LABEL, text_width
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import LANGUAGES, texts
-from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.input.events import Button, InputEvent
 from tests.ai.networks.random_network import random_network
 from tests.scenes.arcade import KEYS, Arcade, setup
-from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION, VirtualPad
+from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION
 
 SEATS = {"pitanks": ["level5", "level1", "random", "idle"], "race": ["level5", "level1", "random", "idle"]}
 SEATS["factory"] = ["level5", "level3", "level1", "random"]
@@ -104,19 +104,18 @@ def test_in_a_pause_it_leads_back_into_the_match(arcade: Arcade) -> None:
 )
 def test_a_pause_names_the_pads_own_button_for_it(arcade: Arcade, kind: str, usb: tuple[int, int], label: str) -> None:
     plain = kind == "Joystick"
-    with VirtualPad(f"{kind} pad", usb, plain=plain) as pad:
-        arcade.frame()
-        match = MatchScene(arcade.context, setup("human level1 off off", 1.0), [Device("pad", pad.number)])
-        arcade.open(match)
-        arcade.wait(4.5)
-        pad.tap("start" if not plain else 9)
-        arcade.wait(0.2)
-        page = arcade.shown(Pause)
-        assert (label, "AI thoughts") in page.prompts.labels
-        pad.tap("y" if not plain else 3)
-        arcade.wait(0.2)
-        assert arcade.shown(MatchScene) is match
-        assert overlay_of(match.runner).seat == 1
+    pad, device = arcade.plug(f"{kind} pad", usb, plain=plain)
+    match = MatchScene(arcade.context, setup("human level1 off off", 1.0), [device])
+    arcade.open(match)
+    arcade.wait(4.5)
+    pad.tap("start" if not plain else 9)
+    arcade.wait(0.2)
+    page = arcade.shown(Pause)
+    assert (label, "AI thoughts") in page.prompts.labels
+    pad.tap("y" if not plain else 3)
+    arcade.wait(0.2)
+    assert arcade.shown(MatchScene) is match
+    assert overlay_of(match.runner).seat == 1
 
 
 def test_f4_does_not_end_attract_mode(arcade: Arcade) -> None:

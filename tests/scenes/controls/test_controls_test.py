@@ -69,14 +69,13 @@ def test_a_pad_appears_when_it_is_plugged_in_and_its_button_lights_up(arcade: Ar
 
 
 def test_a_short_b_is_only_shown_and_a_long_one_leaves(arcade: Arcade) -> None:
-    with VirtualPad() as pad:
-        arcade.wait(0.1)
-        pad.tap("b")
-        arcade.wait(1.5)
-        arcade.shown(ControlsTest)
-        pad.press("b")
-        arcade.wait(padtest.HOLD + 0.2)
-        assert arcade.stack.top is arcade.setup
+    pad, _ = arcade.plug()
+    pad.tap("b")
+    arcade.wait(1.5)
+    arcade.shown(ControlsTest)
+    pad.press("b")
+    arcade.wait(padtest.HOLD + 0.2)
+    assert arcade.stack.top is arcade.setup
 
 
 def test_escape_and_a_click_on_the_hint_leave(arcade: Arcade) -> None:
@@ -98,17 +97,15 @@ def test_a_keyboard_robot_turns_with_its_keys(arcade: Arcade) -> None:
 
 
 def test_a_robot_shows_the_driving_style_of_its_device_and_stays_on_its_card(arcade: Arcade) -> None:
-    with VirtualPad() as pad:
-        arcade.frame()
-        device = Device("pad", pad.number)
-        arcade.context.driving.change(device, "pitanks", "party", -1)
-        pad.stick(1.0, 0.0)
-        arcade.wait(1.0)
-        robot = arcade.shown(ControlsTest).driven[device].robots[0]
-        assert robot.angular == pytest.approx(padtest.TURN_RATE, rel=0.02)
-        arcade.context.driving.change(device, "pitanks", "plain", 1)
-        arcade.wait(2.5)
-        assert abs(turn_to(robot.heading)) < 0.05
-        assert abs(robot.angular) < 0.05
-        assert 10.0 < robot.x < 30.0
-        arcade.shown(ControlsTest)
+    pad, device = arcade.plug()
+    arcade.context.driving.change(device, "pitanks", "party", -1)
+    pad.stick(1.0, 0.0)
+    arcade.wait(1.0)
+    robot = arcade.shown(ControlsTest).driven[device].robots[0]
+    assert robot.angular == pytest.approx(padtest.TURN_RATE, rel=0.02)
+    arcade.context.driving.change(device, "pitanks", "plain", 1)
+    arcade.wait(2.5)
+    assert abs(turn_to(robot.heading)) < 0.05
+    assert abs(robot.angular) < 0.05
+    assert 10.0 < robot.x < 30.0
+    arcade.shown(ControlsTest)

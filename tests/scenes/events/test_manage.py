@@ -18,7 +18,6 @@ from pigaming_app.storage.safe_files import NotSaved, backup_of
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import Arcade
 from tests.scenes.events.drawn import an_event, played, running, saved
-from tests.ui.input.virtual_pad import VirtualPad
 
 
 def managed(arcade: Arcade, run: RunningEvent, row: str) -> EventPage:
@@ -105,10 +104,8 @@ def test_a_withdrawal_by_pad_and_by_mouse(arcade: Arcade, monkeypatch: pytest.Mo
     page = managed(arcade, run, WITHDRAW)
     box = page.focus.rect(WITHDRAW)
     monkeypatch.setattr(arcade.context.controls, "holds", lambda device, button: True)
-    with VirtualPad() as pad:
-        arcade.frame()
-        arcade.press(Button.FIRE, device=Device("pad", pad.number))
-        arcade.wait(HOLD + 0.1)
+    arcade.press(Button.FIRE, device=arcade.plug()[1])
+    arcade.wait(HOLD + 0.1)
     assert len(saved(run).withdrawn) == 1
     chosen = page.chosen
     arcade.click(box.right - 54, box.centery)

@@ -1,8 +1,6 @@
 """Access control: seated pads, free pads, and idle people."""
 
 import random
-from collections.abc import Iterator
-from contextlib import ExitStack
 
 import pygame
 import pytest
@@ -40,18 +38,6 @@ EVERY = (
 )
 
 
-@pytest.fixture
-def pads() -> Iterator[ExitStack]:
-    with ExitStack() as stack:
-        yield stack
-
-
-def plug(arcade: Arcade, pads: ExitStack, **about: object) -> tuple[VirtualPad, Device]:
-    pad = pads.enter_context(VirtualPad(**about))  # type: ignore[arg-type]
-    arcade.frame()
-    return pad, Device("pad", pad.number)
-
-
 def tap(arcade: Arcade, pad: VirtualPad, *buttons: str) -> None:
     for button in buttons:
         pad.tap(button)
@@ -73,9 +59,9 @@ def lobby_of(arcade: Arcade) -> Lobby:
     return arcade.open(Lobby(arcade.context, "pitanks"))
 
 
-def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade, pads: ExitStack) -> None:
-    _, first = plug(arcade, pads)
-    guest, device = plug(arcade, pads)
+def test_in_the_lobby_a_free_pad_can_join_and_nothing_else(arcade: Arcade) -> None:
+    _, first = arcade.plug()
+    guest, device = arcade.plug()
     page = lobby_of(arcade)
     arcade.press(Button.FIRE, Button.Y, device=first)
     before = [(place.kind, place.device, place.strength, place.ready) for place in page.seats.places]
@@ -119,8 +105,8 @@ def test_while_nobody_is_seated_any_device_begins_a_match_of_ais_or_goes_back(ar
     assert arcade.stack.top is arcade.title
 
 
-def test_an_operator_holds_escape_to_leave_a_lobby_that_others_sit_in(arcade: Arcade, pads: ExitStack) -> None:
-    _, first = plug(arcade, pads)
+def test_an_operator_holds_escape_to_leave_a_lobby_that_others_sit_in(arcade: Arcade) -> None:
+    _, first = arcade.plug()
     lobby_of(arcade)
     arcade.press(Button.FIRE, device=first)
     arcade.key("ESCAPE", 0.3)
@@ -139,10 +125,10 @@ def test_a_shared_key_counts_for_the_seated_half_of_the_keyboard(arcade: Arcade)
     assert not page.seats.places[0].ready
 
 
-def test_empty_seats_name_the_button_of_every_device_that_could_join(arcade: Arcade, pads: ExitStack) -> None:
-    _, xbox = plug(arcade, pads)
-    plug(arcade, pads, name="PS4 Controller", usb=PLAYSTATION)
-    plug(arcade, pads, plain=True)
+def test_empty_seats_name_the_button_of_every_device_that_could_join(arcade: Arcade) -> None:
+    _, xbox = arcade.plug()
+    arcade.plug(name="PS4 Controller", usb=PLAYSTATION)
+    arcade.plug(plain=True)
     for language, space, control in (("en", "SPACE", "R CTRL"), ("pt", "ESPAÇO", "CTRL DIR")):
         arcade.context.words.switch(language)
         page = Lobby(arcade.context, "pitanks")
@@ -171,9 +157,9 @@ def test_in_setup_only_seated_devices_choose(arcade: Arcade) -> None:
 # ---- match and pause
 
 
-def test_in_a_match_nothing_on_a_free_pad_pauses(arcade: Arcade, pads: ExitStack) -> None:
-    _, first = plug(arcade, pads)
-    guest, _ = plug(arcade, pads)
+def test_in_a_match_nothing_on_a_free_pad_pauses(arcade: Arcade) -> None:
+    _, first = arcade.plug()
+    guest, _ = arcade.plug()
     match = running(arcade, "human level1 off off", [first])
     tap(arcade, guest, *BUTTONS, "a")
     arcade.press(Button.BACK, Button.START, device=KEYS[0])
@@ -182,8 +168,8 @@ def test_in_a_match_nothing_on_a_free_pad_pauses(arcade: Arcade, pads: ExitStack
     assert match.devices == [first, None, None, None]
 
 
-def test_an_operator_holds_escape_to_pause_pads_and_to_take_a_pause_over(arcade: Arcade, pads: ExitStack) -> None:
-    pad, first = plug(arcade, pads)
+def test_an_operator_holds_escape_to_pause_pads_and_to_take_a_pause_over(arcade: Arcade) -> None:
+    pad, first = arcade.plug()
     match = running(arcade, "human level1 off off", [first])
     arcade.key("ESCAPE", 0.4)
     assert arcade.stack.top is match
@@ -197,8 +183,8 @@ def test_an_operator_holds_escape_to_pause_pads_and_to_take_a_pause_over(arcade:
     assert arcade.shown(Pause).access.owner.kind == "keys"
 
 
-def test_while_ais_play_alone_any_device_pauses(arcade: Arcade, pads: ExitStack) -> None:
-    guest, _ = plug(arcade, pads)
+def test_while_ais_play_alone_any_device_pauses(arcade: Arcade) -> None:
+    guest, _ = arcade.plug()
     match = running(arcade, "level1 level1 off off", [])
     for button in ("start", "b"):
         tap(arcade, guest, button)
@@ -230,10 +216,8 @@ def test_a_pause_belongs_to_its_owner_for_twenty_seconds(arcade: Arcade) -> None
     assert arcade.stack.top is match
 
 
-def test_f4_of_the_keyboard_works_in_any_match_but_ends_no_pause_of_another_device(
-    arcade: Arcade, pads: ExitStack
-) -> None:
-    pad, first = plug(arcade, pads)
+def test_f4_of_the_keyboard_works_in_any_match_but_ends_no_pause_of_another_device(arcade: Arcade) -> None:
+    pad, first = arcade.plug()
     match = running(arcade, "human level1 off off", [first])
     arcade.key("F4")
     assert match.runner.brain
@@ -244,8 +228,8 @@ def test_f4_of_the_keyboard_works_in_any_match_but_ends_no_pause_of_another_devi
     assert arcade.shown(Pause) is page
 
 
-def test_an_unplugged_pad_owns_no_pause(arcade: Arcade, pads: ExitStack) -> None:
-    (_, first), (two, second) = plug(arcade, pads), plug(arcade, pads)
+def test_an_unplugged_pad_owns_no_pause(arcade: Arcade) -> None:
+    (_, first), (two, second) = arcade.plug(), arcade.plug()
     running(arcade, "human human off off", [first, second])
     tap(arcade, two, "start")
     page = arcade.shown(Pause)
@@ -277,8 +261,8 @@ def test_restart_and_end_ask_once(arcade: Arcade, name: str, downs: int) -> None
 # ---- taps
 
 
-def test_taps_in_a_frame_of_almost_a_second_fire_once_each(arcade: Arcade, pads: ExitStack) -> None:
-    pad, device = plug(arcade, pads)
+def test_taps_in_a_frame_of_almost_a_second_fire_once_each(arcade: Arcade) -> None:
+    pad, device = arcade.plug()
     controls = arcade.context.controls
     for _ in range(2):
         pad.tap("a")
@@ -288,15 +272,15 @@ def test_taps_in_a_frame_of_almost_a_second_fire_once_each(arcade: Arcade, pads:
     assert [controls.drive(device).fire for _ in range(6)] == [True, False, True, False, False, False]
 
 
-def test_a_tap_of_both_shoulders_in_one_frame_is_the_all_stop(arcade: Arcade, pads: ExitStack) -> None:
-    pad, device = plug(arcade, pads)
+def test_a_tap_of_both_shoulders_in_one_frame_is_the_all_stop(arcade: Arcade) -> None:
+    pad, device = arcade.plug()
     pad.tap("leftshoulder", "rightshoulder")
     assert [event.button for event in arcade.context.controls.presses(pygame.event.get())] == [Button.STOP]
     assert [arcade.context.controls.drive(device).turbo for _ in range(2)] == [True, False]
 
 
-def test_taps_are_bounded_and_belong_to_their_device(arcade: Arcade, pads: ExitStack) -> None:
-    (pad, device), (_, other) = plug(arcade, pads), plug(arcade, pads)
+def test_taps_are_bounded_and_belong_to_their_device(arcade: Arcade) -> None:
+    (pad, device), (_, other) = arcade.plug(), arcade.plug()
     controls = arcade.context.controls
     for _ in range(50):
         pad.tap("a")
@@ -309,8 +293,8 @@ def test_taps_are_bounded_and_belong_to_their_device(arcade: Arcade, pads: ExitS
     assert not controls.drive(device).fire
 
 
-def test_a_tap_in_a_menu_or_the_countdown_does_not_fire_in_the_match(arcade: Arcade, pads: ExitStack) -> None:
-    pad, device = plug(arcade, pads)
+def test_a_tap_in_a_menu_or_the_countdown_does_not_fire_in_the_match(arcade: Arcade) -> None:
+    pad, device = arcade.plug()
     match = MatchScene(arcade.context, setup("human level1 off off", 1.0), [device])
     pad.tap("a")
     arcade.frame()
@@ -333,8 +317,8 @@ def test_a_tap_in_a_menu_or_the_countdown_does_not_fire_in_the_match(arcade: Arc
 # ---- seats with a new driver
 
 
-def test_an_idle_seat_is_asked_then_an_ai_drives_until_a_button_is_pressed(arcade: Arcade, pads: ExitStack) -> None:
-    (one, first), (two, second) = plug(arcade, pads), plug(arcade, pads)
+def test_an_idle_seat_is_asked_then_an_ai_drives_until_a_button_is_pressed(arcade: Arcade) -> None:
+    (one, first), (two, second) = arcade.plug(), arcade.plug()
     match = running(arcade, "human human off off", [first, second])
     one.stick(0.0, -1.0)
     arcade.wait(IDLE_LIMIT - 1.0, fps=20)
@@ -378,9 +362,9 @@ def test_when_all_are_idle_the_match_asks_and_the_first_press_returns_its_seat(
     assert match.devices[:2] == [None, KEYS[1]]
 
 
-def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(arcade: Arcade, pads: ExitStack) -> None:
-    _, first = plug(arcade, pads)
-    guest, device = plug(arcade, pads)
+def test_a_free_pad_takes_an_ais_seat_by_holding_fire_and_a_tap_is_not_enough(arcade: Arcade) -> None:
+    _, first = arcade.plug()
+    guest, device = arcade.plug()
     match = running(arcade, "human level1 level1 off", [first])
     tap(arcade, guest, "a", "a", "a")
     arcade.wait(TAKE_SECONDS + 0.2, draw=True)
@@ -409,8 +393,8 @@ def ended(arcade: Arcade, brains: str, devices: list[Device]) -> Results:
     return arcade.reach(Results)
 
 
-def test_b_leaves_the_results_only_late_and_held(arcade: Arcade, pads: ExitStack) -> None:
-    pad, device = plug(arcade, pads)
+def test_b_leaves_the_results_only_late_and_held(arcade: Arcade) -> None:
+    pad, device = arcade.plug()
     results = ended(arcade, "human level1 off off", [device])
     for _ in range(12):
         tap(arcade, pad, "b")
@@ -427,9 +411,9 @@ def test_b_leaves_the_results_only_late_and_held(arcade: Arcade, pads: ExitStack
     assert arcade.stack.top is arcade.title
 
 
-def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade, pads: ExitStack) -> None:
-    _, first = plug(arcade, pads)
-    guest, device = plug(arcade, pads)
+def test_on_the_results_a_free_pad_can_only_take_an_ais_seat(arcade: Arcade) -> None:
+    _, first = arcade.plug()
+    guest, device = arcade.plug()
     results = ended(arcade, "human level1 off off", [first])
     arcade.wait(LATE + 1.0)
     tap(arcade, guest, *BUTTONS, "a")
@@ -467,8 +451,8 @@ def test_change_game_keeps_all_seats(arcade: Arcade) -> None:
     assert len(arcade.stack.scenes) == 2, "the title lies below, not the lobby of the game before"
 
 
-def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(arcade: Arcade, pads: ExitStack) -> None:
-    pad, device = plug(arcade, pads, name="PS4 Controller", usb=PLAYSTATION)
+def test_the_title_names_the_button_of_the_device_used_last_and_what_it_opens(arcade: Arcade) -> None:
+    pad, device = arcade.plug(name="PS4 Controller", usb=PLAYSTATION)
     scene = arcade.open(Title(arcade.context))
     assert scene.call_text == ("Press {button} to play", "SPACE")
     tap(arcade, pad, "down")

@@ -23,7 +23,6 @@ from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade
-from tests.ui.input.virtual_pad import VirtualPad
 
 pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
 
@@ -154,8 +153,7 @@ def test_a_match_in_which_an_ai_drove_counts_for_nothing(arcade: Arcade) -> None
 
 
 def test_only_the_climber_acts_until_the_pad_is_pulled(arcade: Arcade) -> None:
-    pad = VirtualPad()
-    arcade.wait(0.1)
+    pad, _ = arcade.plug()
     pad.tap("a")
     arcade.frame()
     mine = page(arcade).climber.device

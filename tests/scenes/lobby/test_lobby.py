@@ -1,6 +1,5 @@
 """The lobby, operated with pads, keys and a mouse."""
 
-from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
@@ -23,7 +22,6 @@ from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.arcade import KEYS, Arcade
-from tests.ui.input.virtual_pad import VirtualPad
 
 
 @pytest.fixture(autouse=True)
@@ -42,15 +40,13 @@ def letters(seats: LobbySeats) -> str:
 
 
 def test_two_pads_of_one_make_are_two_players(arcade: Arcade) -> None:
-    with ExitStack() as plugged:
-        one, two = (plugged.enter_context(VirtualPad()) for _ in range(2))
-        arcade.wait(0.1)
-        two.tap("a")
-        arcade.frame()
-        one.tap("a")
-        arcade.frame()
-        seats = arcade.shown(Lobby).seats
-        assert seats.devices()[:2] == [Device("pad", two.number), Device("pad", one.number)]
+    (one, first), (two, second) = arcade.plug(), arcade.plug()
+    two.tap("a")
+    arcade.frame()
+    one.tap("a")
+    arcade.frame()
+    seats = arcade.shown(Lobby).seats
+    assert seats.devices()[:2] == [second, first]
 
 
 def test_fire_again_is_ready_and_back_takes_that_back_then_leaves_then_goes_to_the_title(arcade: Arcade) -> None:
@@ -152,8 +148,7 @@ def test_left_and_right_choose_the_team_and_a_match_needs_two_teams(arcade: Arca
 
 
 def test_a_pad_that_is_pulled_out_leaves_its_seat_with_a_word(arcade: Arcade) -> None:
-    pad = VirtualPad()
-    arcade.wait(0.1)
+    pad, _ = arcade.plug()
     pad.tap("a")
     arcade.frame()
     assert kinds(arcade) == "H..."
@@ -238,28 +233,27 @@ def test_everyone_chooses_a_driving_style_on_the_own_card_with_pad_keys_or_mouse
         devices = arcade.shown(Lobby).seats.devices()
         return [arcade.context.driving.of(device, "pitanks", "party") for device in devices if device]
 
-    with VirtualPad() as pad:
-        arcade.wait(0.1)
-        arcade.press(Button.FIRE)
-        pad.tap("a")
-        arcade.frame()
-        assert styles() == [TURN, POINT], "by the rules of party, pads point"
-        arcade.press(Button.RIGHT)
-        assert styles() == [POINT, POINT]
-        pad.tap("left")
-        arcade.frame()
-        assert styles() == [POINT, TURN]
-        pad.tap("right")
-        arcade.frame()
-        assert styles() == [POINT, POINT]
-        arcade.click(card_rect(1).centerx, card_rect(1).top + DRIVE_Y)
-        assert styles() == [POINT, ONE_BUTTON]
-        arcade.click(card_rect(1).centerx, card_rect(1).top + DRIVE_Y)
-        assert styles() == [POINT, TURN]
-        arcade.press(Button.X, Button.LEFT)
-        assert arcade.shown(Lobby).seats.places[0].team == 1
-        arcade.press(Button.DOWN, Button.LEFT)
-        assert styles() == [TURN, TURN]
+    pad, _ = arcade.plug()
+    arcade.press(Button.FIRE)
+    pad.tap("a")
+    arcade.frame()
+    assert styles() == [TURN, POINT], "by the rules of party, pads point"
+    arcade.press(Button.RIGHT)
+    assert styles() == [POINT, POINT]
+    pad.tap("left")
+    arcade.frame()
+    assert styles() == [POINT, TURN]
+    pad.tap("right")
+    arcade.frame()
+    assert styles() == [POINT, POINT]
+    arcade.click(card_rect(1).centerx, card_rect(1).top + DRIVE_Y)
+    assert styles() == [POINT, ONE_BUTTON]
+    arcade.click(card_rect(1).centerx, card_rect(1).top + DRIVE_Y)
+    assert styles() == [POINT, TURN]
+    arcade.press(Button.X, Button.LEFT)
+    assert arcade.shown(Lobby).seats.places[0].team == 1
+    arcade.press(Button.DOWN, Button.LEFT)
+    assert styles() == [TURN, TURN]
 
 
 def test_in_a_kiosk_one_button_ends_on_the_title(arcade: Arcade) -> None:

@@ -20,9 +20,8 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.settings import Choice
 from pigaming_app.ui.draw.text import SMALLEST, fit_lines
 from pigaming_app.ui.i18n import LANGUAGES, Words
-from pigaming_app.ui.input.events import Button, Device
+from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import KEYS, Arcade
-from tests.ui.input.virtual_pad import VirtualPad
 
 
 @pytest.fixture(autouse=True)
@@ -90,9 +89,8 @@ def test_a_mouse_chooses_minutes_rules_and_the_arena_and_begins(arcade: Arcade) 
 
 
 def test_a_seat_without_its_pad_leads_back_to_the_lobby(arcade: Arcade) -> None:
-    pad = VirtualPad()
-    arcade.wait(0.1)
-    page(arcade).seats.join(Device("pad", pad.number))
+    pad, device = arcade.plug()
+    page(arcade).seats.join(device)
     arcade.wait(0.1)
     page(arcade)
     pad.unplug()

@@ -211,18 +211,17 @@ def test_pages_of_the_controls_are_one_press_away(arcade: Arcade, row: str, page
 
 
 def test_rumbling_can_be_switched_off_and_on_again_with_a_sample(arcade: Arcade, home: Path) -> None:
-    with VirtualPad() as pad:
-        arcade.wait(0.1)
-        go(arcade, "rumble")
-        pad.tap("left")
-        arcade.frame()
-        assert kept(home)["rumble"] is False
-        arcade.shown(OptionsPage)
-        assert pad.rumbles == []
-        pad.tap("right")
-        arcade.frame()
-        assert kept(home)["rumble"] is True
-        assert max(pad.rumbles[0]) > 0
+    pad, _ = arcade.plug()
+    go(arcade, "rumble")
+    pad.tap("left")
+    arcade.frame()
+    assert kept(home)["rumble"] is False
+    arcade.shown(OptionsPage)
+    assert pad.rumbles == []
+    pad.tap("right")
+    arcade.frame()
+    assert kept(home)["rumble"] is True
+    assert max(pad.rumbles[0]) > 0
 
 
 def test_what_makes_it_easier_has_a_page_of_its_own(arcade: Arcade, home: Path) -> None:

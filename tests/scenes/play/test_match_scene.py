@@ -1,8 +1,6 @@
 """Matches as played: the countdown, unplugged pads, replacements, pauses, and the results."""
 
 import math
-from collections.abc import Iterator
-from contextlib import ExitStack
 
 import pygame
 import pytest
@@ -18,7 +16,7 @@ from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.ui.input.events import Button, Device
+from pigaming_app.ui.input.events import Button
 from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.measuring import lit_boxes
@@ -27,28 +25,16 @@ from tests.ui.input.virtual_pad import VirtualPad
 COUNTDOWN = 3.8  # seconds until GO
 
 
-@pytest.fixture
-def pads() -> Iterator[ExitStack]:
-    with ExitStack() as stack:
-        yield stack
-
-
-def plug(arcade: Arcade, pads: ExitStack) -> tuple[VirtualPad, Device]:
-    pad = pads.enter_context(VirtualPad())
-    arcade.frame()
-    return pad, Device("pad", pad.number)
-
-
-def two_pads(arcade: Arcade, pads: ExitStack, minutes: float = 1.0) -> tuple[MatchScene, VirtualPad, VirtualPad]:
+def two_pads(arcade: Arcade, minutes: float = 1.0) -> tuple[MatchScene, VirtualPad, VirtualPad]:
     """A match of two pads, running."""
-    (one, first), (two, second) = plug(arcade, pads), plug(arcade, pads)
+    (one, first), (two, second) = arcade.plug(), arcade.plug()
     match = arcade.open(MatchScene(arcade.context, setup("human human off off", minutes), [first, second]))
     arcade.wait(COUNTDOWN + 0.1)
     return match, one, two
 
 
-def test_nothing_moves_before_go_and_everything_after(arcade: Arcade, pads: ExitStack) -> None:
-    pad, device = plug(arcade, pads)
+def test_nothing_moves_before_go_and_everything_after(arcade: Arcade) -> None:
+    pad, device = arcade.plug()
     match = arcade.open(MatchScene(arcade.context, setup("human level5 off off", 1.0), [device, None, None, None]))
     pad.stick(0.0, -1.0)
     arcade.wait(COUNTDOWN - 0.1, draw=True)
@@ -61,18 +47,16 @@ def test_nothing_moves_before_go_and_everything_after(arcade: Arcade, pads: Exit
     assert match.match.state.robots[0].x - begin > 100
 
 
-def test_the_stick_is_read_on_the_tick_that_acts_on_it(arcade: Arcade, pads: ExitStack) -> None:
-    match, one, _ = two_pads(arcade, pads)
+def test_the_stick_is_read_on_the_tick_that_acts_on_it(arcade: Arcade) -> None:
+    match, one, _ = two_pads(arcade)
     one.stick(0.0, -1.0)
     pygame.event.pump()
     match.runner.advance(0.021)
     assert match.match.state.actions[0].linear == 1.0
 
 
-def test_a_pad_that_points_drives_where_the_stick_points_also_after_it_was_replugged(
-    arcade: Arcade, pads: ExitStack
-) -> None:
-    pad, device = plug(arcade, pads)
+def test_a_pad_that_points_drives_where_the_stick_points_also_after_it_was_replugged(arcade: Arcade) -> None:
+    pad, device = arcade.plug()
     arcade.context.driving.change(device, "pitanks", "plain", 1)
     match = arcade.open(MatchScene(arcade.context, setup("human level1 off off", 5.0), [device]))
     assert match.runner.driver(0, device)[1] == "point"
@@ -84,7 +68,7 @@ def test_a_pad_that_points_drives_where_the_stick_points_also_after_it_was_replu
     pad.unplug()
     arcade.wait(0.1)
     arcade.context.settings.pad_driving = TURN
-    new, other = plug(arcade, pads)
+    new, other = arcade.plug()
     arcade.wait(1.0)
     new.tap("a")
     arcade.wait(4.0)
@@ -129,8 +113,8 @@ def test_a_pause_freezes_and_a_short_countdown_leads_back(arcade: Arcade, act: B
     assert match.match.state.tick > before
 
 
-def test_turbo_on_a_pad_is_not_a_pause(arcade: Arcade, pads: ExitStack) -> None:
-    match, one, _ = two_pads(arcade, pads)
+def test_turbo_on_a_pad_is_not_a_pause(arcade: Arcade) -> None:
+    match, one, _ = two_pads(arcade)
     one.press("b")
     arcade.wait(0.2)
     assert arcade.shown(MatchScene) is match
@@ -157,8 +141,8 @@ def test_the_pause_menu_restarts_shows_the_controls_and_ends(arcade: Arcade) -> 
     assert len(arcade.stack.scenes) == 3
 
 
-def test_a_pulled_pad_pauses_and_any_free_pad_takes_its_seat(arcade: Arcade, pads: ExitStack) -> None:
-    match, one, two = two_pads(arcade, pads)
+def test_a_pulled_pad_pauses_and_any_free_pad_takes_its_seat(arcade: Arcade) -> None:
+    match, one, two = two_pads(arcade)
     two.unplug()
     arcade.frame()
     arcade.frame()
@@ -168,7 +152,7 @@ def test_a_pulled_pad_pauses_and_any_free_pad_takes_its_seat(arcade: Arcade, pad
     one.tap("a")
     arcade.wait(2.0, draw=True)
     assert arcade.stack.top is page, "the pad of the other seat is not free"
-    three, device = plug(arcade, pads)
+    three, device = arcade.plug()
     assert page.replugged
     arcade.shown(Reconnect)
     three.tap("a")
@@ -182,8 +166,8 @@ def test_a_pulled_pad_pauses_and_any_free_pad_takes_its_seat(arcade: Arcade, pad
     assert match.match.state.actions[1].linear == 1.0
 
 
-def test_a_key_cluster_may_take_over_and_an_ai_at_once(arcade: Arcade, pads: ExitStack) -> None:
-    match, one, two = two_pads(arcade, pads)
+def test_a_key_cluster_may_take_over_and_an_ai_at_once(arcade: Arcade) -> None:
+    match, one, two = two_pads(arcade)
     one.unplug()
     two.unplug()
     arcade.frame()
@@ -201,8 +185,8 @@ def test_a_key_cluster_may_take_over_and_an_ai_at_once(arcade: Arcade, pads: Exi
     assert isinstance(match.match.brains[1], BrainPlayer)
 
 
-def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade: Arcade, pads: ExitStack) -> None:
-    match, _, two = two_pads(arcade, pads)
+def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade: Arcade) -> None:
+    match, _, two = two_pads(arcade)
     assert match.runner.view.players[:2] == ["human", "human"]
     two.unplug()
     arcade.until(lambda: isinstance(arcade.stack.top, Reconnect))
@@ -210,7 +194,7 @@ def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade
     assert waited == pytest.approx(TIMEOUT, abs=0.2)
     arcade.wait(2.0)
     assert isinstance(match.match.brains[1], BrainPlayer)
-    back, device = plug(arcade, pads)
+    back, device = arcade.plug()
     assert match.devices[1] is None
     assert match.runner.view.players[:2] == ["human", "level3"], "the view marks the AI"
     back.tap("a")
@@ -221,8 +205,8 @@ def test_when_the_ring_has_run_out_an_ai_drives_until_somebody_comes_back(arcade
     assert match.runner.view.players[:2] == ["human", "human"], "and the mark goes"
 
 
-def test_with_one_button_the_robot_drives_by_itself_and_sets_no_record(arcade: Arcade, pads: ExitStack) -> None:
-    pad, device = plug(arcade, pads)
+def test_with_one_button_the_robot_drives_by_itself_and_sets_no_record(arcade: Arcade) -> None:
+    pad, device = arcade.plug()
     arcade.context.driving.chosen[device] = ONE_BUTTON
     match = arcade.open(MatchScene(arcade.context, setup("human human off off", 1.0), [device, KEYS[0]]))
     assert isinstance(match.match.brains[0], OneButtonPlayer)
@@ -236,8 +220,8 @@ def test_with_one_button_the_robot_drives_by_itself_and_sets_no_record(arcade: A
     assert match.match.state.tanks[0].shots == 1
 
 
-def test_a_mashed_button_does_not_give_the_seat_to_an_ai(arcade: Arcade, pads: ExitStack) -> None:
-    match, one, two = two_pads(arcade, pads)
+def test_a_mashed_button_does_not_give_the_seat_to_an_ai(arcade: Arcade) -> None:
+    match, one, two = two_pads(arcade)
     two.unplug()
     arcade.frame()
     arcade.frame()
@@ -267,8 +251,8 @@ def test_a_match_without_input_asks_and_then_returns_to_the_title(arcade: Arcade
     arcade.until(lambda: arcade.stack.top is arcade.title, 20.0)
 
 
-def test_a_held_stick_counts_as_input(arcade: Arcade, pads: ExitStack) -> None:
-    match, one, _ = two_pads(arcade, pads, 3.0)
+def test_a_held_stick_counts_as_input(arcade: Arcade) -> None:
+    match, one, _ = two_pads(arcade, 3.0)
     one.stick(1.0, 0.0)
     arcade.wait(70.0, fps=20)
     assert arcade.stack.top is match

@@ -1,8 +1,5 @@
 """Rumbling pads in a match, felt on virtual pads with motors."""
 
-from collections.abc import Iterator
-from contextlib import ExitStack
-
 import pytest
 
 from pigaming_app.scenes.play.pause import Pause
@@ -12,7 +9,7 @@ from pigaming_app.scenes.views.factory import view as factory
 from pigaming_app.scenes.views.pitanks import view as pitanks
 from pigaming_app.scenes.views.race import view as race
 from pigaming_app.scenes.views.rumble import BEST, DELIVERED, FINISH, LAP, TAKEN, rumbles
-from pigaming_app.ui.input.events import Button, Device
+from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import VirtualPad
 
@@ -21,17 +18,14 @@ Played = tuple[MatchScene, VirtualPad, VirtualPad]
 
 
 @pytest.fixture
-def played(arcade: Arcade) -> Iterator[Played]:
+def played(arcade: Arcade) -> Played:
     """A running match of two pads and one keyboard."""
-    with ExitStack() as plugged:
-        one, two = (plugged.enter_context(VirtualPad(plain=plain)) for plain in (False, True))
-        arcade.frame()
-        devices = [Device("pad", one.number), Device("pad", two.number), KEYS[0]]
-        match = MatchScene(arcade.context, setup("human human human off", 1.0), devices)
-        match.opening.countdown.seconds_left = 0.05
-        arcade.open(match)
-        arcade.until(lambda: not match.opening.countdown.locked)
-        yield match, one, two
+    (one, first), (two, second) = arcade.plug(), arcade.plug(plain=True)
+    match = MatchScene(arcade.context, setup("human human human off", 1.0), [first, second, KEYS[0]])
+    match.opening.countdown.seconds_left = 0.05
+    arcade.open(match)
+    arcade.until(lambda: not match.opening.countdown.locked)
+    return match, one, two
 
 
 def hit(arcade: Arcade, match: MatchScene, scorer: int, victim: int) -> None:
