@@ -18,6 +18,7 @@ from pigaming_app.hardware.calibration.quality import CameraQuality
 from pigaming_app.hardware.signals import DetectedMarker, Fix
 from pigaming_app.hardware.vision.markers import WEARERS
 from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.storage import schema
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 from pigaming_app.storage.schema import between, to_plain, typed
@@ -177,24 +178,18 @@ def project(matrix: NDArray[np.float64], points: Points) -> Points:
 
 def to_toml(ground: GroundPlane) -> str:
     """Serialize a calibration as TOML with a checksum."""
-    import tomli_w
-
     entries = {"version": VERSION, **to_plain(ground)}
-    return tomli_w.dumps({**entries, "check": _check(entries)})
+    return schema.to_toml({**entries, "check": _check(entries)})
 
 
 def read(text: str, display: str | None = None, camera: tuple[int, int] | None = None) -> GroundPlane:
     """Parse a calibration. Raises CalibrationError, also for another display or camera size than given."""
     try:
         entries = parse_toml(text)
-    except ParseError as error:
-        raise CalibrationError(OperatorMessage("damaged", detail=error)) from error
-    if entries.get("version") != VERSION:
-        raise CalibrationError(OperatorMessage("version", theirs=quote(entries.get("version")), ours=VERSION))
-    check = entries.pop("check", None)
-    if check != _check(entries):
-        raise CalibrationError(OperatorMessage("changed"))
-    try:
+        if entries.get("version") != VERSION:
+            raise CalibrationError(OperatorMessage("version", theirs=quote(entries.get("version")), ours=VERSION))
+        if entries.pop("check", None) != _check(entries):
+            raise CalibrationError(OperatorMessage("changed"))
         ground = typed(entries, GroundPlane)
         if not np.isfinite(np.linalg.inv(np.array(ground.plane).reshape(3, 3))).all():
             raise ParseError("plane: not a plane that can be seen")

@@ -5,10 +5,8 @@ Some faults affect the camera or the radio, others one robot.
 
 from dataclasses import replace
 from math import atan2, cos, hypot, sin
-from typing import Protocol
+from typing import Any
 
-from pigaming_app.hardware.emulator.camera import EmulatedCamera
-from pigaming_app.hardware.emulator.firmware import Firmware
 from pigaming_app.hardware.emulator.objects import (
     BODY_HEIGHT,
     LID_HEIGHT,
@@ -21,8 +19,6 @@ from pigaming_app.hardware.emulator.objects import (
     underside,
 )
 from pigaming_app.hardware.emulator.optics import Optics
-from pigaming_app.hardware.emulator.radio import EmulatedRadio
-from pigaming_app.hardware.emulator.robots import EmulatedRobot
 
 FAULTS = {
     "camera_frozen": "no picture arrives any more, though the camera is connected",
@@ -64,25 +60,10 @@ EMPTY_CELLS = 3.9  # V
 Onset = tuple[float, Placing]  # s, (mm, mm, rad): start of the fault, and the robot's pose then
 
 
-class FaultyArena(Protocol):
-    """The parts of an arena that can fail."""
-
-    robots: list[EmulatedRobot]
-    firmwares: list[Firmware]
-    radio: EmulatedRadio
-    camera: EmulatedCamera
-    optics: Optics
-    gain: float  # of the exposure
-    arena_id: int
-    lids: list[int]  # marker on each robot's lid
-
-    def clock(self) -> float: ...
-
-
 class FaultInjector:
-    """The active faults: `switch` changes them, `tick` and `things` apply them."""
+    """The active faults: `switch` changes them, `tick` and `things` apply them. `arena`: an EmulatedArena."""
 
-    def __init__(self, arena: FaultyArena) -> None:
+    def __init__(self, arena: Any) -> None:
         self._arena = arena
         self._robots: dict[str, dict[int, Onset]] = {name: {} for name in FAULTS}
 
@@ -154,11 +135,12 @@ class FaultInjector:
 
     def _worn(self, robot: int) -> int:
         """The marker number on a robot's lid."""
+        lids: list[int] = self._arena.lids
         for first in self._robots["lids_swapped"]:
-            pair = first, (first + 1) % len(self._arena.robots)
+            pair = first, (first + 1) % len(lids)
             if robot in pair:
-                return self._arena.lids[sum(pair) - robot]
-        return self._arena.lids[robot]
+                return lids[sum(pair) - robot]
+        return lids[robot]
 
     def things(self, robot: int, poses: tuple[Placing, ...]) -> list[FlatObject]:
         """The visible objects of a robot with these poses, faults included."""

@@ -7,7 +7,7 @@ covered by `emergencies`.
 from dataclasses import dataclass
 from math import atan2, degrees, hypot, pi, sin, sqrt, tau
 from random import Random
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.proof.testbed import Testbed
@@ -81,20 +81,6 @@ def follow(trail: FigureEight, seconds: float) -> TrackingResult:
     )
 
 
-class PlayableMatch(Protocol):
-    """The part of a match that `play` needs."""
-
-    state: Any
-    plant: Any
-
-    @property
-    def over(self) -> bool:
-        """True once the match has ended."""
-
-    def tick(self) -> None:
-        """Advance by 1/50 s."""
-
-
 class ButtonMasher:
     """A player that holds random sticks and buttons for up to a second each."""
 
@@ -129,10 +115,10 @@ class MatchResult(NamedTuple):
     alarms: int  # number of robots that had to be cleared after a lasting fault
 
 
-def play(bed: Testbed, match: PlayableMatch, seconds: float) -> MatchResult:
+def play(bed: Testbed, match: Any, seconds: float) -> MatchResult:
     """Let the robots take their places, then play the match to its end. Raises RuntimeError if either takes too long.
 
-    As in the arcade, the match is paused for as long as a pausing fault lasts.
+    `match`: of the games. As in the arcade, it is paused for as long as a pausing fault lasts.
     """
     plant: RealPlant = match.plant
     ready = alarms = 0

@@ -145,11 +145,8 @@ def read(text: str) -> ThingLayout:
     """Parse a layout. Raises LayoutError."""
     try:
         entries = parse_toml(text)
-    except ParseError as error:
-        raise LayoutError(OperatorMessage("damaged_things", detail=error)) from error
-    if entries.get("version") != VERSION:
-        raise LayoutError(OperatorMessage("version_things", theirs=quote(entries.get("version")), ours=VERSION))
-    try:
+        if entries.get("version") != VERSION:
+            raise LayoutError(OperatorMessage("version_things", theirs=quote(entries.get("version")), ours=VERSION))
         layout = schema.typed(entries, ThingLayout)
     except ParseError as error:
         raise LayoutError(OperatorMessage("damaged_things", detail=error)) from error
