@@ -186,12 +186,9 @@ HANGS = (*FAULTS["rules.py"][:1], "    match.tick += 1\n    while match.tick > 9
     ("file", "before", "after"), [*((file, *fault) for file, fault in FAULTS.items()), ("rules.py", *HANGS)]
 )
 def test_the_title_returns_without_a_game_that_fails_or_hangs_in_a_match(
-    home: Path, file: str, before: str, after: str
+    tag: Path, file: str, before: str, after: str
 ) -> None:
-    folder = user_folder() / "tag"
-    write(folder, "tag")
-    switch("tag", True)
-    changed(folder / file, before, after)
+    changed(tag / file, before, after)
     ended = python(MATCH, timeout=600.0)
     assert ended.returncode == 0, ended.stderr[-2000:]
     *_, at_first, later, stack, notice = ended.stdout.splitlines()
@@ -199,4 +196,4 @@ def test_the_title_returns_without_a_game_that_fails_or_hangs_in_a_match(
     assert stack.split() == ["Title", *later.split()]
     assert notice == "Tag failed. It is left out until the next start."
     (line,) = [line for line in ended.stderr.splitlines() if "left out" in line]
-    assert line.startswith(f"PiGaming: The game tag in {folder} is left out: {file}, line ")
+    assert line.startswith(f"PiGaming: The game tag in {tag} is left out: {file}, line ")

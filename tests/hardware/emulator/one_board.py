@@ -34,6 +34,12 @@ class Arcade:
             self.now += 0.002
             self.boards.advance(self.now, [self.delivered])
 
+    def drive(self, seconds):
+        """Send a command each 20 ms."""
+        for _ in range(round(seconds / 0.02)):
+            self.send(self.sealed())
+            self.run(0.02)
+
     def meet(self):
         """Wait for an announcement."""
         self.run(1.5)

@@ -6,7 +6,6 @@ import pytest
 
 from pigaming_app.hardware.emulator.wifi.boards import HERE
 from pigaming_app.hardware.radio.packets import EMPTY, LOW, report_from
-from tests.hardware.emulator.one_board import Arcade
 
 spec = importlib.util.spec_from_file_location("adc", HERE / "adc.py")
 adc = importlib.util.module_from_spec(spec)
@@ -58,25 +57,21 @@ def voltages_at_arcade(arcade, **disturbances):
 
 
 @pytest.mark.long
-@pytest.mark.usefixtures("micropython")
 @pytest.mark.parametrize(
-    ("about", "references"),
+    ("arcade", "references"),
     [
         ({"board": "board_esp32"}, (1000, 1060, 1100, 1200)),
         ({"board": PICO}, (1100,)),
         ({"board": "board_pololu_2040", "radio": "serial_radio"}, (1100,)),
     ],
     ids=["ESP32", "Pico W", "3pi+ 2040"],
+    indirect=["arcade"],
 )
-def test_the_voltage_of_the_battery_reaches_the_arcade(about, references):
-    arcade = Arcade(**about)
-    try:
-        if arcade.config.radio == "wifi":
-            arcade.meet()
-        for reference in references:
-            for volts in (7300, 6400, 5800, 5200, 4800, 4390, 3990, 3000, 1500, 800):
-                found, flags = voltages_at_arcade(arcade, battery=volts, reference=reference)
-                assert abs(found - volts) <= ERROR, (volts, reference)
-                assert flags == LOW * (volts < 4400) | EMPTY * (volts < 4000), (volts, reference)
-    finally:
-        arcade.close()
+def test_the_voltage_of_the_battery_reaches_the_arcade(arcade, references):
+    if arcade.config.radio == "wifi":
+        arcade.meet()
+    for reference in references:
+        for volts in (7300, 6400, 5800, 5200, 4800, 4390, 3990, 3000, 1500, 800):
+            found, flags = voltages_at_arcade(arcade, battery=volts, reference=reference)
+            assert abs(found - volts) <= ERROR, (volts, reference)
+            assert flags == LOW * (volts < 4400) | EMPTY * (volts < 4000), (volts, reference)

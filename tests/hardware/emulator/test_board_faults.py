@@ -11,9 +11,8 @@ from pigaming_app.hardware.radio.packets import RESTARTED, drive_packet
 from pigaming_app.hardware.robot_kinds import PROGRAM
 from pigaming_app.hardware.signals import WheelCommand
 from tests.cases import repeated
-from tests.hardware.emulator.one_board import ARENA, BACK, GO, ON, Arcade
+from tests.hardware.emulator.one_board import ARENA, BACK, GO, ON
 
-pytestmark = pytest.mark.usefixtures("micropython")
 DRIVERS = ("DRV8833", "TB6612", "L298N")
 IN_IN = {"board_esp32": (WheelPins(25, 26), WheelPins(32, 33)), "board_pico_w": (WheelPins(10, 11), WheelPins(12, 13))}
 ENABLE = {
@@ -39,13 +38,6 @@ left, right = Stalls(25, 26), InIn(32, 33)
 """
 
 
-@pytest.fixture
-def arcade(request):
-    arcade = Arcade(**getattr(request, "param", {}))
-    yield arcade
-    arcade.close()
-
-
 def board_file(board, choice):
     """A board file with a line of its comments in force: that of another driver, or that of the encoders."""
     text = (PROGRAM / f"{board}.py").read_text("utf-8")
@@ -61,33 +53,26 @@ def of(board, driver):
     return {"board": f"{board}_{driver.lower()}", "text": board_file(board, driver), "wheels": ENABLE[board]}
 
 
-def drive(arcade, seconds, command=GO[0]):
-    for _ in range(round(seconds / 0.02)):
-        arcade.send(arcade.sealed(drive_packet(ARENA, arcade.seq, [command])))
-        arcade.seq += 1
-        arcade.run(0.02)
-
-
 @pytest.mark.long
-@pytest.mark.parametrize("board", repeated(IN_IN))
-@pytest.mark.parametrize("driver", DRIVERS)
-def test_every_driver_in_a_board_file_turns_ahead_and_back_and_brakes(board, driver):
-    arcade = Arcade(**of(board, driver))
-    try:
-        arcade.meet()
-        arcade.send(arcade.sealed())
-        arcade.run(0.004)
-        assert arcade.motors == pytest.approx(ON, abs=1e-3)
-        arcade.send(arcade.sealed(drive_packet(ARENA, 77, GO[1:])))
-        arcade.run(0.004)
-        assert arcade.motors == pytest.approx(BACK, abs=1e-3)
-        arcade.run(0.3)
-        assert arcade.motors == (0.0, 0.0)
-        brake = [value for name, value in arcade.boards.pins[0].items() if name.isdigit() and int(name) not in (2, 34)]
-        assert {bool(value) for value in brake} == {True}, "all inputs of a driver that brakes are high"
-        assert {value for name, value in arcade.boards.pins[0].items() if "hertz" in name} == {HERTZ[driver]}
-    finally:
-        arcade.close()
+@pytest.mark.parametrize(
+    ("arcade", "driver"),
+    [value for driver in DRIVERS for value in repeated((of(board, driver), driver) for board in IN_IN)],
+    indirect=["arcade"],
+    ids=[f"{driver}-{board}" for driver in DRIVERS for board in IN_IN],
+)
+def test_every_driver_in_a_board_file_turns_ahead_and_back_and_brakes(arcade, driver):
+    arcade.meet()
+    arcade.send(arcade.sealed())
+    arcade.run(0.004)
+    assert arcade.motors == pytest.approx(ON, abs=1e-3)
+    arcade.send(arcade.sealed(drive_packet(ARENA, 77, GO[1:])))
+    arcade.run(0.004)
+    assert arcade.motors == pytest.approx(BACK, abs=1e-3)
+    arcade.run(0.3)
+    assert arcade.motors == (0.0, 0.0)
+    brake = [value for name, value in arcade.boards.pins[0].items() if name.isdigit() and int(name) not in (2, 34)]
+    assert {bool(value) for value in brake} == {True}, "all inputs of a driver that brakes are high"
+    assert {value for name, value in arcade.boards.pins[0].items() if "hertz" in name} == {HERTZ[driver]}
 
 
 class Wheels:
@@ -114,29 +99,32 @@ class Wheels:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("board", repeated(reversed(IN_IN)))
-def test_encoders_hold_the_speed_and_never_run_away(board):
-    arcade = Arcade(board=f"{board}_encoders", text=board_file(board, "encoders"), wheels=IN_IN[board])
-    try:
-        arcade.meet()
-        wheels = Wheels(arcade, (0.8, 1.1))
-        code = 32 / 63
-        for command in (WheelCommand(0.5, -0.5), WheelCommand(-0.5, 0.5)):
-            wheels.drive(3.0, command)
-            assert [abs(speed) for speed in wheels.speeds] == pytest.approx([code, code], rel=0.03)
-        wheels.counted = [0.0, 30.0]  # a dead encoder, and one that counts noise
-        shares = wheels.drive(3.0, WheelCommand(-0.5, 0.5))
-        assert all(-code - 0.2501 <= left <= -code and 0.0 <= right <= code for left, right in shares[200:])
-        assert shares[-1] == pytest.approx((-code - 0.25, code - 0.25), abs=0.01)
-        wheels.drive(0.1, WheelCommand(0.0, 0.0))
+@pytest.mark.parametrize(
+    "arcade",
+    repeated(
+        {"board": f"{board}_encoders", "text": board_file(board, "encoders"), "wheels": IN_IN[board]}
+        for board in reversed(IN_IN)
+    ),
+    indirect=True,
+)
+def test_encoders_hold_the_speed_and_never_run_away(arcade):
+    arcade.meet()
+    wheels = Wheels(arcade, (0.8, 1.1))
+    code = 32 / 63
+    for command in (WheelCommand(0.5, -0.5), WheelCommand(-0.5, 0.5)):
+        wheels.drive(3.0, command)
+        assert [abs(speed) for speed in wheels.speeds] == pytest.approx([code, code], rel=0.03)
+    wheels.counted = [0.0, 30.0]  # a dead encoder, and one that counts noise
+    shares = wheels.drive(3.0, WheelCommand(-0.5, 0.5))
+    assert all(-code - 0.2501 <= left <= -code and 0.0 <= right <= code for left, right in shares[200:])
+    assert shares[-1] == pytest.approx((-code - 0.25, code - 0.25), abs=0.01)
+    wheels.drive(0.1, WheelCommand(0.0, 0.0))
+    assert arcade.motors == (0.0, 0.0)
+    wheels.drive(0.1, WheelCommand(0.5, 0.5))
+    arcade.run(0.21)
+    for _ in range(50):
         assert arcade.motors == (0.0, 0.0)
-        wheels.drive(0.1, WheelCommand(0.5, 0.5))
-        arcade.run(0.21)
-        for _ in range(50):
-            assert arcade.motors == (0.0, 0.0)
-            arcade.run(0.01)
-    finally:
-        arcade.close()
+        arcade.run(0.01)
 
 
 @pytest.mark.long
@@ -148,7 +136,7 @@ def test_an_error_in_the_program_stops_the_motors_and_restarts_the_robot(arcade)
         arcade.run(0.02)
         lit.append(arcade.boards.pins[0][lamp])
     assert sum(before < after for before, after in pairwise(lit)) == 2, "it blinks once a second"
-    drive(arcade, 0.2)
+    arcade.drive(0.2)
     assert any(arcade.motors)
     assert arcade.boards.pins[0][lamp] == 1
     began = arcade.now
@@ -157,8 +145,7 @@ def test_an_error_in_the_program_stops_the_motors_and_restarts_the_robot(arcade)
     assert arcade.boards.powered_until[0] - began <= 0.01
     assert arcade.boards.resets == [(0, 3)]
     assert arcade.meet().flags & RESTARTED
-    arcade.seq += 1
-    drive(arcade, 0.1)
+    arcade.drive(0.1)
     assert any(arcade.motors)
 
 
@@ -183,7 +170,7 @@ def test_a_robot_without_commands_can_be_interrupted_to_change_its_files(arcade)
 @pytest.mark.long
 def test_ctrl_c_during_a_drive_stops_the_motors(arcade):
     arcade.meet()
-    drive(arcade, 0.1)
+    arcade.drive(0.1)
     began = arcade.now
     arcade.boards.disturb(0, do="interrupt")
     arcade.run(0.05)
@@ -205,20 +192,16 @@ def test_a_command_that_stalls_until_after_the_deadman_is_braked(arcade):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("board", repeated(IN_IN))
-def test_a_robot_switched_on_before_its_network_joins_it_later(board):
-    arcade = Arcade(board=board)
-    try:
-        arcade.boards.disturb(0, offline=1)
-        arcade.run(20.0)
-        assert not arcade.received(b"PG2A")
-        assert not arcade.boards.resets
-        arcade.boards.disturb(0, offline=0)
-        arcade.meet()
-        drive(arcade, 0.1)
-        assert any(arcade.motors)
-    finally:
-        arcade.close()
+@pytest.mark.parametrize("arcade", repeated({"board": board} for board in IN_IN), indirect=True)
+def test_a_robot_switched_on_before_its_network_joins_it_later(arcade):
+    arcade.boards.disturb(0, offline=1)
+    arcade.run(20.0)
+    assert not arcade.received(b"PG2A")
+    assert not arcade.boards.resets
+    arcade.boards.disturb(0, offline=0)
+    arcade.meet()
+    arcade.drive(0.1)
+    assert any(arcade.motors)
 
 
 WRONG = {  # what is wrong in the files of a robot, and what it prints
@@ -235,6 +218,7 @@ WRONG = {  # what is wrong in the files of a robot, and what it prints
 
 
 @pytest.mark.long
+@pytest.mark.usefixtures("micropython")
 def test_a_robot_with_a_wrong_file_brakes_and_tells_why_in_one_line_while_its_lamp_flashes():
     configs = [BoardConfig(1, 77, bytes(16), 0, changed=changed) for changed, _ in WRONG.values()]
     lamps = [""] * len(configs)
@@ -276,7 +260,7 @@ def test_no_datagram_ends_the_program_or_moves_a_motor(arcade):
             arcade.send(arcade.sealed(broken))
             arcade.run(0.002)
             assert arcade.motors == (0.0, 0.0), place
-    drive(arcade, 0.1)
+    arcade.drive(0.1)
     assert any(arcade.motors)
     arcade.run(0.3)
     last = arcade.sealed(drive_packet(ARENA, arcade.seq + 1, GO), counter=(1 << 64) - 1)
@@ -293,7 +277,7 @@ def test_a_flood_of_forged_commands_leaves_the_deadman_and_the_arcade_alone(arca
     for _ in range(20):
         for datagram in forged:
             arcade.send(datagram)
-        drive(arcade, 0.02)
+        arcade.drive(0.02)
         assert any(arcade.motors)
     ended = arcade.now - 0.02
     for _ in range(20):

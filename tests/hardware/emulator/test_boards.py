@@ -6,16 +6,9 @@ import pytest
 
 from pigaming_app.hardware.radio.envelope import REPORT, unseal
 from pigaming_app.hardware.radio.packets import DEADMAN, PARKED, RESTARTED, drive_packet, report_from, with_crc
-from tests.hardware.emulator.one_board import ARENA, KEY, ON, Arcade
+from tests.hardware.emulator.one_board import ARENA, KEY, ON
 
-pytestmark = [pytest.mark.long, pytest.mark.usefixtures("micropython")]
-
-
-@pytest.fixture
-def arcade(request):
-    arcade = Arcade(**getattr(request, "param", {}))
-    yield arcade
-    arcade.close()
+pytestmark = pytest.mark.long
 
 
 def test_a_command_drives_the_motors_until_the_deadman_stops_them(arcade):
@@ -87,8 +80,7 @@ def test_another_sender_with_the_same_key_waits_for_the_deadman(arcade):
 
 def test_a_hanging_main_loop_is_stopped_by_the_timer_and_restarted_by_the_watchdog(arcade):
     arcade.meet()
-    arcade.send(arcade.sealed())
-    arcade.run(0.02)
+    arcade.drive(0.02)
     began = arcade.now
     arcade.boards.disturb(0, do="hang loop")
     arcade.run(0.3)
@@ -102,8 +94,7 @@ def test_a_hanging_main_loop_is_stopped_by_the_timer_and_restarted_by_the_watchd
 
 def test_a_hanging_chip_is_restarted_by_the_watchdog(arcade):
     arcade.meet()
-    arcade.send(arcade.sealed())
-    arcade.run(0.02)
+    arcade.drive(0.02)
     arcade.boards.disturb(0, do="hang board")
     arcade.run(1.1)
     assert arcade.boards.resets == [(0, 3)]
@@ -129,8 +120,7 @@ def test_an_empty_battery_brakes_until_it_has_recovered(arcade):
     for millivolts, moving in ((4300, True), (3900, False), (4300, False), (4500, True)):
         arcade.boards.disturb(0, battery=millivolts)
         for _ in range(40):
-            arcade.send(arcade.sealed())
-            arcade.run(0.02)
+            arcade.drive(0.02)
         assert any(arcade.motors) is moving, millivolts
 
 
@@ -140,8 +130,7 @@ def test_the_button_stops_a_robot_until_it_is_pressed_again(arcade):
     for press, moving in ((0, True), (1, False), (0, False), (1, True)):
         arcade.boards.disturb(0, button=press)
         for _ in range(20):
-            arcade.send(arcade.sealed())
-            arcade.run(0.02)
+            arcade.drive(0.02)
         assert any(arcade.motors) is moving
         _, body = unseal(KEY, arcade.nonce, REPORT, arcade.received(b"PG2T")[-1])
         assert bool(report_from(body).flags & PARKED) is not moving

@@ -79,6 +79,12 @@ class Board:
     def drive(self, seq=1, wheels=(AHEAD,) * 4, arena=ARENA):
         self.say(drive_packet(arena, seq, wheels))
 
+    def keep(self, numbers, wheels=(AHEAD,) * 4, arena=ARENA):
+        """Send drive packets with these sequence numbers, one each 20 ms."""
+        for seq in numbers:
+            self.drive(seq, wheels, arena)
+            self.run(20)
+
     @property
     def motors(self):
         return next(event.motors for event in reversed(self.events) if event.kind == "motors")

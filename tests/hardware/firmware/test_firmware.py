@@ -66,17 +66,14 @@ def test_thirty_of_thirty_commands_reach_the_motors(board):
 @pytest.mark.parametrize("address", [1, 2, 3, 4])
 def test_every_robot_takes_its_own_wheels(make_board, address):
     board = make_board(address)
-    board.drive(1, [WheelCommand(n / 63, -n / 63) for n in (10, 20, 30, 40)])
-    board.run(20)
+    board.keep([1], [WheelCommand(n / 63, -n / 63) for n in (10, 20, 30, 40)])
     assert board.motors == (duty(10 * address), duty(-10 * address))
 
 
 def test_a_robot_that_is_off_brakes_and_others_do_not_move_it(board):
-    board.drive(1)
-    board.run(20)
+    board.keep([1])
     assert board.motors == FULL
-    board.drive(2, [None, AHEAD, AHEAD, AHEAD])
-    board.run(20)
+    board.keep([2], [None, AHEAD, AHEAD, AHEAD])
     assert board.motors == (0, 0)
 
 
@@ -91,8 +88,7 @@ def test_a_robot_without_an_address_neither_drives_nor_speaks(make_board, addres
 def test_another_arena_neither_drives_a_robot_nor_feeds_its_deadman(board):
     """Its stop does not brake, its drive does not keep motors on; nor do such packets take part in the time slots."""
     sent = board.at
-    board.drive(1)
-    board.run(20)
+    board.keep([1])
     for seq in range(2, 20):
         board.drive(seq, [None] * 4 if seq < 5 else [AHEAD], arena=ARENA + 1)
         board.run(20)
@@ -104,23 +100,18 @@ def test_another_arena_neither_drives_a_robot_nor_feeds_its_deadman(board):
 
 def test_a_repeated_packet_neither_drives_nor_feeds_the_deadman(board):
     sent = board.at
-    for _ in range(30):
-        board.drive(7)
-        board.run(20)
+    board.keep(7 for _ in range(30))
     start, stop = [event for event in board.events if event.kind == "motors" and event.at > sent]
     assert (start.motors, stop.motors) == (FULL, (0, 0))
     assert stop.at - sent < 256_000
-    board.drive(8)
-    board.run(20)
+    board.keep([8])
     assert board.motors == FULL
 
 
 @pytest.mark.parametrize("arena", [0, 16384, 0xFFFF])
 def test_a_robot_without_an_arena_does_not_drive_but_says_so(make_board, arena):
     board = make_board(2, arena)
-    for seq in range(30):
-        board.drive(seq, arena=max(1, arena & 0x3FFF))
-        board.run(20)
+    board.keep(range(30), arena=max(1, arena & 0x3FFF))
     assert board.motors == (0, 0)
     reports = [report for _, report in board.reports()]
     assert {(report.arena, report.address, report.version) for report in reports} == {(0, 2, 2)}
@@ -143,8 +134,7 @@ def test_the_motors_stop_250_ms_after_the_last_packet(board):
 def test_noise_and_broken_packets_do_not_keep_it_going(board):
     chance = random.Random(5)
     sent = board.at
-    board.drive(1)
-    board.run(20)
+    board.keep([1])
     broken = bytearray(drive_packet(ARENA, 2, [AHEAD]))
     broken[6] ^= 1
     for _ in range(20):
@@ -189,13 +179,10 @@ def test_the_speed_that_nobody_sends_is_a_stop(board):
 
 def test_when_the_program_hangs_the_watchdog_stops_the_motors(board):
     """The timer interrupt runs and packets arrive, but the main loop hangs."""
-    board.drive(1)
-    board.run(20)
+    board.keep([1])
     hung = board.at
     board.do("hang")
-    for seq in range(15):
-        board.drive(2 + seq)
-        board.run(20)
+    board.keep(2 + seq for seq in range(15))
     (reset,) = [event for event in board.events if event.kind == "reset" and event.at]
     assert reset.at - hung < 140_000
     board.run(1000)
@@ -243,9 +230,7 @@ def test_the_battery_is_reported(board, millivolts):
 
 def test_a_low_battery_is_told_and_an_empty_one_stops_the_motors(board):
     def drive(milliseconds):
-        for seq in range(milliseconds // 20):
-            board.drive(seq % 128)
-            board.run(20)
+        board.keep(seq % 128 for seq in range(milliseconds // 20))
         return board.motors, board.reports()[-1][1].flags
 
     board.do("battery 4300")
@@ -260,9 +245,7 @@ def test_a_low_battery_is_told_and_an_empty_one_stops_the_motors(board):
 
 def test_a_short_sag_of_the_battery_is_no_reason_to_stop(board):
     board.do("battery 3500")
-    for seq in range(5):
-        board.drive(seq)
-        board.run(20)
+    board.keep(range(5))
     board.do("battery 5000")
     assert board.motors == FULL
 
