@@ -47,6 +47,20 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     pygame.display.quit()
 
 
+@pytest.fixture
+def seen(monkeypatch: pytest.MonkeyPatch) -> list[tuple[type, list[str]]]:
+    """The scene on top and the notices after each frame."""
+    found: list[tuple[type, list[str]]] = []
+    frame = App._frame
+
+    def watched(app: App, seconds: float) -> None:
+        frame(app, seconds)
+        found.append((type(app.stack.top), list(app.notices.waiting)))
+
+    monkeypatch.setattr(App, "_frame", watched)
+    return found
+
+
 class Quiet(Floor):
     """A scene without behaviour that counts its frames."""
 
@@ -76,21 +90,10 @@ def test_it_starts_with_the_title_of_which_a_picture_may_be_taken_and_keeps_its_
 
 
 def test_a_scene_that_fails_gives_way_to_the_title_and_one_sentence(
-    home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    home: Path, seen: list[tuple[type, list[str]]], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    tops: list[type] = []
-    said: list[str] = []
-    frame = App._frame
-
-    def watched(app: App, seconds: float) -> None:
-        frame(app, seconds)
-        tops.append(type(app.stack.top))
-        said.extend(app.notices.waiting)
-
-    monkeypatch.setattr(App, "_frame", watched)
     assert run(Options(headless=True, first_scene=Broken, frames=4, step=STEP)) == 0
-    assert tops == [Title, Title, Title]
-    assert set(said) == {"Something went wrong. Back to the title."}
+    assert seen == [(Title, ["Something went wrong. Back to the title."])] * 3
     assert "on purpose" in (home / "data" / "pigaming.log").read_text()
     assert "Traceback" not in capsys.readouterr().err
     (day,) = (home / "data" / "days").iterdir()
@@ -139,20 +142,12 @@ def test_a_supervisor_ends_it_and_the_settings_are_kept(home: Path) -> None:
 
 
 def test_unreadable_settings_are_reported_on_the_screen_and_in_detail_on_stderr(
-    home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    home: Path, seen: list[tuple[type, list[str]]], capsys: pytest.CaptureFixture[str]
 ) -> None:
     (home / "config").mkdir()
     (home / "config" / "settings.toml").write_text('language = "pt"\nmusic = 99\n')
-    said: list[str] = []
-    frame = App._frame
-
-    def watched(app: App, seconds: float) -> None:
-        frame(app, seconds)
-        said.extend(app.notices.waiting)
-
-    monkeypatch.setattr(App, "_frame", watched)
     run(Options(headless=True, frames=1, step=STEP))
-    assert said == ["Não foi possível ler algumas opções. Usam-se as iniciais."]
+    assert seen == [(Title, ["Não foi possível ler algumas opções. Usam-se as iniciais."])]
     assert "music = 99: expected a whole number <= 10" in capsys.readouterr().err
 
 
@@ -206,9 +201,9 @@ def test_closing_the_window_ends_it_but_not_in_a_kiosk(kiosk: bool, frames: int)
 def test_f12_takes_a_picture_but_not_in_a_kiosk(home: Path, kiosk: bool) -> None:
     class Pressing(Quiet):
         def update(self, seconds: float) -> StackOperation:
-            for key in (pygame.K_F3, pygame.K_F12):
+            for key in (pygame.K_F3, pygame.K_F12) if not self.frames else ():
                 pygame.event.post(pygame.Event(pygame.KEYDOWN, key=key, scancode=0, mod=0))
-            return None
+            return super().update(seconds)
 
     run(Options(headless=True, first_scene=Pressing, frames=30, step=STEP, kiosk=kiosk))
     assert bool(list((home / "data").glob("pictures/*.png"))) != kiosk

@@ -115,7 +115,7 @@ def test_the_title_drops_pictures_that_were_interrupted_on_other_pages(arcade: A
     assert len(sheets) == 2, "it began anew"
 
 
-@pytest.mark.parametrize("game", one_in(3, games()))
+@pytest.mark.parametrize("game", one_in(4, games()))
 def test_no_sprite_of_a_match_is_ever_made_twice(arcade: Arcade, game: str, monkeypatch: pytest.MonkeyPatch) -> None:
     made: list[tuple[int, Hashable]] = []
     keep = SurfaceCache._insert

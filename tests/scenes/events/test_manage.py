@@ -13,10 +13,10 @@ from pigaming_app.scenes.events.manage.text_page import ALPHABET, TextPage
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
-from pigaming_app.scenes.flow.stack import Pop
+from pigaming_app.scenes.flow.stack import Pop, Scene
 from pigaming_app.storage.safe_files import NotSaved, backup_of
 from pigaming_app.ui.input.events import Button, Device
-from tests.scenes.arcade import Arcade
+from tests.scenes.arcade import Arcade, Floor
 from tests.scenes.events.drawn import an_event, played, running, saved
 
 
@@ -49,16 +49,6 @@ def test_from_the_table_a_deleted_event_leads_to_the_title(arcade: Arcade) -> No
     arcade.shown(EventPage).focus.move_to(DELETE)
     arcade.key("SPACE", HOLD + 0.2)
     assert arcade.stack.scenes == [arcade.title]
-
-
-def test_in_a_kiosk_the_button_is_held_longer(arcade: Arcade) -> None:
-    arcade.context.kiosk = True
-    run = running(an_event())
-    managed(arcade, run, DELETE)
-    arcade.key("SPACE", HOLD_IN_KIOSK - 0.5)
-    assert run.path.exists()
-    arcade.key("SPACE", HOLD_IN_KIOSK + 0.2)
-    assert not run.path.exists()
 
 
 def test_a_damaged_event_can_only_be_deleted(arcade: Arcade) -> None:
@@ -197,11 +187,16 @@ def test_in_a_kiosk_visitors_read_the_results_but_do_not_change_them(arcade: Arc
     assert arcade.shown(Correction).fixture == run.event.fixtures[1]
 
 
-def test_in_a_kiosk_visitors_do_not_change_the_title(arcade: Arcade) -> None:
+@pytest.mark.parametrize(("row", "then"), [(RENAME, TextPage), (DELETE, Floor)])
+def test_in_a_kiosk_visitors_neither_change_the_title_nor_delete_an_event(
+    arcade: Arcade, row: str, then: type[Scene]
+) -> None:
     arcade.context.kiosk = True
     run = running(an_event())
-    managed(arcade, run, RENAME)
+    managed(arcade, run, row)
     arcade.key("SPACE", HOLD_IN_KIOSK - 0.5)
     arcade.shown(EventPage)
+    assert run.path.exists()
     arcade.key("SPACE", HOLD_IN_KIOSK + 0.2)
-    arcade.shown(TextPage)
+    arcade.shown(then)
+    assert run.path.exists() is (row == RENAME)
