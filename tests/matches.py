@@ -53,6 +53,12 @@ def finished(match: Match, seconds: float = inf) -> Match:
     return match
 
 
+def mind_of(match: Match, seat: int = 0) -> Any:
+    """The mind of the AI on a seat."""
+    player: Any = match.brains[seat]
+    return player.mind
+
+
 class Stick:
     """A player with a constant stick and buttons."""
 

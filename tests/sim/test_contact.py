@@ -2,7 +2,6 @@
 
 from math import atan2, cos, hypot, pi, radians, sin
 from random import Random
-from types import SimpleNamespace
 
 import pytest
 from hypothesis import assume, given, settings
@@ -11,7 +10,6 @@ from hypothesis import strategies as st
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import SHOVE, drive, in_wall
-from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
 from tests.floor import floor, from_wall
@@ -100,32 +98,6 @@ def test_an_absent_robot_is_no_obstacle():
     assert world.robots[0].x == pytest.approx(300.0 + 260.0 * (2.0 - 0.08), abs=6.0)
 
 
-@pytest.mark.parametrize("corner", ["outer", "inner"])
-def test_four_robots_pressed_into_a_corner_stay_apart_and_out_of_walls(corner):
-    poses = [(120.0, 120.0, 0.0), (220.0, 110.0, 0.0), (110.0, 220.0, 0.0), (240.0, 240.0, 0.0)]
-    walls = []
-    to_x, to_y = 0.0, 0.0
-    if corner == "inner":
-        walls = [(700.0, 300.0, 1100.0, 300.0), (700.0, 300.0, 700.0, 700.0)]
-        poses = [(x + 680.0, y + 280.0, heading) for x, y, heading in poses]
-        to_x, to_y = 700.0, 300.0
-    world = floor(walls, poses)
-    closest = 1e9
-    for tick in range(10 * HZ):
-        before = [(robot.x, robot.y, robot.linear) for robot in world.robots]
-        for robot in world.robots:
-            robot.heading = atan2(to_y - robot.y, to_x - robot.x)
-            ask(robot, FASTEST)
-        drive(world)
-        for robot, (x, y, _) in zip(world.robots, before, strict=True):
-            assert hypot(robot.x - x, robot.y - y) <= SHOVE + FASTEST * DT
-        assert depth(world) < 1e-5, tick
-        for i, one in enumerate(world.robots):
-            for other in world.robots[:i]:
-                closest = min(closest, hypot(one.x - other.x, one.y - other.y))
-    assert closest >= 2 * RADIUS - DEEPEST
-
-
 PLACES = st.tuples(st.floats(40.0, WIDTH - 40.0), st.floats(40.0, HEIGHT - 40.0), st.floats(0.0, 6.28))
 LINES = st.tuples(st.floats(0.0, WIDTH), st.floats(0.0, HEIGHT), st.floats(0.0, WIDTH), st.floats(0.0, HEIGHT))
 STICKS = st.lists(
@@ -150,19 +122,6 @@ def test_no_driving_gets_into_a_wall(walls, poses, sticks, half):
             assert depth(world) < 1e-5
             for robot, (x, y) in zip(world.robots, before, strict=True):
                 assert hypot(robot.x - x, robot.y - y) <= SHOVE + FASTEST * DT
-
-
-def test_a_crowd_near_walls_never_gets_into_one():
-    """Random driving for 20 s, from fixed free poses in narrow places."""
-    walls = [(500.0, 300.0, 700.0, 500.0), (700.0, 300.0, 500.0, 500.0), (500.0, 600.0, 700.0, 600.0)]
-    world = floor(walls, [(400.0, 400.0, 0.0), (800.0, 400.0, pi), (600.0, 200.0, 1.6), (450.0, 550.0, 0.0)])
-    luck = SimpleNamespace(random=seeded(5))
-    for tick in range(20 * HZ):
-        if tick % 10 == 0:
-            for robot in world.robots:
-                ask(robot, FASTEST * (1 if uniform(luck) < 0.7 else -1), 6 * uniform(luck) - 3)
-        drive(world)
-        assert depth(world) < 1e-5
 
 
 def overlap(world):

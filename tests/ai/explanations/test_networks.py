@@ -9,12 +9,12 @@ from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.brain.thoughts import BULLET, MATE, OPPONENT, PERSON, PRIZE
 from pigaming_app.ai.explanations.networks import make_explain, probabilities, topics_of
 from pigaming_app.ai.explanations.percepts import SUBJECTS
-from pigaming_app.ai.explanations.registry import thoughts_of
 from pigaming_app.ai.networks.files import brain_of
 from pigaming_app.ai.networks.policy import Handicap, draw
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.i18n import LANGUAGES, texts
+from tests.ai.explanations.test_thoughts import thoughts
 from tests.ai.networks.random_network import random_network
 from tests.matches import match_of
 
@@ -31,11 +31,11 @@ def match_with(network, seed=3, others="hand3 hand1 hand3"):
 def test_asking_changes_neither_match_nor_mind_and_everything_told_has_words():
     watched, alone = (match_with(random_network(handicap=Handicap(0.1, 0.05, 0.5))) for _ in range(2))
     brain, words, told = watched.brains[0], [texts(language) for language in LANGUAGES], []
-    assert thoughts_of(watched, 0).behaviour == "starts"
+    assert thoughts(watched, 0).behaviour == "starts"
     for _ in range(600):
         watched.tick()
         alone.tick()
-        told.append(thoughts_of(watched, 0))
+        told.append(thoughts(watched, 0))
         assert list(told[-1].choices.values()) in ([], brain.mind.choices)
     assert digest(watched.state) == digest(alone.state)
     assert digest(brain.mind) == digest(alone.brains[0].mind)
@@ -118,7 +118,7 @@ def test_networks_of_every_game_explain_themselves(game):
         if tick % 10:
             continue
         for seat in range(4):
-            told = thoughts_of(match, seat)
+            told = thoughts(match, seat)
             assert f"brain.{told.behaviour}" in words
             assert all(-1.0 <= value <= 1.0 for value in told.rose)
             for sight in told.percepts:

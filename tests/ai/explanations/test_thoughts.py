@@ -1,5 +1,6 @@
 """Explanations of brains: consistent with their actions, plain values, without side effects on the match."""
 
+from collections.abc import Mapping
 from math import isfinite, pi
 
 import pytest
@@ -22,7 +23,7 @@ from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.plugins.parts import plugins
 from pigaming_app.ui.i18n import texts
 from tests.cases import one_in
-from tests.matches import match_of, run
+from tests.matches import match_of, mind_of, run
 
 ALL = [
     (game, name)
@@ -91,7 +92,7 @@ def test_everything_told_is_plain_finite_and_has_words(game, name):
         match.tick()
 
 
-def check(told: Thoughts, words: dict[str, str]) -> None:
+def check(told: Thoughts, words: Mapping[str, str]) -> None:
     words[f"brain.{told.behaviour}"].format(**told.names)
     if told.reason:
         words[f"brain.because_{told.reason}"].format(**told.names)
@@ -153,7 +154,7 @@ def test_who_leads_hides_and_who_is_behind_hunts(lead, state, reason):
 
 def test_the_pull_out_of_cover_grows_while_nobody_shows():
     match = run(play("pitanks", "fsm", "idle", variant="plain"), 20)
-    mind = match.brains[0].mind
+    mind = mind_of(match)
     for waited, pull in ((0, 0.0), (mind.patience // 2, 0.5), (mind.patience, 1.0), (3 * mind.patience, 1.0)):
         mind.unseen = waited
         utilities = thoughts(match).utilities
@@ -164,7 +165,7 @@ def test_the_pull_out_of_cover_grows_while_nobody_shows():
 
 def test_a_goal_is_where_it_is_going_and_a_sight_where_it_believes_the_other_to_be():
     match = run(play("pitanks", "fsm", "fsm", seed=2), 60)
-    mind, told = match.brains[0].mind, thoughts(match)
+    mind, told = mind_of(match), thoughts(match)
     seen = {sight.kind: sight for sight in told.percepts}
     assert (seen[OPPONENT].x, seen[OPPONENT].y) == (mind.obs.others[0].x, mind.obs.others[0].y)
     if GOAL in seen:
@@ -174,7 +175,7 @@ def test_a_goal_is_where_it_is_going_and_a_sight_where_it_believes_the_other_to_
 
 def test_it_says_that_it_dodges_exactly_when_it_would():
     match = run(play("pitanks", "fsm", "idle", variant="plain"), 10)
-    view, said = match.brains[0].mind.obs, []
+    view, said = mind_of(match).obs, []
     for threat, bearing in ((9.0, 0.0), (0.5, pi / 2), (0.5, 0.0), (0.69, 0.4)):
         view.threat, view.threat_bearing, view.threat_side = threat, bearing, 5.0
         action = match.state.actions[0]
@@ -189,7 +190,7 @@ def test_it_says_that_it_dodges_exactly_when_it_would():
 
 def test_it_knows_that_it_is_stuck():
     match = run(play("pitanks", "fsm", "idle"), 20)
-    mind = match.brains[0].mind
+    mind = mind_of(match)
     mind.stuck_ticks = fsm.STUCK_TICKS // 2
     assert thoughts(match).utilities["free"] == pytest.approx(0.5)
     mind.state = fsm.BREAK_FREE
@@ -222,7 +223,7 @@ def gunner_in_fight(brain: str = "hand3", variant: str = "party") -> Match:
 )
 def test_a_gunner_gives_the_reason_of_its_behaviour(change, behaviour, reason):
     match = gunner_in_fight()
-    mind = match.brains[0].mind
+    mind = mind_of(match)
     mind.state, mind.shot, mind.obs.threat, mind.obs.protected = gunner.FIGHT, 500, 9.0, 0
     mind.obs.others[0].protected = 0
     for path, value in change.items():
@@ -236,7 +237,7 @@ def test_a_gunner_gives_the_reason_of_its_behaviour(change, behaviour, reason):
 def test_a_gunner_swings_aside_after_a_shot_and_only_hand1_watches_it():
     for brain, first in (("hand1", "watch"), ("hand3", "swing")):
         match = gunner_in_fight(brain)
-        mind = match.brains[0].mind
+        mind = mind_of(match)
         mind.state, mind.shot, mind.obs.others[0].protected, mind.obs.threat = gunner.FIGHT, 0, 0, 9.0
         assert thoughts(match).behaviour == first
         assert ("wait" in thoughts(match).utilities) == (brain == "hand1")
@@ -261,7 +262,7 @@ def test_a_gunner_hunts_whoever_leads():
 
 def test_a_driver_who_has_missed_a_line_says_that_it_goes_back():
     match = run(play("race", "hand3", "hand1"), 100)
-    mind = match.brains[0].mind
+    mind = mind_of(match)
     mind.obs.past, mind.obs.return_x, mind.obs.return_y = 2 * racer.SLACK, 321.0, 123.0
     told = thoughts(match)
     assert (told.behaviour, told.reason, told.chosen) == ("return", "missed", "back")
@@ -270,14 +271,14 @@ def test_a_driver_who_has_missed_a_line_says_that_it_goes_back():
 
 def test_who_has_finished_is_not_stuck_though_nothing_moves_it_any_more():
     match = run(play("race", "hand3", "hand1"), 100)
-    mind = match.brains[0].mind
+    mind = mind_of(match)
     mind.obs.finished, mind.state = 1, racer.BREAK_FREE
     assert (thoughts(match).behaviour, thoughts(match).reason) == ("done", "finish")
 
 
 def test_a_driver_makes_way_to_the_side_on_which_it_passes():
     match = run(play("race", "hand3", "hand1"), 100)
-    mind = match.brains[0].mind
+    mind = mind_of(match)
     mind.obs.past, own = -100.0, mind.line * mind.obs.ahead.ideal
     for aside, behaviour in ((-60.0, "pass_left"), (60.0, "pass_right"), (0.0, None)):
         mind.lane = own + aside
@@ -293,7 +294,7 @@ def test_who_carries_a_raw_pallet_goes_to_a_machine_a():
     told = []
     for _ in range(1500):
         match.tick()
-        view, mind = match.brains[0].mind.obs, match.brains[0].mind
+        view, mind = mind_of(match).obs, mind_of(match)
         slot = view.slots[mind.target]
         busy = mind.near or mind.freeing > 0 or mind.resting > 0 or view.frozen
         if view.carries == RAW + 1 and mind.carried == view.carries and slot.kind == INPUT and not busy:
@@ -308,7 +309,7 @@ def test_who_carries_a_raw_pallet_goes_to_a_machine_a():
 
 def test_a_frozen_driver_waits():
     match = run(play("factory", "hand2", "hand2", "hand2", "hand2"), 60)
-    match.brains[0].mind.obs.frozen = 50
+    mind_of(match).obs.frozen = 50
     told = thoughts(match)
     assert (told.behaviour, told.reason, told.chosen) == ("frozen", "bumped", "wait")
     assert told.utilities["wait"] == 1.0
@@ -324,7 +325,7 @@ def test_a_table_shows_its_state_its_values_and_the_move_it_drew():
     match.sit(0, taught())
     run(match, 6)
     told = thoughts(match)
-    mind = match.brains[0].mind
+    mind = mind_of(match)
     assert told.chosen == tuple(int(part) for part in MOVES[mind.move])
     assert told.behaviour == "shoot"
     assert told.moves[(1, 1, 1)] == 1.0

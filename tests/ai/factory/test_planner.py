@@ -26,7 +26,7 @@ from tests.bench.makespan_bound import Floor, Search, bound
 from tests.bench.trial import Trial
 from tests.cases import one_in, repeated
 from tests.games.factory.shop import Shop
-from tests.matches import finished, match_of
+from tests.matches import finished, match_of, mind_of
 
 FLOORS = arenas("factory")
 NAMES = [level.name for level in LEVELS]
@@ -100,7 +100,7 @@ def test_four_of_the_best_spoil_nothing_and_one_team_delivers_everything(floor):
         match.tick()
         for seat in range(4):
             if match.state.tick % (2 * HZ) == seat:
-                explain(match.state, seat, match.brains[seat].mind, None)
+                explain(match.state, seat, mind_of(match, seat), None)
     assert match.state.winner
     assert match.seconds < 120.0
     assert sum(load.spoiled for load in match.state.loads) == 0

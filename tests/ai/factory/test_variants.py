@@ -14,7 +14,7 @@ from pigaming_app.sim.world import DT, HZ
 from tests.bench.fairness_factory import measure
 from tests.bench.trial import Trial
 from tests.games.factory.test_party import loose, party, put
-from tests.matches import match_of, run
+from tests.matches import match_of, mind_of, run
 
 FLOORS = arenas("factory")
 
@@ -29,7 +29,7 @@ def first_aim(shop, seat=0):
 
 
 def told(shop, seat=0):
-    return explain(shop.state, seat, shop.match.brains[seat].mind, None)
+    return explain(shop.state, seat, mind_of(shop.match, seat), None)
 
 
 def without_loose(shop):
@@ -175,7 +175,7 @@ def test_a_waiting_robot_moves_to_and_fro_near_its_place():
     speeds, places = [], []
     while state.loads[0].pallet and match.seconds < 12.0:
         match.tick()
-        if match.brains[0].mind.near and match.seconds > 6.0:
+        if mind_of(match).near and match.seconds > 6.0:
             speeds.append(abs(state.robots[0].linear))
             places.append((state.robots[0].x, state.robots[0].y))
     assert len(speeds) > HZ
@@ -185,7 +185,7 @@ def test_a_waiting_robot_moves_to_and_fro_near_its_place():
 
 def test_the_weakest_sets_out_the_wrong_way_and_says_so():
     match = match_of("factory", ("hand1", "off", "off", "off"), minutes=3.0)
-    mind, wrong = match.brains[0].mind, 0
+    mind, wrong = mind_of(match), 0
     while not match.over and match.seconds < 60.0:
         match.tick()
         if mind.detour > 0 and mind.resting <= 0 and not mind.freeing:
@@ -204,7 +204,7 @@ def test_the_strongest_never_does():
 
 def test_while_it_thinks_it_draws_back_but_not_onto_a_person():
     match = match_of("factory", ("hand1", "off", "off", "off"), minutes=3.0)
-    mind, robot = match.brains[0].mind, match.state.robots[0]
+    mind, robot = mind_of(match), match.state.robots[0]
     while not match.state.loads[0].pallet:
         match.tick()
     run(match, HZ)

@@ -13,16 +13,9 @@ from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
 
 
-def test_hundred_wins_of_hundred_say_at_least_96_percent():
-    low, high = wilson(100, 100)
-    assert low == pytest.approx(0.963, abs=5e-4)
-    assert high == 1.0
-
-
-def test_no_win_is_the_mirror_of_all_wins():
-    low, high = wilson(0, 100)
-    assert low == 0.0
-    assert high == pytest.approx(1 - 0.963, abs=5e-4)
+@pytest.mark.parametrize(("wins", "low", "high"), [(100, 0.963, 1.0), (0, 0.0, 1 - 0.963)])
+def test_hundred_wins_of_hundred_say_at_least_96_percent_and_none_the_mirror(wins, low, high):
+    assert wilson(wins, 100) == (pytest.approx(low, abs=5e-4), pytest.approx(high, abs=5e-4))
 
 
 def test_half_of_hundred_is_ten_percent_either_way():

@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from tests.bench.figures import on_page, write
+from tests.bench.figures import Derived, Measured, on_page, write
 from tests.bench.figures.registry import DERIVED, MEASURED
 
 
@@ -15,8 +15,8 @@ def main() -> int:
     parser.add_argument("--share", type=float, default=1.0, help=argparse.SUPPRESS)
     words = parser.parse_args()
     for name in words.only:
-        block = {**DERIVED, **MEASURED}[name]
-        text = block.text() if name in DERIVED else MEASURED[name].text(words.share)
+        block: Derived | Measured = DERIVED.get(name) or MEASURED[name]
+        text = block.text() if isinstance(block, Derived) else block.text(words.share)
         if words.write:
             write(block.page, name, text)
             print(f"{block.page}: {name}", flush=True)
