@@ -24,9 +24,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.jobs.bench import environments, networks, yardsticks
 from pigaming_app.jobs.bench.memory import driver
 from pigaming_app.jobs.bench.memory import measure as measure_memory
-from pigaming_app.jobs.bench.processes import processes
-from pigaming_app.jobs.bench.walk import measure as measure_screens
-from pigaming_app.jobs.bench.walk import second_screen
+from pigaming_app.jobs.bench.processes import figures_of, processes
 from pigaming_app.jobs.terminal.command import own_command
 from pigaming_app.jobs.terminal.interrupt import OWN_GROUP
 from pigaming_app.sim.kernel import can_compile
@@ -49,7 +47,7 @@ def measure(game: str, variant: str) -> dict[str, Any]:
         single = min(1.0 / rate for rate in (compiled_ticks(game, variant, seed) for seed in range(1, RUNS + 1)))
         both = max(1.0 / single, *(_two_processes(game, variant) for _ in range(3)))
     frames = _frames(game, variant)
-    slowest = measure_screens()
+    slowest = dict(sorted(figures_of("scenes.walk.walker").items(), key=lambda screen: -screen[1]))  # ms by screen
     return {
         "game": game,
         "variant": variant,
@@ -64,7 +62,7 @@ def measure(game: str, variant: str) -> dict[str, Any]:
         "frame_ms": {"median": median(frames), "p99": frames[int(0.99 * len(frames))]},
         "worst_frame_ms": max(slowest.values()),
         "worst_frame_ms_by_screen": slowest,
-        "second_screen_frame_ratio": second_screen(),
+        "second_screen_frame_ratio": figures_of("scenes.walk.second_screen"),
         "start_s": min(start() for _ in range(STARTS)),
         "rss_mb": measure_memory(),
         "machine": machine(),

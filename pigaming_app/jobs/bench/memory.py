@@ -10,14 +10,13 @@ import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from pigaming_app import ROOT
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.jobs.bench.processes import figures_of
 
 if TYPE_CHECKING:
     from pigaming_app.scenes.flow.context import Context
@@ -37,13 +36,7 @@ def measure() -> dict[str, float | None]:
 
 def measured_alone(state: str) -> float | None:
     """Megabytes of a fresh process in one of STATES. Raises subprocess.CalledProcessError."""
-    with TemporaryDirectory() as home:
-        headless = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PIGAMING_HOME": home}
-        command = [sys.executable, "-m", "pigaming_app.jobs.bench.memory", state]
-        done = subprocess.run(
-            command, env={**os.environ, **headless}, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True
-        )
-    found: float | None = json.loads(done.stdout.splitlines()[-1])
+    found: float | None = figures_of("jobs.bench.memory", state)
     return found
 
 
