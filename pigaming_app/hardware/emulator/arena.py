@@ -20,7 +20,7 @@ from pigaming_app.hardware.emulator.optics import CANVAS, SENSOR, Floats, Optics
 from pigaming_app.hardware.emulator.radio import EmulatedRadio, RadioChannel
 from pigaming_app.hardware.emulator.renderer import ExposureSetup, SceneRenderer
 from pigaming_app.hardware.emulator.robots import STEP, EmulatedRobot, push_apart, random_parameters
-from pigaming_app.hardware.emulator.things.prism import Obstacle, Prism, obstacles, push_off
+from pigaming_app.hardware.emulator.things.prism import Prism, obstacles, push_off
 from pigaming_app.hardware.signals import Image
 from pigaming_app.sim.plant import Pose
 
@@ -69,7 +69,7 @@ class EmulatedArena:
         self.lids = list(SHEET)  # marker on each robot's lid
         self.faults = FaultInjector(self)
         self.things: tuple[Prism, ...] = ()  # on the mat
-        self._obstacles: list[Obstacle] = []  # those that stop robots
+        self._obstacles: list[Prism] = []  # those that stop robots
         self.gain = 1.0  # exposure
         self.cleared = False  # True if the robots are off the mat, out of view
         self.last_driven = [float("-inf")] * len(self.robots)  # s, when a robot's motors last ran

@@ -103,8 +103,8 @@ class Scan:
         if self.finished or frame.captured < self._shown + (SOONEST if self._seen else FIRST):
             return
         few = frame.image[::SPARSE, ::SPARSE].astype(np.float32)
-        if self._is_old(few):
-            return
+        if self._seen and _difference(few, self._seen[-1]) < max(NOISE, OTHER * self._light()):
+            return  # the camera still shows the picture before
         if self._last is not None and _difference(few, self._last) > max(NOISE, SAME * self._light()):
             self._sum, self._count = None, 0  # still changing
         self._last = few
@@ -125,10 +125,6 @@ class Scan:
             next(self._work, None)
         except CalibrationError as error:
             self.fault = error.message
-
-    def _is_old(self, few: Map) -> bool:
-        """True while the camera still shows the picture before."""
-        return bool(self._seen) and _difference(few, self._seen[-1]) < max(NOISE, OTHER * self._light())
 
     def _light(self) -> float:
         """Mean difference between white and black, grey levels; 0 until both were seen."""

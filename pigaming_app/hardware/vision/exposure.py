@@ -53,14 +53,17 @@ class ExposureControl:
     ) -> None:
         self._cv, self._capture, self._lock_at, self._fresh = cv, capture, now + settle, fresh
         self._kept = None if fresh else kept
-        self._power, self._counts = _units(capture)
+        name = _backend(capture)
+        self._power, self._counts = name in ("DSHOW", "MSMF"), name.startswith("V4L")  # units of exposures, see above
         self.state = ExposureState()
         self._times: deque[float] = deque(maxlen=PICTURES)
         self._waiting: int | None = None  # pictures until the brightness is judged; None: not locked yet
         self._locked: float | None = None  # s, exposure when it was locked; None: no figure
         self._check_at = 0.0  # s, time of the next reading
-        if fresh:
-            restore_automatic(cv, capture)
+        if fresh:  # drivers keep a lock when the camera is closed
+            capture.set(cv.CAP_PROP_AUTO_EXPOSURE, _automatic(capture)[1])
+            capture.set(cv.CAP_PROP_AUTO_WB, 1.0)
+            capture.set(cv.CAP_PROP_AUTOFOCUS, 1.0)
         elif kept is not None:
             self._restore(kept)
         self._read()
@@ -141,13 +144,6 @@ def brightness(image: Image) -> float:
     return float(np.percentile(image[::8, ::8], 95.0))
 
 
-def restore_automatic(cv: Any, capture: Any) -> None:
-    """Restart automatic exposure, white balance and focus: drivers keep a lock when the camera is closed."""
-    automatic = _automatic(capture)[1]
-    for name, on in ((cv.CAP_PROP_AUTO_EXPOSURE, automatic), (cv.CAP_PROP_AUTO_WB, 1.0), (cv.CAP_PROP_AUTOFOCUS, 1.0)):
-        capture.set(name, on)
-
-
 def lock_exposure(cv: Any, capture: Any) -> None:
     """Lock exposure, white balance, focus and gain at their present values, as far as the driver can."""
     gain = capture.get(cv.CAP_PROP_GAIN)
@@ -160,12 +156,6 @@ def lock_exposure(cv: Any, capture: Any) -> None:
         capture.set(automatic, off)
         capture.set(value, now)
     capture.set(cv.CAP_PROP_GAIN, gain)
-
-
-def _units(capture: Any) -> tuple[bool, bool]:
-    """Units of the exposure: powers of two, or counts of 100 us; neither if the driver has others or none."""
-    name = _backend(capture)
-    return name in ("DSHOW", "MSMF"), name.startswith("V4L")
 
 
 def _automatic(capture: Any) -> tuple[float, float]:

@@ -17,7 +17,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.emulator.arena import STARTS
 from pigaming_app.hardware.emulator.robots import RADIUS
-from pigaming_app.hardware.emulator.things.prism import Obstacle, Prism, distance, obstacles
+from pigaming_app.hardware.emulator.things.prism import Prism, distance, obstacles
 from pigaming_app.hardware.emulator.things.random_scene import some_things
 from pigaming_app.hardware.proof import testbed
 from pigaming_app.hardware.proof.trials import play
@@ -94,9 +94,9 @@ def specs_of(bed: testbed.Testbed) -> list[ThingSpec]:
     return [thing.spec for thing in layout.things]
 
 
-def _gap(thing: Obstacle, x: float, y: float) -> float:
+def _gap(thing: Prism, x: float, y: float) -> float:
     """Distance of a point from a thing, mm."""
-    if hypot(x - thing.x, y - thing.y) > thing.reach + 300.0:
+    if hypot(x - thing.middle[0], y - thing.middle[1]) > thing.reach + 300.0:
         return 300.0
     return distance(thing, x, y)[0]
 

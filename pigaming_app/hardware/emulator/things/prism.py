@@ -8,7 +8,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import cos, hypot, inf, pi, sin
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,7 +50,13 @@ class Prism:
         outwards = np.where(normals @ self.middle <= offsets, 1.0, -1.0)
         return normals * outwards[:, None], offsets * outwards
 
-    @property
+    @cached_property
+    def sides(self) -> list[tuple[float, float, float]]:
+        """Normals and offsets of `faces`."""
+        normals, offsets = self.faces
+        return [(nx, ny, offset) for (nx, ny), offset in zip(normals.tolist(), offsets.tolist(), strict=True)]
+
+    @cached_property
     def reach(self) -> float:
         """Radius of its footprint about the middle, mm."""
         away = np.array(self.outline) - self.middle
@@ -130,51 +135,31 @@ def texture(look: str, grey: float, seed: int) -> Map:
     return np.asarray(light.clip(0.03, 0.95), dtype=np.float32)
 
 
-class Obstacle(NamedTuple):
-    """A tall thing. Lengths are mm on the mat."""
-
-    x: float
-    y: float
-    reach: float  # of its corners from (x, y)
-    corners: tuple[tuple[float, float], ...]
-    faces: tuple[tuple[float, float, float], ...]  # outward normals and offsets
-
-
-def obstacles(things: Iterable[Prism]) -> list[Obstacle]:
+def obstacles(things: Iterable[Prism]) -> list[Prism]:
     """The things that robots cannot drive over."""
-    return [
-        Obstacle(
-            float(thing.middle[0]),
-            float(thing.middle[1]),
-            thing.reach,
-            thing.outline,
-            tuple((nx, ny, offset) for (nx, ny), offset in zip(*(part.tolist() for part in thing.faces), strict=True)),
-        )
-        for thing in things
-        if thing.height > CLEARANCE
-    ]
+    return [thing for thing in things if thing.height > CLEARANCE]
 
 
-def push_off(robots: Sequence[EmulatedRobot], things: Sequence[Obstacle]) -> None:
+def push_off(robots: Sequence[EmulatedRobot], things: Sequence[Prism]) -> None:
     """Move robots that overlap a thing out of it, with their wheels slipping; the thing stays."""
     for robot in robots:
         if robot.height > 0.0:
             continue
         for thing in things:
-            if hypot(robot.x - thing.x, robot.y - thing.y) < RADIUS + thing.reach:
+            if hypot(robot.x - thing.middle[0], robot.y - thing.middle[1]) < RADIUS + thing.reach:
                 gap, nx, ny = distance(thing, robot.x, robot.y)
                 if gap < RADIUS:
                     robot.x += (RADIUS - gap) * nx
                     robot.y += (RADIUS - gap) * ny
 
 
-def distance(thing: Obstacle, x: float, y: float) -> tuple[float, float, float]:
+def distance(thing: Prism, x: float, y: float) -> tuple[float, float, float]:
     """Distance of a point from a thing, mm, negative inside, and the unit vector away from it."""
-    depth, nx, ny = max((fx * x + fy * y - offset, fx, fy) for fx, fy, offset in thing.faces)
+    depth, nx, ny = max((fx * x + fy * y - offset, fx, fy) for fx, fy, offset in thing.sides)
     if depth <= 0.0:
         return depth, nx, ny
     nearest, away = inf, (nx, ny)
-    for (ax, ay), (bx, by) in zip(thing.corners, (*thing.corners[1:], thing.corners[0]), strict=True):
+    for (ax, ay), (bx, by) in zip(thing.outline, (*thing.outline[1:], thing.outline[0]), strict=True):
         ex, ey = bx - ax, by - ay
         share = max(0.0, min(1.0, ((x - ax) * ex + (y - ay) * ey) / (ex * ex + ey * ey)))
         dx, dy = x - ax - share * ex, y - ay - share * ey

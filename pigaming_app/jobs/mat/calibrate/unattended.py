@@ -119,21 +119,17 @@ def calibrate(seed: int, robot: bool = False, view: str = "good", anyway: bool =
 
 def _picture(quality: CameraQuality) -> dict[str, Any]:
     """Quality of the camera's picture; None: not measured, or no figure of the driver."""
+    look = quality.marker_px, quality.blur_px, quality.exposure
+    shares = {str(number): found_share(number, *look) for number in WEARERS} if quality.measured else None
     return {
         "marker_edge_px": quality.marker_px or None,
         "blur_px": quality.blur_px or None,
         "exposure_ms": 1e3 * quality.exposure or None,
         "gain": quality.gain,
         "predicted_detection": quality.detection if quality.measured else None,
-        "predicted_by_marker": _by_marker(quality) if quality.measured else None,
+        "predicted_by_marker": shares,
         "sufficient": quality.sufficient,
     }
-
-
-def _by_marker(quality: CameraQuality) -> dict[str, float]:
-    """The predicted share of each marker that a robot may wear, by its number."""
-    look = quality.marker_px, quality.blur_px, quality.exposure
-    return {str(number): found_share(number, *look) for number in WEARERS}
 
 
 def _compared(ground: GroundPlane, site: EmulatedCalibrationSite) -> dict[str, float]:

@@ -47,7 +47,9 @@ def supply_file(options: WifiSetupOptions, settings: Settings) -> bool:
         raise Refusal("--out is the file of --wifi-config or --microbit")
     else:
         return False
-    _require_saved(settings, "arena_id", "wifi_key")
+    saved, _ = Settings.load(folders().config)
+    if (saved.arena_id, saved.wifi_key) != (settings.arena_id, settings.wifi_key):
+        raise Refusal("the settings cannot be saved: the arcade would have another arena number or key the next time")
     if options.out is None:
         print(text, end="")
         return True
@@ -55,12 +57,6 @@ def supply_file(options: WifiSetupOptions, settings: Settings) -> bool:
         write_with_backup(options.out, text)
     print(options.out)
     return True
-
-
-def _require_saved(settings: Settings, *names: str) -> None:
-    saved, _ = Settings.load(folders().config)
-    if any(getattr(saved, name) != getattr(settings, name) for name in names):
-        raise Refusal("the settings cannot be saved: the arcade would have another arena number or key the next time")
 
 
 def network(session: RobotSession) -> list[dict[str, Any]] | None:
