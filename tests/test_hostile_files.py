@@ -62,18 +62,17 @@ def refused_or_used(read, errors):
     return False
 
 
-def arena_files():
-    return [pytest.param(game, id=game) for game in games()]
+def accepted(read, trees, errors):
+    """How many of these trees are accepted by a reader, which rejects the others with one of these errors."""
+    return sum(refused_or_used(partial(read, tree), errors) for tree in trees)
 
 
-@pytest.mark.parametrize("game", arena_files())
-def test_arenas(game, tmp_path):
+@pytest.mark.parametrize("game", games())
+def test_arenas(game):
     name = arenas.arenas(game)[0]
     tree = tomllib.loads(load_arena(game, name).source)
     some = random.Random(1).sample(list(mutated(tree)), 300)
-    used = [refused_or_used(partial(arenas.parse, game, toml(one), "a.toml"), ArenaError) for one in some]
-    assert any(used)
-    assert used.count(False) > len(used) / 2
+    assert 0 < accepted(lambda one: arenas.parse(game, toml(one), "a.toml"), some, ArenaError) < len(some) / 2
 
 
 def test_climbs_and_ratings():
@@ -83,28 +82,22 @@ def test_climbs_and_ratings():
         climb_files.SavedClimb(4, now, Climb("race", rung=3, wins=1)),
         climb_files.SavedClimb(5, now, Climb("all")),
     ]
-    used = 0
-    for one in mutated(tomllib.loads(climb_files.to_text(climbs))):
-        found = []
-        used += refused_or_used(lambda one=one, found=found: found.extend(climb_files.parse(toml(one))), ValueError)
-        assert all(saved.climb.at_top or saved.climb.setup(1).arena for saved in found)
-    assert used > 20
+
+    def climb(tree):
+        assert all(saved.climb.at_top or saved.climb.setup(1).arena for saved in climb_files.parse(toml(tree)))
+
+    assert accepted(climb, mutated(tomllib.loads(climb_files.to_text(climbs))), ValueError) > 20
     standings = [{"brain": name, "rating": 7.5, "rating95": [1, 9.5]} for name in ("level1", "q2")]
     tree = {"game": "pitanks", "variant": "party", "matches": 40, "standings": standings}
-    used = 0
-    for one in mutated(tree):
-        raw = json.dumps(one).encode()
-        used += refused_or_used(partial(league_files.parse, raw, "pitanks"), ValueError)
-    assert used > 4
-
-
-def robots_tree():
-    return tomllib.loads(to_toml([NOMINAL, NOMINAL]))
+    assert accepted(lambda one: league_files.parse(json.dumps(one).encode(), "pitanks"), mutated(tree), ValueError) > 4
 
 
 def test_robots():
-    for one in mutated(robots_tree()):
-        refused_or_used(partial(parse, toml(one), "robots.toml"), DrivetrainError)
+    accepted(
+        lambda one: parse(toml(one), "robots.toml"),
+        mutated(tomllib.loads(to_toml([NOMINAL, NOMINAL]))),
+        DrivetrainError,
+    )
 
 
 @pytest.mark.filterwarnings("error")
@@ -112,13 +105,14 @@ def test_calibrations(tmp_path):
     tree = tomllib.loads(ground.to_toml(nominal()))
     tree.pop("check")
     path = tmp_path / "calibration.toml"
-    used = 0
-    for one in mutated(tree):
+
+    def calibration(one):
         kept = tomllib.loads(toml(one))
         path.write_text(toml({**one, "check": ground._check(kept)}), encoding="utf-8")
         with np.errstate(all="raise", under="ignore"):
-            used += refused_or_used(lambda: load_calibration(path).fixes([], 0.0), CalibrationError)
-    assert used > 50
+            load_calibration(path).fixes([], 0.0)
+
+    assert accepted(calibration, mutated(tree), CalibrationError) > 50
 
 
 def run_lines(count):
@@ -235,11 +229,12 @@ def forged(head, packed):
 def test_replays(tmp_path):
     path = tmp_path / "a.replay"
     head, packed = packed_replay(path)
-    used = 0
-    for one in mutated(head):
+
+    def read(one):
         path.write_bytes(forged(one, packed))
-        used += refused_or_used(lambda: load_replay(path), ReplayError)
-    assert used > 20
+        load_replay(path)
+
+    assert accepted(read, mutated(head), ReplayError) > 20
 
 
 def test_a_forged_replay_plays_to_its_end(tmp_path):

@@ -36,13 +36,6 @@ def test_a_drive_packet_by_hand():
     assert len(packet) == 18
 
 
-def test_a_report_by_hand():
-    """4.8 V is 4800 mV, which is 37 * 128 + 64."""
-    packet = report_packet(RobotReport(4711, 3, 2, 9, packets.LOW, 4800))
-    assert packet[:-5].hex(" ") == "d5 67 24 03 02 09 02 40 25"
-    assert len(packet) == 14
-
-
 def test_speeds_beyond_full_are_cut_and_what_is_no_number_stops():
     crew = [WheelCommand(7.0, -7.0), WheelCommand(float("nan"), 1.0)]
     (packet,) = PacketDecoder().feed(packets.drive_packet(ARENA, 0, crew))
