@@ -2,10 +2,11 @@
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.ui.draw import ICONS, Color, GlowCanvas, cut_box, dim
-from pigaming_app.ui.draw.icons import Pen
+from pigaming_app.ui.draw.icons import Icon, Pen, dot, line, together
 
 CELLS = 5
 
@@ -19,7 +20,7 @@ def draw_icon(ink: GlowCanvas, name: str, x: float, y: float, r: float, color: C
         next(pictures[name] for pictures in (PICTURES, ICONS, *_of_games()) if name in pictures)(pen)
 
 
-def _of_games() -> Iterator[Mapping[str, Callable[[Pen], None]]]:
+def _of_games() -> Iterator[Mapping[str, Icon]]:
     return (tools.pictures for tools in EDITORS.values())
 
 
@@ -78,11 +79,6 @@ def _health(pen: Pen, value: str) -> None:
             pen.ink.line(pen.at(box), dim(pen.color, 0.4), pen.w * 0.5, True)
 
 
-def _copy(pen: Pen) -> None:
-    pen.line((-0.9, 0.35), (-0.9, -0.9), (0.35, -0.9))
-    pen.line((-0.4, -0.4), (0.9, -0.4), (0.9, 0.9), (-0.4, 0.9), closed=True)
-
-
 def _delete(pen: Pen) -> None:
     pen.line((-0.85, -0.6), (0.85, -0.6))
     pen.line((-0.3, -0.6), (-0.3, -0.95), (0.3, -0.95), (0.3, -0.6))
@@ -95,10 +91,6 @@ def _undo(pen: Pen, side: float = 1.0) -> None:
     arc = [(side * (0.15 + 0.65 * math.cos(a / 10)), 0.2 + 0.55 * math.sin(a / 10)) for a in range(-16, 17, 2)]
     pen.line((side * -0.6, -0.36), *arc, (side * -0.45, 0.74))
     pen.fill((side * -1.0, -0.36), (side * -0.45, -0.82), (side * -0.45, 0.1))
-
-
-def _redo(pen: Pen) -> None:
-    _undo(pen, -1.0)
 
 
 def _grid(pen: Pen, value: str) -> None:
@@ -132,12 +124,6 @@ def _mirror(pen: Pen, value: str) -> None:
         pen.line((-1.05, 0), (1.05, 0))
 
 
-def _save(pen: Pen) -> None:
-    pen.line((-0.9, -0.9), (0.5, -0.9), (0.9, -0.5), (0.9, 0.9), (-0.9, 0.9), closed=True)
-    pen.line((-0.45, 0.9), (-0.45, 0.2), (0.45, 0.2), (0.45, 0.9))
-    pen.line((-0.4, -0.9), (-0.4, -0.4), (0.3, -0.4), (0.3, -0.9))
-
-
 def _dice(pen: Pen) -> None:
     pen.line(*cut_box(-0.85, -0.85, 1.7, 1.7, 0.2), closed=True)
     for x, y in ((-0.4, -0.4), (0.4, -0.4), (0, 0), (-0.4, 0.4), (0.4, 0.4)):
@@ -159,45 +145,44 @@ def _slot(pen: Pen) -> None:
         pen.line((x * 0.9, y * 0.35), (x * 0.9, y * 0.9), (x * 0.35, y * 0.9))
 
 
-def _corner(pen: Pen) -> None:
-    """A bend with its control point."""
-    pen.line((-0.9, 0.9), (-0.9, -0.1), (-0.75, -0.5), (-0.5, -0.75), (-0.1, -0.9), (0.9, -0.9))
-    pen.line((0.0, 0.9), (0.0, 0.2), (0.2, 0.0), (0.9, 0.0))
-    pen.dot(-0.9, -0.9, 0.22)
-
-
-def _rename(pen: Pen) -> None:
-    """A letter and a cursor."""
-    pen.line((-1.0, 0.8), (-0.4, -0.8), (0.2, 0.8))
-    pen.line((-0.78, 0.25), (-0.02, 0.25))
-    pen.line((0.45, -0.95), (0.95, -0.95))
-    pen.line((0.7, -0.95), (0.7, 0.95))
-    pen.line((0.45, 0.95), (0.95, 0.95))
-
-
-def _share(pen: Pen) -> None:
-    pen.line((-0.4, -0.3), (-0.85, -0.3), (-0.85, 0.95), (0.85, 0.95), (0.85, -0.3), (0.4, -0.3))
-    pen.line((0, 0.4), (0, -0.8))
-    pen.line((-0.38, -0.5), (0, -0.95), (0.38, -0.5))
-
-
-PICTURES: dict[str, Callable[[Pen], None]] = {
+PICTURES: dict[str, Icon] = {
     "wall": _wall,
     "rock": _rock,
     "mud": _mud,
     "turn": _turn,
     "size": _size,
-    "copy": _copy,
+    "copy": together(
+        line((-0.9, 0.35), (-0.9, -0.9), (0.35, -0.9)),
+        line((-0.4, -0.4), (0.9, -0.4), (0.9, 0.9), (-0.4, 0.9), closed=True),
+    ),
     "delete": _delete,
     "undo": _undo,
-    "redo": _redo,
-    "save": _save,
+    "redo": partial(_undo, side=-1.0),
+    "save": together(
+        line((-0.9, -0.9), (0.5, -0.9), (0.9, -0.5), (0.9, 0.9), (-0.9, 0.9), closed=True),
+        line((-0.45, 0.9), (-0.45, 0.2), (0.45, 0.2), (0.45, 0.9)),
+        line((-0.4, -0.9), (-0.4, -0.4), (0.3, -0.4), (0.3, -0.9)),
+    ),
     "dice": _dice,
-    "rename": _rename,
-    "share": _share,
+    "rename": together(  # a letter and a cursor
+        line((-1.0, 0.8), (-0.4, -0.8), (0.2, 0.8)),
+        line((-0.78, 0.25), (-0.02, 0.25)),
+        line((0.45, -0.95), (0.95, -0.95)),
+        line((0.7, -0.95), (0.7, 0.95)),
+        line((0.45, 0.95), (0.95, 0.95)),
+    ),
+    "share": together(
+        line((-0.4, -0.3), (-0.85, -0.3), (-0.85, 0.95), (0.85, 0.95), (0.85, -0.3), (0.4, -0.3)),
+        line((0, 0.4), (0, -0.8)),
+        line((-0.38, -0.5), (0, -0.95), (0.38, -0.5)),
+    ),
     "worker": _worker,
     "shared": _slot,
-    "corner": _corner,
+    "corner": together(  # a bend with its control point
+        line((-0.9, 0.9), (-0.9, -0.1), (-0.75, -0.5), (-0.5, -0.75), (-0.1, -0.9), (0.9, -0.9)),
+        line((0.0, 0.9), (0.0, 0.2), (0.2, 0.0), (0.9, 0.0)),
+        dot(-0.9, -0.9, 0.22),
+    ),
 }
 VALUED: dict[str, Callable[[Pen, str], None]] = {
     "thick": _thick,

@@ -2,6 +2,8 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
+from operator import methodcaller
 
 from pigaming_app.ui.draw.glow import GlowCanvas
 from pigaming_app.ui.draw.theme import Color, Point, Points, cut_box
@@ -37,15 +39,26 @@ class Pen:
         self.ink.ring(self.x, self.y, r * self.r, self.color, self.w)
 
 
+Icon = Callable[[Pen], None]
+line, fill, dot, ring = (
+    partial(methodcaller, shape) for shape in ("line", "fill", "dot", "ring")
+)  # icons of one shape
+
+
+def together(*shapes: Icon) -> Icon:
+    """The icon of several shapes."""
+
+    def draw(pen: Pen) -> None:
+        for shape in shapes:
+            shape(pen)
+
+    return draw
+
+
 def _shield(pen: Pen) -> None:
     outline = ((0, -0.95), (0.8, -0.6), (0.72, 0.2), (0.4, 0.68), (0, 0.98), (-0.4, 0.68), (-0.72, 0.2), (-0.8, -0.6))
     pen.line(*outline, closed=True)
     pen.line((-0.34, 0.0), (-0.08, 0.3), (0.4, -0.28))
-
-
-def _speed(pen: Pen) -> None:
-    for d in (-0.62, 0, 0.62):
-        pen.line((d - 0.28, -0.7), (d + 0.32, 0), (d - 0.28, 0.7))
 
 
 def _rapid(pen: Pen) -> None:
@@ -59,12 +72,6 @@ def _triple(pen: Pen) -> None:
         c, s = math.cos(a), math.sin(a)
         pen.line((-0.8 + 0.3 * c, 0.33 * s), (-0.8 + 1.2 * c, 1.2 * s))
         pen.dot(-0.8 + 1.65 * c, 1.65 * s, 0.17)
-
-
-def _ricochet(pen: Pen) -> None:
-    pen.line((-0.95, 0.85), (0.95, 0.85))
-    pen.line((-0.9, -0.7), (-0.1, 0.6), (0.75, -0.75))
-    pen.line((0.2, -0.72), (0.75, -0.75), (0.86, -0.2))
 
 
 def _mine(pen: Pen) -> None:
@@ -82,12 +89,6 @@ def _pad(pen: Pen) -> None:
     pen.line((-0.44, -0.3), (-0.44, 0.06))
     for x, y in ((0.3, -0.12), (0.58, -0.12), (0.44, -0.28), (0.44, 0.04)):
         pen.dot(x, y, 0.075)
-
-
-def _phone(pen: Pen) -> None:
-    pen.line(*cut_box(-0.56, -0.96, 1.12, 1.92, 0.16), closed=True)
-    pen.line((-0.16, -0.7), (0.16, -0.7))
-    pen.dot(0, 0.68, 0.11)
 
 
 def _keys(pen: Pen) -> None:
@@ -118,57 +119,6 @@ def _ai(pen: Pen) -> None:
     pen.line((-0.22, 0.42), (0.22, 0.42))
 
 
-def _check(pen: Pen) -> None:
-    pen.line((-0.8, 0.05), (-0.25, 0.6), (0.85, -0.6))
-
-
-def _crown(pen: Pen) -> None:
-    pen.line((-0.9, 0.55), (-0.9, -0.5), (-0.42, 0), (0, -0.75), (0.42, 0), (0.9, -0.5), (0.9, 0.55), closed=True)
-
-
-def _left(pen: Pen) -> None:
-    pen.line((0.35, -0.7), (-0.35, 0), (0.35, 0.7))
-
-
-def _right(pen: Pen) -> None:
-    pen.line((-0.35, -0.7), (0.35, 0), (-0.35, 0.7))
-
-
-def _up(pen: Pen) -> None:
-    pen.line((-0.7, 0.35), (0, -0.35), (0.7, 0.35))
-
-
-def _down(pen: Pen) -> None:
-    pen.line((-0.7, -0.35), (0, 0.35), (0.7, -0.35))
-
-
-def _plus(pen: Pen) -> None:
-    pen.line((-0.8, 0), (0.8, 0))
-    pen.line((0, -0.8), (0, 0.8))
-
-
-def _cross(pen: Pen) -> None:
-    pen.line((-0.6, -0.6), (0.6, 0.6))
-    pen.line((-0.6, 0.6), (0.6, -0.6))
-
-
-def _circle(pen: Pen) -> None:
-    pen.ring(0.62)
-
-
-def _square(pen: Pen) -> None:
-    pen.line((-0.56, -0.56), (0.56, -0.56), (0.56, 0.56), (-0.56, 0.56), closed=True)
-
-
-def _triangle(pen: Pen) -> None:
-    pen.line((0, -0.76), (0.7, 0.46), (-0.7, 0.46), closed=True)
-
-
-def _clock(pen: Pen) -> None:
-    pen.ring(0.88)
-    pen.line((0, -0.5), (0, 0), (0.38, 0.22))
-
-
 def _shoot(pen: Pen) -> None:
     """A cross-hair."""
     pen.ring(0.66)
@@ -182,37 +132,11 @@ def _arrow(pen: Pen, up: float) -> None:
     pen.fill((0, -1.0 * up), (0.68, -0.12 * up), (-0.68, -0.12 * up))
 
 
-def _ahead(pen: Pen) -> None:
-    _arrow(pen, 1.0)
-
-
-def _behind(pen: Pen) -> None:
-    _arrow(pen, -1.0)
-
-
 def _hook(pen: Pen, side: float) -> None:
     """A U-turn arrow: up, over and down on one side."""
     arc = [math.pi * (0.95 + 1.05 * i / 14) for i in range(15)]
     pen.line(*((side * (0.6 * math.cos(a) - 0.08), 0.06 + 0.6 * math.sin(a)) for a in arc))
     pen.fill((side * 0.06, 0.06), (side * 0.98, 0.06), (side * 0.52, 0.8))
-
-
-def _turn_left(pen: Pen) -> None:
-    _hook(pen, -1.0)
-
-
-def _turn_right(pen: Pen) -> None:
-    _hook(pen, 1.0)
-
-
-def _stay(pen: Pen) -> None:
-    for x in (-0.34, 0.34):
-        pen.line((x, -0.6), (x, 0.6))
-
-
-def _unknown(pen: Pen) -> None:
-    for x in (-0.6, 0.0, 0.6):
-        pen.dot(x, 0, 0.17)
 
 
 def _oil(pen: Pen) -> None:
@@ -222,34 +146,11 @@ def _oil(pen: Pen) -> None:
     pen.line((-0.3, 0.3), (-0.22, 0.52), (0.0, 0.6))
 
 
-def _faster(pen: Pen) -> None:
-    for x in (-0.85, 0.0):
-        pen.fill((x, -0.66), (x + 0.85, 0.0), (x, 0.66))
-
-
 def _list(pen: Pen) -> None:
     """Lines of a list."""
     for y in (-0.62, 0.0, 0.62):
         pen.dot(-0.76, y, 0.15)
         pen.line((-0.36, y), (0.9, y))
-
-
-def _play(pen: Pen) -> None:
-    pen.fill((-0.45, -0.66), (0.55, 0.0), (-0.45, 0.66))
-
-
-def _fastest(pen: Pen) -> None:
-    for x in (-0.95, -0.32, 0.31):
-        pen.fill((x, -0.6), (x + 0.66, 0.0), (x, 0.6))
-
-
-def _wheel(pen: Pen) -> None:
-    """A steering wheel."""
-    pen.ring(0.86)
-    pen.dot(0, 0.06, 0.2)
-    pen.line((-0.84, -0.06), (-0.2, 0.02))
-    pen.line((0.84, -0.06), (0.2, 0.02))
-    pen.line((0, 0.22), (0, 0.84))
 
 
 def _point(pen: Pen) -> None:
@@ -260,54 +161,61 @@ def _point(pen: Pen) -> None:
         pen.fill(*((a * c - b * s, a * s + b * c) for a, b in ((1.0, 0.0), (0.5, 0.42), (0.5, -0.42))))
 
 
-def _button(pen: Pen) -> None:
-    pen.ring(0.92)
-    pen.dot(0, 0, 0.56)
-
-
-def _pencil(pen: Pen) -> None:
-    pen.line((-0.9, 0.9), (-0.72, 0.26), (0.5, -0.96), (0.96, -0.5), (-0.26, 0.72), closed=True)
-    pen.line((0.2, -0.66), (0.66, -0.2))
-
-
-ICONS: dict[str, Callable[[Pen], None]] = {
+ICONS: dict[str, Icon] = {
     "shield": _shield,
-    "speed": _speed,
+    "speed": together(*(line((x - 0.28, -0.7), (x + 0.32, 0), (x - 0.28, 0.7)) for x in (-0.62, 0, 0.62))),
     "rapid": _rapid,
     "triple": _triple,
-    "ricochet": _ricochet,
+    "ricochet": together(
+        line((-0.95, 0.85), (0.95, 0.85)),
+        line((-0.9, -0.7), (-0.1, 0.6), (0.75, -0.75)),
+        line((0.2, -0.72), (0.75, -0.75), (0.86, -0.2)),
+    ),
     "mine": _mine,
     "pad": _pad,
-    "phone": _phone,
+    "phone": together(
+        line(*cut_box(-0.56, -0.96, 1.12, 1.92, 0.16), closed=True),
+        line((-0.16, -0.7), (0.16, -0.7)),
+        dot(0, 0.68, 0.11),
+    ),
     "keys": _keys,
     "keypad": _keypad,
     "ai": _ai,
-    "check": _check,
-    "crown": _crown,
-    "left": _left,
-    "right": _right,
-    "up": _up,
-    "down": _down,
-    "plus": _plus,
-    "cross": _cross,
-    "circle": _circle,
-    "square": _square,
-    "triangle": _triangle,
-    "clock": _clock,
+    "check": line((-0.8, 0.05), (-0.25, 0.6), (0.85, -0.6)),
+    "crown": line((-0.9, 0.55), (-0.9, -0.5), (-0.42, 0), (0, -0.75), (0.42, 0), (0.9, -0.5), (0.9, 0.55), closed=True),
+    "left": line((0.35, -0.7), (-0.35, 0), (0.35, 0.7)),
+    "right": line((-0.35, -0.7), (0.35, 0), (-0.35, 0.7)),
+    "up": line((-0.7, 0.35), (0, -0.35), (0.7, 0.35)),
+    "down": line((-0.7, -0.35), (0, 0.35), (0.7, -0.35)),
+    "plus": together(line((-0.8, 0), (0.8, 0)), line((0, -0.8), (0, 0.8))),
+    "cross": together(line((-0.6, -0.6), (0.6, 0.6)), line((-0.6, 0.6), (0.6, -0.6))),
+    "circle": ring(0.62),
+    "square": line((-0.56, -0.56), (0.56, -0.56), (0.56, 0.56), (-0.56, 0.56), closed=True),
+    "triangle": line((0, -0.76), (0.7, 0.46), (-0.7, 0.46), closed=True),
+    "clock": together(ring(0.88), line((0, -0.5), (0, 0), (0.38, 0.22))),
     "shoot": _shoot,
-    "ahead": _ahead,
-    "behind": _behind,
-    "turn_left": _turn_left,
-    "turn_right": _turn_right,
-    "stay": _stay,
-    "unknown": _unknown,
+    "ahead": partial(_arrow, up=1.0),
+    "behind": partial(_arrow, up=-1.0),
+    "turn_left": partial(_hook, side=-1.0),
+    "turn_right": partial(_hook, side=1.0),
+    "stay": together(*(line((x, -0.6), (x, 0.6)) for x in (-0.34, 0.34))),
+    "unknown": together(*(dot(x, 0, 0.17) for x in (-0.6, 0.0, 0.6))),
     "oil": _oil,
     "list": _list,
-    "play": _play,
-    "faster": _faster,
-    "fastest": _fastest,
-    "wheel": _wheel,
+    "play": fill((-0.45, -0.66), (0.55, 0.0), (-0.45, 0.66)),
+    "faster": together(*(fill((x, -0.66), (x + 0.85, 0.0), (x, 0.66)) for x in (-0.85, 0.0))),
+    "fastest": together(*(fill((x, -0.6), (x + 0.66, 0.0), (x, 0.6)) for x in (-0.95, -0.32, 0.31))),
+    "wheel": together(  # of a car
+        ring(0.86),
+        dot(0, 0.06, 0.2),
+        line((-0.84, -0.06), (-0.2, 0.02)),
+        line((0.84, -0.06), (0.2, 0.02)),
+        line((0, 0.22), (0, 0.84)),
+    ),
     "point": _point,
-    "button": _button,
-    "pencil": _pencil,
+    "button": together(ring(0.92), dot(0, 0, 0.56)),
+    "pencil": together(
+        line((-0.9, 0.9), (-0.72, 0.26), (0.5, -0.96), (0.96, -0.5), (-0.26, 0.72), closed=True),
+        line((0.2, -0.66), (0.66, -0.2)),
+    ),
 }
