@@ -77,8 +77,7 @@ def _no_steps(*_: object) -> Iterator[None]:
 def _glow(_one_process_for_many_arcades: Callable[..., Any]) -> Iterator[None]:
     """Pictures as in the arcade, for tests that examine them."""
     from pigaming_app.ui.draw import glow
-    from tests.scenes.cache import empty_cache
-    from tests.scenes.measuring import forget
+    from tests.scenes.measuring import empty_cache, forget
 
     with pytest.MonkeyPatch.context() as patch, empty_cache():
         patch.setattr(glow, "add_glow", _one_process_for_many_arcades)
@@ -100,7 +99,7 @@ def _the_same_seeds_in_every_run(request: pytest.FixtureRequest, monkeypatch: py
 def _cache_as_in_the_arcade() -> Iterator[None]:
     """An empty surface cache with its own budget, released after a match: for tests of memory."""
     from pigaming_app.ui.draw.surface_cache import BUDGET, SurfaceCache, surfaces
-    from tests.scenes.cache import empty_cache
+    from tests.scenes.measuring import empty_cache
 
     with empty_cache(), pytest.MonkeyPatch.context() as patch:
         patch.setattr(surfaces, "budget", BUDGET)
@@ -112,7 +111,7 @@ def _cache_as_in_the_arcade() -> Iterator[None]:
 @pytest.fixture(scope="module")
 def _cache_of_its_own() -> Iterator[None]:
     """A surface cache for a module whose tests damage what it holds."""
-    from tests.scenes.cache import empty_cache
+    from tests.scenes.measuring import empty_cache
 
     with empty_cache():
         yield

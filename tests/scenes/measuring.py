@@ -19,8 +19,8 @@ from pigaming_app.ui.draw import glow
 from pigaming_app.ui.draw.frame_budget import Steps
 from pigaming_app.ui.draw.glow import GlowCanvas, LayeredCanvas
 from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.draw.theme import CAPITALS, line_width
-from tests.scenes.cache import empty_cache
 
 SAFE = pygame.Rect(60, 16, 1800, 1048)  # slightly more than the safe area of menus: prompts may lie in its margin
 Painting = Callable[..., Steps[pygame.Surface]]
@@ -80,6 +80,24 @@ class Screen(pygame.Surface):
     def frames(self) -> list[Mark]:
         """The outlines."""
         return list(dict.fromkeys(_rounded(mark) for mark in self.marks if not mark.text))
+
+
+@contextmanager
+def empty_cache() -> Iterator[None]:
+    """An empty surface cache in this scope. Afterwards it holds what it held before, and nothing drawn in the scope."""
+    tables = {id(entry.table): entry.table for entry in surfaces._order}
+    parts: list[dict[Any, Any]] = [surfaces._order, surfaces._holders, *tables.values()]
+    kept, size = [part.copy() for part in parts], surfaces.bytes
+    for part in parts:
+        part.clear()
+    surfaces.bytes = 0
+    try:
+        yield
+    finally:
+        surfaces.clear()
+        for part, before in zip(parts, kept, strict=True):
+            part.update(before)
+        surfaces.bytes = size
 
 
 @contextmanager

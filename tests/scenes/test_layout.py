@@ -21,8 +21,7 @@ from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.button_prompts import type_size
 from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade
-from tests.scenes.cache import empty_cache
-from tests.scenes.measuring import Mark, faults, forget, leave_black, measuring
+from tests.scenes.measuring import Mark, empty_cache, faults, forget, leave_black, measuring
 from tests.scenes.screens import SCREENS, seats
 
 # Capitals of 25 px, type of 36 px: legible at three metres.

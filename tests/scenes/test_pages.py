@@ -27,8 +27,7 @@ from pigaming_app.ui.widgets import player_card
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts, places
 from tests.cases import one_in
 from tests.scenes.arcade import KEYS, Arcade
-from tests.scenes.cache import empty_cache
-from tests.scenes.measuring import lit_boxes
+from tests.scenes.measuring import empty_cache, lit_boxes
 from tests.ui.input.virtual_pad import NINTENDO, PLAYSTATION
 
 SMALLEST = 0.8  # minimum scale of a text

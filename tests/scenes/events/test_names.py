@@ -23,9 +23,8 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets import setting_row
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD
 from tests.scenes.arcade import KEYS, Arcade, setup
-from tests.scenes.cache import empty_cache
 from tests.scenes.events.drawn import running
-from tests.scenes.measuring import faults, measuring
+from tests.scenes.measuring import empty_cache, faults, measuring
 
 NAMES = ("Ana", "Maximilian v. Hohenstein", "HAL", "Wolfgang Wimmersbacher")
 

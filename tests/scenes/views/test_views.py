@@ -17,7 +17,7 @@ from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT
 from pigaming_app.ui.draw.frame_budget import Unfinished, budget, run_to_end
 from pigaming_app.ui.i18n import Words
-from tests.scenes.cache import empty_cache
+from tests.scenes.measuring import empty_cache
 
 FREE = (0, 1, 2, 3)
 HUMANS = ["human"] * 4
