@@ -97,11 +97,27 @@ FRAMES = {
     "a continuation of nothing": frame(0, STATE),
     "a giant out of fragments": frame(BINARY, b"x" * 40, 0) + frame(0, b"x" * 40, 0) * 50 + frame(0, b"x" * 40),
     "fragments within a message": frame(BINARY, b"x", 0) + frame(BINARY, b"x"),
+    "a ping": frame(PING, b"x"),
     "a fragmented ping": frame(PING, b"x", 0),
     "a long ping": frame(PING, b"x" * 200),
     "an invalid closing code": frame(CLOSE, struct.pack(">H", 7)),
     "a closing reason that is not UTF-8": frame(CLOSE, struct.pack(">H", 1000) + b"\xff\xff"),
     "half a closing code": frame(CLOSE, b"\x03"),
+    "an empty frame": frame(BINARY, b""),
+    "another version": frame(BINARY, b"\x02\x00\x00\x00"),
+    "a byte too many": frame(BINARY, STATE + b"\x00"),
+    "text": frame(TEXT, b"{" * 60),
+    "a giant": frame(BINARY, b"x" * 65_000),
+    "gigabytes announced": b"\x82\xff" + (2**62).to_bytes(8, "big") + b"\0" * 4 + b"x" * 1000,
+}
+REQUESTS = {
+    "TLS": b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + b"\0" * 200,
+    "a long path": b"GET " + b"/" * 20_000 + b" HTTP/1.1\r\n\r\n",
+    "many headers": b"GET / HTTP/1.1\r\n" + b"".join(b"A%d: b\r\n" % i for i in range(500)) + b"\r\n",
+    "another HTTP": b"GET / HTTP/9.9\r\n\r\n",
+    "no path": b"OPTIONS * HTTP/1.1\r\nHost: x\r\n\r\n",
+    "zeros": b"\0" * 5000,
+    "half a chunk": b"POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n",
 }
 
 
@@ -114,6 +130,20 @@ def test_a_frame_that_no_page_sends_ends_the_connection(controls: Controls, serv
         rest(peer)
     play(lambda session: until(lambda: server.refusals.counts[REFUSED_FRAME] == 1 and not server.phones._connected))
     pressed(controls)
+    play(lambda session: still_plays(session, server, controls))
+
+
+@pytest.mark.usefixtures("quiet")
+@pytest.mark.parametrize("name", REQUESTS)
+def test_a_malformed_request_is_refused(controls: Controls, server: PhoneServer, name: str) -> None:
+    first = b""
+    with connected(server) as peer, suppress(ConnectionError):
+        peer.sendall(REQUESTS[name])
+        first = peer.recv(1000)
+    assert first[:12] in (
+        b"",
+        *(b"HTTP/1.%d %d" % answer for answer in ((1, 400), (0, 400), (1, 403), (1, 405), (0, 403))),
+    )
     play(lambda session: still_plays(session, server, controls))
 
 
