@@ -1,6 +1,6 @@
 """A plant that places robots at poses given by a test, tick by tick."""
 
-from math import atan2, tau
+from math import atan2, hypot, inf, tau
 
 from pigaming_app.games.match import Match
 from pigaming_app.games.race.course import point_at
@@ -65,3 +65,20 @@ class Ride:
         """Drive a lap, from before the robot's own line to just past it."""
         own = self.lines[seat].along
         self.along(seat, own - 30.0, own + self.course.length + 30.0, aside)
+
+
+def place_on(course, x, y):
+    """(px along a course, px beyond its edge) of its place nearest to (x, y), by force."""
+    nearest, along, beyond = inf, 0.0, 0.0
+    xs, ys, half, step = course.xs, course.ys, course.half, course.step
+    for k, (ax, ay) in enumerate(zip(xs, ys, strict=True)):
+        if abs(ax - x) > nearest + 2.0 * step or abs(ay - y) > nearest + 2.0 * step:
+            continue
+        after = (k + 1) % len(xs)
+        bx, by = xs[after], ys[after]
+        share = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)
+        share = min(1.0, max(0.0, share))
+        gap = hypot(ax + share * (bx - ax) - x, ay + share * (by - ay) - y)
+        if gap < nearest:
+            nearest, along, beyond = gap, (k + share) * step, gap - half[k] - share * (half[after] - half[k])
+    return along, beyond

@@ -10,6 +10,7 @@ from pigaming_app.games.arenas import arenas, load, parse
 from pigaming_app.games.race.circuit import Corner, course_of
 from pigaming_app.games.race.course import POINTS, CoursePosition, distance_ahead, locate, point_at
 from pigaming_app.sim.arena import ArenaError
+from tests.games.rails import place_on
 
 TRACKS = arenas("race")
 RING = (  # a ring of straights of 400 and 200 px, and quarter circles of 150 px
@@ -18,23 +19,6 @@ RING = (  # a ring of straights of 400 and 200 px, and quarter circles of 150 px
     Corner(1000, 700, 150, 160),
     Corner(300, 700, 150, 160),
 )
-
-
-def brute(course, x, y):
-    """(px inside the edge, px along) of the nearest place, by exhaustive search in steps of 0.2 px."""
-    nearest, inside, along = 1e9, 0.0, 0.0
-    for k in range(POINTS):
-        after = (k + 1) % POINTS
-        ax, ay, bx, by = course.xs[k], course.ys[k], course.xs[after], course.ys[after]
-        if hypot(ax - x, ay - y) > nearest + 20.0:
-            continue
-        for i in range(81):
-            share = i / 80
-            gap = hypot(ax + share * (bx - ax) - x, ay + share * (by - ay) - y)
-            if gap < nearest:
-                half = course.half[k] + share * (course.half[after] - course.half[k])
-                nearest, inside, along = gap, half - gap, (k + share) * course.step
-    return inside, along
 
 
 def test_a_ring_is_as_long_as_its_straights_and_arcs():
@@ -91,13 +75,13 @@ def test_locations_agree_with_exhaustive_search(track):
     on = 0
     for _ in range(250):
         x, y = random.uniform(36, 1564), random.uniform(36, 864)
-        inside, along = brute(course, x, y)
+        along, beyond = place_on(course, x, y)
         locate(course, x, y, place)
-        if abs(inside) > 0.05:
-            assert place.on == (inside > 0)
-        if inside > 0.05:
+        if abs(beyond) > 0.05:
+            assert place.on == (beyond < 0)
+        if beyond < -0.05:
             on += 1
-            assert place.half - abs(place.aside) == pytest.approx(inside, abs=0.05)
+            assert place.half - abs(place.aside) == pytest.approx(-beyond, abs=0.05)
             away = min(distance_ahead(course, along, place.along), distance_ahead(course, place.along, along))
             assert away < 0.02 * POINTS * course.step / 50, "the same place, or one as near"
     assert on > 50

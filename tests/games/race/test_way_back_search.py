@@ -5,7 +5,7 @@ geometry, and no knowledge of the rules but the order of lines, follows every dr
 """
 
 from dataclasses import dataclass, replace
-from math import atan2, hypot, inf, pi, tau
+from math import atan2, hypot, pi, tau
 from random import Random
 
 import pytest
@@ -14,7 +14,7 @@ from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
 from tests.cases import one_in
 from tests.games.race.test_laps import judged
-from tests.games.rails import IN_ORDER
+from tests.games.rails import IN_ORDER, place_on
 from tests.matches import match_of
 
 JUMP = 40.0  # px in a tick, more than any robot drives
@@ -65,28 +65,10 @@ class Referee:
     """Follows the path of one robot by geometry of its own: the course as a ring of segments, searched by force."""
 
     def __init__(self, state):
-        course = state.course
-        self.points = [(course.xs[k], course.ys[k], course.half[k]) for k in range(course.count)]
-        self.length = course.length
+        self.course, self.length = state.course, state.course.length
         self.lines = [line.along for line in state.lines]
         self.own = state.racers[0].line
         self.driven: dict[int, float] = {}  # by lines counted: furthest place past the last that it drove to, px
-
-    def along(self, x, y):
-        """Place along the course, px, and how far beyond its edge (x, y) lies, px."""
-        nearest, place = inf, 0.0
-        step = self.length / len(self.points)
-        for k, (ax, ay, half) in enumerate(self.points):
-            if abs(ax - x) > 300.0 or abs(ay - y) > 300.0:
-                continue
-            bx, by, other = self.points[(k + 1) % len(self.points)]
-            share = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)
-            share = min(1.0, max(0.0, share))
-            gap = hypot(ax + share * (bx - ax) - x, ay + share * (by - ay) - y)
-            width = half + share * (other - half)
-            if gap - width < nearest:
-                nearest, place = gap - width, (k + share) * step
-        return place, nearest
 
     def way(self, passed, along):
         """Distance from the last counted line, px; negative before it, and None between the next line and that one."""
@@ -95,14 +77,14 @@ class Referee:
         return way if way <= (following - last) % self.length + ROUNDING else None
 
     def drove(self, passed, x, y):
-        along, beyond = self.along(x, y)
+        along, beyond = place_on(self.course, x, y)
         way, driven = self.way(passed, along), self.driven.get(passed, 0.0)
         if way is not None and (beyond <= 0.0 or (beyond < BESIDE and way < driven + JUMP)):
             self.driven[passed] = max(way, driven)
 
     def put(self, passed, x, y):
         """Assert that a robot was put no further along than it had driven."""
-        along, beyond = self.along(x, y)
+        along, beyond = place_on(self.course, x, y)
         assert beyond <= 0.0
         way = self.way(passed, along)
         if way is not None:
