@@ -5,6 +5,7 @@ from random import Random
 
 import pytest
 
+from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas, load, parse
 from pigaming_app.games.race.course import point_at
 from pigaming_app.games.race.passages import passages
@@ -137,7 +138,10 @@ def test_a_race_is_driven_round_things_in_nearly_the_same_time():
 def test_every_driver_finishes_among_random_things(brain, name):
     played = 0
     for arena in playable("race", name, range(3), 6):
-        match = finished(match_of("race", [brain] * 4, arena, 4.0, variant="party", goal=2))
+        match = match_of("race", ["idle"] * 4, arena, 4.0, variant="party", goal=2)
+        for seat in range(4):
+            match.sit(seat, make_brain("race", brain, seat))
+        finished(match)
         assert [racer.finished for racer in match.state.racers] == [1] * 4
         played += 1
     assert played
