@@ -23,7 +23,7 @@ KEYS = [
     *(pygame.KSCAN_RETURN, pygame.KSCAN_ESCAPE, pygame.KSCAN_TAB, pygame.KSCAN_X, pygame.KSCAN_F4),
 ]
 A_FRAME = 4  # presses
-PRESSES_MB, ATTRACT_MB = 500.0, 400.0
+LIMIT_MB = 300.0
 REPORTS = 20
 
 
@@ -34,14 +34,14 @@ def main(arguments: Sequence[str]) -> int:
     job, *numbers = arguments or ["presses"]
     if job == "attract":
         seconds = 60.0 * float(numbers[0] if numbers else 7.0)
-        return soak(round(seconds * 30), 1 / 30, lambda: None, ATTRACT_MB)
+        return soak(round(seconds * 30), 1 / 30, lambda: None)
     count, seed = (int(number) for number in (*numbers, *("200000", "1")[len(numbers) :]))
     rng = random.Random(seed)
-    return soak(count // A_FRAME, 1 / 20, lambda: press(rng, A_FRAME), PRESSES_MB)
+    return soak(count // A_FRAME, 1 / 20, lambda: press(rng, A_FRAME))
 
 
-def soak(frames: int, step: float, act: Callable[[], None], limit: float) -> int:
-    """Run the arcade for some frames of `step` s, with `act` before each; returns 1 if it exceeds `limit` MB."""
+def soak(frames: int, step: float, act: Callable[[], None]) -> int:
+    """Run the arcade for some frames of `step` s, with `act` before each; returns 1 if it exceeds LIMIT_MB."""
     from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.start import run
 
@@ -59,7 +59,7 @@ def soak(frames: int, step: float, act: Callable[[], None], limit: float) -> int
 
     code = run(Options(headless=True, kiosk=True, step=step, should_close=over))
     print(f"at most {max(found):.1f} MB, in {process_time() - began:.0f} s of CPU; code {code}")
-    return int(code or max(found) > limit)
+    return int(code or max(found) > LIMIT_MB)
 
 
 def press(rng: random.Random, count: int) -> None:
