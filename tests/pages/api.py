@@ -50,8 +50,10 @@ def definition(module: ModuleType, name: str) -> tuple[ModuleType, ast.stmt]:
     """The module in which a name is defined, and the statement that defines it."""
     body = ast.parse(inspect.getsource(module)).body
     for one in body:
-        if isinstance(one, ast.ImportFrom) and one.module and name in {alias.name for alias in one.names}:
-            return definition(importlib.import_module(one.module), name)
+        if isinstance(one, ast.ImportFrom) and one.module:
+            names, source = {alias.name for alias in one.names}, importlib.import_module(one.module)
+            if name in names or ("*" in names and hasattr(source, name)):
+                return definition(source, name)
     return module, next(one for one in body if name in defined(one))
 
 
