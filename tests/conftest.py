@@ -53,6 +53,7 @@ def _one_process_for_many_arcades() -> Iterator[Callable[..., Any]]:
     is the function that adds it.
     """
     from pigaming_app.games import arenas
+    from pigaming_app.sim.arena import parse
     from pigaming_app.ui import memory
     from pigaming_app.ui.draw import glow
     from pigaming_app.ui.draw.surface_cache import surfaces
@@ -61,7 +62,7 @@ def _one_process_for_many_arcades() -> Iterator[Callable[..., Any]]:
     add_glow = glow.add_glow
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(glow, "add_glow", _no_steps)
-        patch.setattr(arenas, "parse_arena", lru_cache(64)(arenas.parse_arena))
+        patch.setattr(arenas, "parse_arena", lru_cache(64)(parse))
         patch.setattr(memory, "return_large_blocks", lambda: None)
         patch.setattr(surfaces, "budget", 512 << 20)
         patch.setattr(surfaces, "release_matches", lambda: None)

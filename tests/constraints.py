@@ -26,8 +26,8 @@ SYSTEMS = {  # uv's name: values of sys_platform and platform_machine
     "aarch64-apple-darwin": ("darwin", "arm64"),
     "x86_64-apple-darwin": ("darwin", "x86_64"),
 }
-UV = ("uv", "pip", "compile", "--quiet", "--only-binary=:all:", "--prerelease=disallow", "--no-python-downloads")
-UV += ("--no-header", "--no-annotate", str(PROJECT))
+UV = ("uv", "pip", "compile", "--quiet", "--only-binary=:all:", "--prerelease=disallow", "--no-python-downloads",
+      "--no-header", "--no-annotate", str(PROJECT))  # fmt: skip
 MACOS = "14.0"  # the oldest
 HEADER = "# The versions that main.py installs; renewed by `python -m tests.constraints`.\n"
 

@@ -2,10 +2,11 @@
 
 import copy
 from math import inf, nan
+from typing import Any
 
 HUGE = 10**400
-DEEP = [[[[[[[[[[]]]]]]]]]]
-VALUES = (
+DEEP: list[Any] = [[[[[[[[[[]]]]]]]]]]
+VALUES: tuple[Any, ...] = (
     None, True, False, 0, -1, 1, 2**31, 2**63, -(2**64), HUGE, -HUGE, 0.0, -0.5, 5e-324, 1e308, -1e308, inf, -inf, nan,
     "", "a" * 300, "\n\x1b[2J", "9" * 20, [], [None], [[]], [0] * 9, [1e308] * 9, [-1] * 4,
     {}, {"a": {}}, {"": [1]}, DEEP,

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import replace
 from datetime import UTC, date, datetime
+from operator import attrgetter
 from pathlib import Path
 from typing import NamedTuple
 
@@ -188,7 +189,7 @@ KINDS = {
     "drawing": Kind(write_drawing, lambda folder: len(arenas.load("pitanks", str(folder / "drawn.toml")).walls), 11),
     "day log": Kind(
         lambda folder: DayLog(folder).add(PlayedMatch(datetime(2026, 11, 24, 12), "race", 61.5, 2, 1)),
-        lambda folder: [(one.game, one.seconds, one.people) for one in read_day(folder, date(2026, 11, 24))[0]],
+        lambda folder: [*map(attrgetter("game", "seconds", "people"), read_day(folder, date(2026, 11, 24))[0])],
         [("race", 61.5, 2)],
     ),
     "restarts": Kind(

@@ -35,7 +35,7 @@ from pigaming_app.games.factory import layout as floor
 from pigaming_app.games.factory import pedestrians as walker
 from pigaming_app.games.factory import rules as factory_rules
 from pigaming_app.games.factory import stars, state
-from pigaming_app.games.factory.start import FactoryRules as FactoryRules
+from pigaming_app.games.factory.state import FactoryRules as FactoryRules
 from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks import state as pitanks
 from pigaming_app.games.race import circuit, furniture, party, passages, recovery
@@ -129,8 +129,8 @@ def in_code(row):
         game = games()[GAME_OF[row.section]]
         return attrgetter(path)(game.variants[row.column] if row.column else game.default)
     if root in ("Rules", "Game"):
-        game = GAME_OF[row.section]
-        return attrgetter(path)(match_of(game, row.column or None).state.rules if root == "Rules" else games()[game])
+        name = GAME_OF[row.section]
+        return attrgetter(path)(match_of(name, row.column or None).state.rules if root == "Rules" else games()[name])
     found = [getattr(module, row.name) for module in CONSTANTS[row.section] if hasattr(module, row.name)]
     if not found:
         raise KeyError(row.name)

@@ -16,14 +16,14 @@ from pigaming_app.games.game import ALONE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.sim.record import digest, numbers
-from pigaming_app.sim.things.spec import ThingSpec, written
+from pigaming_app.sim.things.spec import ThingSpec, Use, written
 from tests.cases import one_in
 
 SQUARE = ((0.0, 0.0), (50.0, 0.0), (50.0, 50.0), (0.0, 50.0))
 EVERY_VARIANT = [(game, variant) for game, rules in games().items() for variant in rules.variants]
 EVERY_ARENA = [(game, arena) for game in games() for arena in arenas(game)]
 THINGS = {
-    game: [ThingSpec(use, tuple((x + u, y + v) for u, v in SQUARE), 4.0) for use, x, y in things]
+    game: [ThingSpec(Use(use), tuple((x + u, y + v) for u, v in SQUARE), 4.0) for use, x, y in things]
     for game, things in {
         "pitanks": (("wall", 300, 450), ("mud", 800, 640), ("line", 500, 300)),
         "factory": (("wall", 800, 380), ("mud", 420, 120), ("line", 500, 800)),
@@ -173,7 +173,7 @@ def test_every_match_draws_headless_and_drawing_changes_nothing(game, arena):
     pygame.font.init()
     screen = pygame.display.set_mode((1920, 1080))
     match = Match(setup(game, arena))
-    scene = SCREENS[game].view(match.arena, match.state, ["level1", "random", "random", "random"], AllEffects())
+    scene = SCREENS[game].view(match.arena, match.state, ["level1", "random", "random", "random"], AllEffects(), None)
     for seat in range(4):
         match.sit(seat, make_brain(game, "random", seat))
     screen.fill((1, 2, 3))

@@ -30,6 +30,7 @@ from pigaming_app.hardware import recordings as runs
 from pigaming_app.hardware.calibration import ground_plane as ground
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError
 from pigaming_app.hardware.recordings import RecordingError
+from pigaming_app.hardware.run_writer import FORMAT
 from pigaming_app.hardware.session.store import load as load_calibration
 from pigaming_app.hardware.session.store import load_robots
 from pigaming_app.hardware.sysid.evaluate import RecordingTooShort, measure
@@ -117,7 +118,7 @@ def test_calibrations(tmp_path):
 
 def run_lines(count):
     """A run with this many commands to one robot and sightings of it."""
-    lines = [{"kind": "head", "format": runs.FORMAT, "mm": 1.3, "emulated": True}]
+    lines: list[dict[str, object]] = [{"kind": "head", "format": FORMAT, "mm": 1.3, "emulated": True}]
     chance = random.Random(3)
     for i in range(count):
         wheels = [chance.uniform(-0.3, 0.3), chance.uniform(-0.3, 0.3)]
@@ -265,7 +266,7 @@ def test_tables(tmp_path):
     with np.load(shipped) as file:
         head, q, n = json.loads(str(file["head"])), file["q"], file["n"]
     used = 0
-    values = [None, True, -1, HUGE, 2**63, 1e308, float("nan"), "", "\n" * 300, [], {}]
+    values: list[object] = [None, True, -1, HUGE, 2**63, 1e308, float("nan"), "", "\n" * 300, [], {}]
     for one in random.Random(2).sample(list(mutated(head, values)), 60):
         path.write_bytes(forged_table(json.loads(json.dumps(one)), q, n))
         used += refused_or_used(lambda: load_table(path), TableError)

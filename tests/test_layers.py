@@ -111,14 +111,14 @@ def check_layer(path):
 def graph():
     """The modules of the package and what each imports of it, late imports included."""
     names = {name_of(path): path for path in FILES}
-    found = {name: set() for name in names}
+    found: dict[str, set[str]] = {name: set() for name in names}
     for name, path in names.items():
         for node, _ in nodes(path):
             if isinstance(node, ast.Import):
                 found[name] |= {alias.name for alias in node.names} & names.keys()
             elif isinstance(node, ast.ImportFrom):
                 inner = {alias.name: f"{node.module}.{alias.name}" for alias in node.names}
-                found[name] |= {inner[one] if inner[one] in names else node.module for one in inner} & names.keys()
+                found[name] |= {inner[one] if inner[one] in names else str(node.module) for one in inner} & names.keys()
             elif isinstance(node, ast.Constant) and isinstance(node.value, str):
                 found[name] |= {node.value} & names.keys()  # imported by name
         found[name].discard(name)
@@ -140,7 +140,7 @@ def circle(arrows):
 
 def within(folder):
     """The folders and modules in a folder, and which imports which; its `__init__` is no part of it."""
-    arrows = {}
+    arrows: dict[str, set[str]] = {}
     for name, others in graph().items():
         if unit := unit_of(name, folder):
             found = {unit_of(other, folder) for other in others} - {None, unit}

@@ -68,8 +68,9 @@ def environment(folder, wheel):
     required.mkdir(parents=True)
     for one in requirements([ARCADE]):
         distribution = metadata.distribution(one.partition(">")[0])
+        assert distribution.files
         for name in {file.parts[0] for file in distribution.files} - {"..", "__pycache__"}:
-            (required / name).symlink_to(Path(distribution.locate_file(name)))
+            (required / name).symlink_to(str(distribution.locate_file(name)))
     (site_packages(place) / "required.pth").write_text(f"{required}\n")
     command = [python_of(place), "-m", "pip", "install", "-q", "--no-deps", "--no-index", wheel]
     subprocess.run(command, env=surroundings(folder), check=True)
@@ -120,8 +121,9 @@ def test_the_metadata_of_the_wheel_are_complete(wheel):
         data = message_from_bytes(file.read(name))
     assert data["Author"] == "The PiGaming developers"
     assert data["License-Expression"] == "MIT"
-    assert {*data.get_all("Classifier")} <= classifiers
-    spoken = {line.rpartition(" :: ")[2] for line in data.get_all("Classifier") if line.startswith("Natural")}
+    named = data.get_all("Classifier", [])
+    assert {*named} <= classifiers
+    spoken = {line.rpartition(" :: ")[2] for line in named if line.startswith("Natural")}
     assert spoken == {"English", "Portuguese", "Spanish", "French", "German"}
     assert data["Keywords"]
 
@@ -148,7 +150,7 @@ def test_the_wheel_declares_version_extras_and_program(environment):
     assert installed.version == pigaming_app.__version__
     extras = {"train", "bench", "hardware", "gym", "onnx", "ray", "plots", "sounds", "pictures", "test"}
     extras |= {"bundle", "events", "phones"}
-    assert set(installed.metadata.get_all("Provides-Extra")) == extras
+    assert set(installed.metadata.get_all("Provides-Extra", [])) == extras
     assert {(point.group, point.name, point.value) for point in installed.entry_points} == {
         ("console_scripts", "pigaming", "pigaming_app.jobs.cli:main"),
         ("pigaming.games", "football", "pigaming_football"),

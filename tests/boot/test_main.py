@@ -20,9 +20,9 @@ from pigaming_app.boot import environment as install
 from pigaming_app.boot import fetch, interpreter, start
 
 ROOT = Path(__file__).resolve().parents[2]
-BARE = sys._base_executable
-FILES = ("main.py", "pyproject.toml", "constraints.txt", "pigaming_app/__init__.py", "pigaming_app/boot/__init__.py")
-FILES += tuple(f"pigaming_app/boot/{name}.py" for name in ("start", "interpreter", "environment", "fetch", "version"))
+BARE = sys._base_executable  # type: ignore[attr-defined]  # private; not that of the environment
+BOOT = [f"boot/{name}" for name in ("__init__", "start", "interpreter", "environment", "fetch", "version")]
+FILES = ("main.py", "pyproject.toml", "constraints.txt", *[f"pigaming_app/{name}.py" for name in ("__init__", *BOOT)])
 EVERY = ("pygame_ce-2.5.9", "numpy-2.3.1", "platformdirs-4.3.0", "tomli_w-1.2.0", "msgspec-0.20.0", "networkx-3.6")
 JOB = """
 import sys
@@ -229,7 +229,7 @@ def test_offline_the_remedy_is_reported_and_nothing_is_lost(clone):
 
 
 def test_without_the_venv_module_its_package_is_named(tmp_path, monkeypatch):
-    monkeypatch.setattr(install.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     with pytest.raises(interpreter.StartError, match="apt install python3-venv"):
         install.create(tmp_path / "venv")
 
@@ -295,7 +295,7 @@ def test_a_disk_that_fills_up_under_the_stamp_leaves_the_groups_uninstalled(furn
     def full(descriptor):
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr(install.os, "fsync", full)
+    monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(interpreter.StartError, match="the disk is full"):
         install.install(place, {interpreter.ARCADE, "train"})
     assert interpreter.installed_groups(place) == set()

@@ -20,6 +20,7 @@ def league(**changes):
 @pytest.mark.parametrize("game", OURS)
 def test_the_shipped_ratings_name_all_levels(game):
     ratings, problems = ratings_of(game, [ASSETS / "brains"])
+    assert ratings
     assert problems == []
     assert {*LEVELS} <= {one.brain for one in ratings.strengths} <= {*BRAINS[game]}
 
@@ -30,10 +31,12 @@ def test_the_best_stands_first_and_the_first_folder_counts(tmp_path):
         (tmp_path / folder / file_name("race")).write_text(json.dumps(league(matches=matches)), encoding="utf-8")
     folders = [tmp_path / "none", tmp_path / "own", tmp_path / "shipped"]
     ratings, problems = ratings_of("race", folders)
+    assert ratings
     assert (ratings.matches, [one.brain for one in ratings.strengths]) == (40, ["level5", "level2"])
     assert ratings.strengths[1].low == -80.0
     (tmp_path / "own" / file_name("race")).write_bytes(b'{"game": ')
     ratings, problems = ratings_of("race", folders)
+    assert ratings
     assert ratings.matches == 200
     assert len(problems) == 1
     assert "\n" not in problems[0]

@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+from collections.abc import Sequence
 from itertools import cycle
 from pathlib import Path
 
@@ -22,7 +23,7 @@ WOVEN = {"events", "phones", "kiosk", "mat"}  # offer more than a tile
 NEEDED_BY = {"events": {"events", "ladder"}, "learning": {"lab"}, "brain": {"lab"}}
 
 
-def without(rooms: tuple[str, ...], home: Path, *words: str) -> "subprocess.CompletedProcess[str]":
+def without(rooms: Sequence[str], home: Path, *words: str) -> "subprocess.CompletedProcess[str]":
     """What a process prints that has no such rooms."""
     return subprocess.run(
         [sys.executable, "-X", "pigaming", "-W", "error", "-m", "tests.features.without", *rooms, "--", *words],

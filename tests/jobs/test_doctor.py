@@ -1,8 +1,10 @@
 """The doctor reports missing parts with advice, never raises, and does not wait for hanging drivers."""
 
 import json
+import shutil
 import subprocess
 import sys
+import tempfile
 from types import SimpleNamespace
 
 import pytest
@@ -30,7 +32,7 @@ def _probed(monkeypatch, home):
 def answer(monkeypatch, *lines):
     """Make the probe print this."""
     output = "".join(json.dumps(line) + "\n" for line in lines).encode()
-    monkeypatch.setattr(doctor.subprocess, "run", lambda *_, **__: SimpleNamespace(stdout=output))
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: SimpleNamespace(stdout=output))
 
 
 def line(what):
@@ -72,7 +74,7 @@ def test_a_driver_that_hangs_costs_only_its_own_lines(monkeypatch):
             "probe", timeout, output=b'["pygame", "pygame-ce 2.5.8", ""]\n["displays", "one'
         )
 
-    monkeypatch.setattr(doctor.subprocess, "run", hang)
+    monkeypatch.setattr(subprocess, "run", hang)
     assert line("pygame").state == "ok"
     assert line("displays").found == "its driver did not answer"
 
@@ -117,14 +119,14 @@ def test_folders_that_cannot_be_written_are_named_and_none_is_made(monkeypatch, 
     def refuse(dir):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(doctor.tempfile, "TemporaryFile", refuse)
+    monkeypatch.setattr(tempfile, "TemporaryFile", refuse)
     assert line("scores").state == "note"
     assert "nothing will be kept" in line("scores").advice
 
 
 @pytest.mark.parametrize(("free", "state"), [(199_999_999, "note"), (2_000_000_000, "ok")])
 def test_free_space_is_named_and_below_200_mb_a_finding(free, state, monkeypatch):
-    monkeypatch.setattr(doctor.shutil, "disk_usage", lambda _: SimpleNamespace(free=free))
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(free=free))
     found = line("free space")
     assert (found.state, found.found.partition(" for ")[0]) == (state, f"{free // 1_000_000:,} MB")
     assert bool(found.advice) == (state == "note")
@@ -136,12 +138,13 @@ def test_a_broken_engine_is_a_problem(monkeypatch):
 
 
 def test_a_broken_arena_is_named(monkeypatch):
-    import pigaming_app.games.arenas as arena
+    from pigaming_app.games import arenas
+    from pigaming_app.sim.arena import ArenaError
 
     def broken(_game, name):
-        raise arena.ArenaError(f"{name}.toml: walls[0].ax: not a number")
+        raise ArenaError(f"{name}.toml: walls[0].ax: not a number")
 
-    monkeypatch.setattr(arena, "load", broken)
+    monkeypatch.setattr(arenas, "load", broken)
     lines = [one for one in doctor.report() if one.what == "arena"]
     assert lines
     assert "walls[0].ax" in lines[0].found

@@ -9,7 +9,6 @@ coarse grid before it is encoded. The same program renders the same frames; nobo
 import base64
 import json
 import os
-import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from functools import cache
@@ -24,7 +23,8 @@ from pigaming_app.ai.registry import BRAINS, new_match
 from pigaming_app.games.match import Match
 from pigaming_app.games.setup import make_setup
 from pigaming_app.hardware.control.rig import Rig
-from pigaming_app.scenes.lab.progress import PETALS, TrainingProgress
+from pigaming_app.scenes.brain.rose import PETALS
+from pigaming_app.scenes.lab.progress import TrainingProgress
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.robots.marker_discs import MarkerDiscs
@@ -196,4 +196,4 @@ if __name__ == "__main__":
         os.environ["PIGAMING_HOME"] = home
         pygame.display.init()
         pygame.display.set_mode((1920, 1080))
-        sys.exit(main())
+        main()

@@ -35,6 +35,7 @@ from tests.pages.commands import ROOT
 from tests.pages.stand_ins import EMULATED, LIMITS, MINUTES, WITHOUT_ROBOTS
 
 ENTRANTS = "AAA=level1,BBB=idle,CCC=random"
+EVENT = ("--game", "pitanks", "--format", "roundrobin", "--entrants", ENTRANTS)
 FILES: dict[str, Callable[[Path], object]] = {  # that a page takes for granted, made where it names them
     "mine.npz": lambda file: file.write_bytes(encode(random_network(1, "pitanks"))),
     "racer.npz": lambda file: file.write_bytes(encode(random_network(1, "race"))),
@@ -45,7 +46,6 @@ FILES: dict[str, Callable[[Path], object]] = {  # that a page takes for granted,
     "cup.json": lambda file: cli.main(["event", "new", str(file), *EVENT]),
     "match.replay": lambda file: cli.main(["play", *["--seats", "idle,idle", "--headless", "--record"], str(file)]),
 }
-EVENT = ("--game", "pitanks", "--format", "roundrobin", "--entrants", ENTRANTS)
 
 
 class Accepted(BaseException):
@@ -160,7 +160,8 @@ def shorten_matches(patch: pytest.MonkeyPatch) -> None:
     """Let matches of the usual length last for MINUTES."""
     for game in games().values():
         for name, rules in [*game.variants.items()]:
-            patch.setitem(game.variants, name, replace(rules, default_minutes=MINUTES))
+            short = replace(rules, default_minutes=MINUTES)  # type: ignore[arg-type]  # less than any choice
+            patch.setitem(game.variants, name, short)
 
 
 def shorten_trainings(patch: pytest.MonkeyPatch) -> None:

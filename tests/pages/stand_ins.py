@@ -57,7 +57,7 @@ PLACEHOLDERS = (
 )
 
 MINUTES = 0.05  # of every match
-LIMITS = {  # of parsed arguments, by the end of the program's name: the same work, less of it
+LIMITS: dict[str, dict[str, object]] = {  # of parsed arguments, by the end of the program's name: less work
     "play": {"minutes": MINUTES, "at": 1.0},
     "duel": {"minutes": MINUTES, "matches": 2},
     "league": {"minutes": MINUTES, "matches": 2, "brains": 3},

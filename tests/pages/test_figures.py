@@ -87,7 +87,7 @@ def outline(text: str) -> tuple[list[str], list[str], set[int]]:
 
 
 def test_every_block_of_a_page_is_registered() -> None:
-    known = {(block.page, name) for name, block in {**DERIVED, **MEASURED}.items()}
+    known = {(one.page, name) for name, one in DERIVED.items()} | {(one.page, name) for name, one in MEASURED.items()}
     found = set()
     for page in PAGES:
         text = page.read_text(encoding="utf-8")

@@ -62,7 +62,8 @@ class Arcade:
         self.screen, self.sounds = canvas.screen, Noted()
         self.context = Context(Settings(), Scores(), Words(language), controls, self.sounds, canvas)
         self.pads: list[VirtualPad] = []
-        self.title, self.setup = Floor(), Floor()
+        self.title: Scene = Floor()
+        self.setup: Scene = Floor()
         self.stack = Stack(self.title)
         self.stack.scenes.append(self.setup)
 

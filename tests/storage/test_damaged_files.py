@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -78,9 +79,16 @@ TEXTS = {
     "no number": "format = true\n",
     "another file": "[pitanks]\n",
 }
+
+
+def huge(path: Path) -> None:
+    path.touch()
+    os.truncate(path, 100_000_000)
+
+
 DAMAGES: dict[str, Callable[[Path], object]] = {
-    **{name: (lambda path, text=text: path.write_text(text, errors="surrogateescape")) for name, text in TEXTS.items()},
-    "100 MB": lambda path: (path.touch(), os.truncate(path, 100_000_000)),
+    **{name: partial(Path.write_text, data=text, errors="surrogateescape") for name, text in TEXTS.items()},
+    "100 MB": huge,
     "a folder": Path.mkdir,
     "a pipe": os.mkfifo if hasattr(os, "mkfifo") else Path.mkdir,
 }

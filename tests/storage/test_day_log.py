@@ -20,6 +20,7 @@ from pigaming_app.storage.day_log import (
     DayLog,
     PlayedMatch,
     ProgramEvent,
+    Record,
     days,
     now,
     parse_line,
@@ -36,7 +37,7 @@ def at(hour: int, minute: int = 0) -> datetime:
 
 
 MATCH = PlayedMatch(at(14, 3), "pitanks", 180.0, 2, 2, "emulated")
-RECORDS = [ProgramEvent(at(9), "start"), MATCH, Battery(at(14, 6), 3, 4.62), ProgramEvent(at(18), "end")]
+RECORDS: list[Record] = [ProgramEvent(at(9), "start"), MATCH, Battery(at(14, 6), 3, 4.62), ProgramEvent(at(18), "end")]
 
 
 def test_records_come_back_as_they_were_added(tmp_path: Path) -> None:
@@ -150,7 +151,7 @@ def played(hour: int, game: str = "pitanks", seconds: float = 60.0, complete: bo
 
 
 def test_the_figures_of_a_day() -> None:
-    records = [
+    records: list[Record] = [
         ProgramEvent(at(9), "start"),
         played(10),
         played(14, "race", 120.0),
@@ -190,7 +191,7 @@ A, B, C = "a1", "b2", "c3"
 
 
 def test_arcades_that_overlap_are_no_crashes() -> None:
-    records = [
+    records: list[Record] = [
         ProgramEvent(at(9), "start", A),
         ProgramEvent(at(10), "start", B),
         replace(played(10), arcade=A),
@@ -209,7 +210,7 @@ def test_arcades_that_overlap_are_no_crashes() -> None:
 
 
 def test_the_crash_of_one_of_two_is_counted_once_and_with_its_last_record() -> None:
-    records = [
+    records: list[Record] = [
         ProgramEvent(at(9), "start", A),
         ProgramEvent(at(9, 30), "start", B),
         replace(played(11, seconds=600.0), arcade=A),

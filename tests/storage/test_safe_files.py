@@ -104,6 +104,7 @@ def test_a_killed_process_leaves_a_complete_file_and_its_temporary_file_is_delet
     left = 0
     for _ in range(6):
         with subprocess.Popen([sys.executable, "-c", WRITER, path], cwd=ROOT, stdout=subprocess.PIPE) as writer:
+            assert writer.stdout
             assert writer.stdout.readline() == b"begun\n"
             time.sleep(chance.uniform(0.0, 0.03))
             writer.kill()

@@ -141,7 +141,7 @@ def bare_decimals(module: ast.AST, formatters: set[str], localised: bool = False
             continue  # F3, calibration projections and log reasons: not shown to players
         if isinstance(node, ast.FormattedValue) and not localised and decimals(node):
             yield node.lineno
-        if called(node) in formatters and not localised:
+        if isinstance(node, ast.Call) and called(node) in formatters and not localised:
             yield node.lineno
         inside = called(node) in ("counted", "decimal", "words") or name in FORMATTERS
         yield from bare_decimals(node, formatters, localised or inside)

@@ -103,7 +103,9 @@ def every_pairing(left: list[int]) -> Iterator[list[tuple[int, int]]]:
             yield [(left[0], other), *rest]
 
 
-def merits(found: list[tuple[int, int]], score: list[float], met: dict[tuple[int, int], int], byes: list[int]) -> tuple:
+def merits(
+    found: list[tuple[int, int]], score: list[float], met: dict[tuple[int, int], int], byes: list[int]
+) -> tuple[int, ...]:
     """The criteria of docs/events.md, less is better. The place behind the last one is a bye."""
     opponent = dict(found) | {other: one for one, other in found}
     bye = len(score)

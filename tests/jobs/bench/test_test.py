@@ -1,33 +1,41 @@
 """The job `test`: selection of tools and tests by its options, and its exit code."""
 
+import os
 import subprocess
+from dataclasses import dataclass, field
 from unittest.mock import MagicMock
 
 import pytest
 
+from pigaming_app import ROOT
 from pigaming_app.jobs.bench import test as checks
 from pigaming_app.jobs.cli import main
 
 EVERYTHING = {"pytest", "ruff", "mypy"}
 
 
-@pytest.fixture
-def started(monkeypatch):
+@dataclass
+class Started:
     """The arguments of every started process; a process named in `failing` fails."""
-    seen = []
 
-    def start(words, output=None):
+    failing: tuple[str, ...] = ()
+    seen: list[tuple[str, ...]] = field(default_factory=list)
+
+    def __call__(self, words, output=None):
         assert output == (None if words[0] == "pytest" else subprocess.PIPE)
-        seen.append(tuple(words))
-        process = MagicMock(pid=0, returncode=int(words[0] in start.failing))
+        self.seen.append(tuple(words))
+        process = MagicMock(pid=0, returncode=int(words[0] in self.failing))
         process.__enter__.return_value = process
         process.wait.return_value = process.returncode
         process.communicate.return_value = b"line 7 is too long\n" * process.returncode, None
         return process
 
-    start.failing, start.seen = (), seen
+
+@pytest.fixture
+def started(monkeypatch):
+    start = Started()
     monkeypatch.setattr(checks, "_python", start)
-    monkeypatch.setattr(checks.os, "setpriority", lambda *_: None, raising=False)
+    monkeypatch.setattr(os, "setpriority", lambda *_: None, raising=False)
     return start
 
 
@@ -54,7 +62,7 @@ def test_named_files_are_tried_instead_of_all_unit_tests(started):
 
 
 def test_all_unit_tests_that_are_named_are_there():
-    assert all((checks.ROOT / unit).exists() for unit in checks.UNITS)
+    assert all((ROOT / unit).exists() for unit in checks.UNITS)
 
 
 @pytest.mark.parametrize("tool", ["pytest", "ruff", "mypy"])

@@ -3,6 +3,7 @@
 import errno
 import os
 import subprocess
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -56,7 +57,7 @@ def test_a_disk_that_fills_up_under_the_builder_is_one_line(
         return subprocess.CompletedProcess(command, 1, "", f"Traceback (most recent call last):\n  x\n{last_line}\n")
 
     monkeypatch.setattr(bundle, "require", lambda extra: None)
-    monkeypatch.setattr(build.subprocess, "run", full)
+    monkeypatch.setattr(subprocess, "run", full)
     assert says in refused_build(tmp_path, capsys)
     assert not list(tmp_path.iterdir()), "what was begun is gone"
 
@@ -82,7 +83,7 @@ def test_a_disk_that_refuses_is_one_line_and_the_older_bundle_stays(
     monkeypatch.setattr(bundle, "require", lambda extra: None)
     monkeypatch.setattr(build, "_run_pyinstaller", built)
     if at == "begin":
-        monkeypatch.setattr(build.tempfile, "TemporaryDirectory", refuse)
+        monkeypatch.setattr(tempfile, "TemporaryDirectory", refuse)
     elif at == "picture":
         monkeypatch.setattr(build, "png", lambda size: refuse())
     else:

@@ -22,8 +22,8 @@ from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.jobs.bundle.build import is_bundle
 
 MAX_BYTES = 450_000_000
-C_LIBRARIES = ("c.so.6", "m.so.6", "dl.so.2", "pthread.so.0", "rt.so.1", "util.so.1", "resolv.so.2")
-C_LIBRARIES += ("z.so.1",)  # which PyInstaller's program needs before it reads its own
+C_LIBRARIES = ("c.so.6", "m.so.6", "dl.so.2", "pthread.so.0", "rt.so.1", "util.so.1", "resolv.so.2",
+               "z.so.1")  # which PyInstaller's program needs before it reads its own  # fmt: skip
 ENVIRONMENT = {"SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy", "PIGAMING_HOME": "/home"}
 TITLE = 2.0  # s until the first picture of the title is drawn, as time of a core: other tests run beside
 AS_FAST = 1.25  # times the clone's own

@@ -1,7 +1,9 @@
 """The bundle without building it: its icons, its files, and what it never replaces."""
 
 import io
+import runpy
 import struct
+import sys
 import tomllib
 from importlib.util import cache_from_source
 from pathlib import Path
@@ -79,10 +81,10 @@ def test_the_desktop_entry_starts_the_program_beside_it() -> None:
 
 def test_a_bundle_starts_itself_and_its_own_modules_only(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(command, "FROZEN", True)
-    assert command.own_command(["--kiosk"]) == [command.sys.executable, "--kiosk"]
+    assert command.own_command(["--kiosk"]) == [sys.executable, "--kiosk"]
     ran = []
-    monkeypatch.setattr(bundled.runpy, "run_module", lambda name, **_: ran.append((name, list(bundled.sys.argv))))
-    monkeypatch.setattr(bundled.sys, "argv", ["pigaming"])
+    monkeypatch.setattr(runpy, "run_module", lambda name, **_: ran.append((name, list(sys.argv))))
+    monkeypatch.setattr(sys, "argv", ["pigaming"])
     assert bundled.run_module(["-m", "pigaming_app.ui.probe", "x"])
     assert ran == [("pigaming_app.ui.probe", ["pigaming_app.ui.probe", "x"])]
     for words in ([], ["-m"], ["-m", "os"], ["--kiosk"], ["play", "-m", "pigaming_app.jobs.cli"]):

@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 
@@ -41,7 +42,7 @@ def cup() -> Event:
 
 
 @pytest.fixture
-def output(capsys) -> Callable[..., str]:
+def output(capsys: pytest.CaptureFixture[str]) -> Callable[..., str]:
     """A function that returns what a job prints, which has nothing to complain of."""
 
     def of(*words: str) -> str:
@@ -72,11 +73,11 @@ def test_without_headless_the_arcade_opens_on_the_next_match(monkeypatch, contro
     from pigaming_app.scenes.events.next_page import NextMatch
     from tests.scenes.arcade import Arcade
 
-    opened = []
-    monkeypatch.setattr(arcade, "show", lambda options: opened.append(options) or 0)
+    show = Mock(return_value=0)
+    monkeypatch.setattr(arcade, "show", show)
     assert new("--game", "pitanks") == 0
     assert main(["event", "run", "cup.json"]) == 0
-    page = opened[0].first_scene(Arcade(controls).context)
+    page = show.call_args.args[0].first_scene(Arcade(controls).context)
     assert isinstance(page, NextMatch)
     assert page.running.path == Path("cup.json")
 
@@ -186,17 +187,18 @@ def test_in_a_kiosk_the_supervisor_marks_the_event_and_the_arcade_opens_what_is_
     from pigaming_app.jobs.terminal import supervised as child
     from pigaming_app.storage.settings import folders
 
-    shown, commands = [], []
-    monkeypatch.setattr(arcade, "show", lambda options: shown.append(options) or 0)
-    monkeypatch.setattr(arcade, "supervised", lambda arguments: commands.append(arguments.words) or 0)
+    show, supervised = Mock(return_value=0), Mock(return_value=0)
+    monkeypatch.setattr(arcade, "show", show)
+    monkeypatch.setattr(arcade, "supervised", supervised)
     assert new() == 0
     words = ["event", "run", "cup.json", "--kiosk", "--display", "2"]
     assert main(words) == 0
-    assert commands == [tuple(words)]
+    assert [call.args[0].words for call in supervised.call_args_list] == [tuple(words)]
     assert resume.marked(folders().data) == Path("cup.json").absolute()
     monkeypatch.setenv(child.VARIABLE, "a file")
     assert main(words) == 0
-    assert (shown[0].kiosk, shown[0].display, shown[0].first_scene) == (True, 1, None)
+    shown = show.call_args.args[0]
+    assert (shown.kiosk, shown.display, shown.first_scene) == (True, 1, None)
     assert main([*words, "--headless"]) == 2
 
 

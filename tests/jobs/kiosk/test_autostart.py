@@ -12,16 +12,16 @@ from pathlib import Path
 
 import pytest
 
+from pigaming_app import ROOT
 from pigaming_app.jobs.cli import main
 from pigaming_app.jobs.kiosk import autostart
-from pigaming_app.jobs.terminal import command
 
 COMMAND = ["/opt/my 100%/py", '/home/a b/$HOME/`x`/q"uote\\/main.py', "--kiosk"]
 
 
 def exec_words(text: str) -> list[str]:
     """The words of a key Exec, as a desktop reads them."""
-    value = re.search(r"^Exec=(.*)$", text, re.M)[1]
+    value = re.findall(r"^Exec=(.*)$", text, re.M)[0]
     value = value.replace("\\\\", "\\").replace("%%", "%")
     return [re.sub(r"\\(.)", r"\1", word) for word in re.findall(r'"((?:[^"\\]|\\.)*)"', value)]
 
@@ -121,7 +121,7 @@ def test_the_entry_starts_a_kiosk_with_these_options(user: Path, capsys: pytest.
     words = exec_words(user.read_text())
     assert words[0] == "/usr/bin/env", "PIGAMING_HOME of all tests"
     words = words[2:]
-    assert words[-4:] == [str(command.ROOT / "main.py"), "--kiosk", "--display", "2"]
+    assert words[-4:] == [str(ROOT / "main.py"), "--kiosk", "--display", "2"]
     assert subprocess.run([*words[:-4], "-c", "pass"], check=False).returncode == 0
     assert shlex.join(words).count("-X") == 0  # boot creates .venv again if it has gone
 

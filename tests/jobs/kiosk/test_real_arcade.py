@@ -8,11 +8,13 @@ import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import cast
 
 import pytest
 
 from pigaming_app.jobs.kiosk.process import ArcadeProcess
 from pigaming_app.jobs.kiosk.start import supervise
+from pigaming_app.jobs.kiosk.supervisor import Limits
 from pigaming_app.storage.restarts import restarts
 
 pytestmark = [
@@ -141,6 +143,10 @@ def arcades_begun(data: Path) -> int:
     return sum(path.read_text().count('"start"') for path in (data / "days").glob("*"))
 
 
+def supervised(folder: Path, *plan: str) -> int:
+    return supervise(arcade(folder, *plan), cast(Limits, Quick(folder)))
+
+
 def kill_the_arcade(kiosk: "subprocess.Popen[bytes]", data: Path) -> None:
     """Kill the arcade of a kiosk as soon as it has begun, and wait until another one has."""
     children = Path(f"/proc/{kiosk.pid}/task/{kiosk.pid}/children")
@@ -163,7 +169,7 @@ def wait(condition) -> None:
 
 
 def test_it_comes_back_after_a_kill_a_stop_an_endless_loop_and_an_abort(tmp_path: Path, data: Path) -> None:
-    assert supervise(arcade(tmp_path, "kill", "stop", "loop", "abort", "quit"), Quick(tmp_path)) == 0
+    assert supervised(tmp_path, "kill", "stop", "loop", "abort", "quit") == 0
     found = restarts(data)
     hang = ("hang", "no frame for 1 s")
     assert [(one.reason, one.detail) for one in found] == [
@@ -179,7 +185,7 @@ def test_it_comes_back_after_a_kill_a_stop_an_endless_loop_and_an_abort(tmp_path
 
 
 def test_twenty_crashes_before_the_first_frame_and_it_still_comes_back(tmp_path: Path, data: Path) -> None:
-    assert supervise(arcade(tmp_path, *["early"] * 20, "quit"), Quick(tmp_path)) == 0
+    assert supervised(tmp_path, *["early"] * 20, "quit") == 0
     found = restarts(data)
     assert [(one.reason, one.detail) for one in found] == [("crash", "exit code 1")] * 20
     assert "it crashed before the first frame" in (data / found[-1].report).read_text()

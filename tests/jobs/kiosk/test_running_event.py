@@ -5,12 +5,14 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import cast
 
 import pytest
 
 from pigaming_app.events import resume
 from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import load, save
+from pigaming_app.events.journal import Recorded
 from pigaming_app.events.spec import Entrant, EventSpec, Format
 from pigaming_app.jobs.kiosk.start import supervise
 from pigaming_app.jobs.kiosk.supervisor import Limits
@@ -104,7 +106,7 @@ def test_a_kiosk_killed_in_a_match_comes_back_to_the_event_and_plays_it_to_its_p
     assert event
     assert event.over
     assert not problems
-    assert [entry.outcome.fixture for entry in event.journal] == [1, 2, 3]
+    assert [cast(Recorded, entry).outcome.fixture for entry in event.journal] == [1, 2, 3]
 
 
 def test_event_run_in_a_kiosk_is_supervised_and_returns_to_its_event(data: Path, tmp_path: Path) -> None:

@@ -46,7 +46,7 @@ class Arcade:
         self.calls.append("close")
 
 
-def supervised(*plan: tuple[object, ...], interrupt_at: float = float("inf")):
+def supervised(*plan: tuple[int, *tuple[float, ...]], interrupt_at: float = float("inf")):
     """Run a plan: the arguments of each arcade after the clock. Returns code, clock, arcades and endings."""
     clock = Clock()
     clock.interrupt_at = interrupt_at

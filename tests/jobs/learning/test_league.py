@@ -106,6 +106,7 @@ def test_a_league_is_written_for_the_page_of_strengths(tmp_path, capsys, refused
     assert run(f"pitanks idle random --matches 2 --minutes 0.05 --out {path}") == 0
     assert "rating" in capsys.readouterr().out, "the tables are still printed"
     ratings, problems = ratings_of("pitanks", [tmp_path])
+    assert ratings
     assert problems == []
     assert {one.brain for one in ratings.strengths} == {"idle", "random"}
     refused("league", "pitanks", "idle", "random", "--out", str(tmp_path))

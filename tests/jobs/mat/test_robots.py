@@ -3,6 +3,7 @@
 import json
 import sys
 from math import cos, sin
+from typing import cast
 
 import pytest
 
@@ -12,6 +13,7 @@ from pigaming_app.hardware.emulator.xbee import Module
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
 from pigaming_app.hardware.radio.protocol import LinkQuality
 from pigaming_app.hardware.radio.xbee_setup import Carrier
+from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.hardware.session.store import save_pairing
 from pigaming_app.hardware.signals import ExposureState
 from pigaming_app.jobs.cli import main
@@ -115,6 +117,8 @@ def test_the_pairing_is_remembered():
 class Session:
     """A session with the robots of a simulated mat."""
 
+    quality, network = CameraQuality(detection=0.6, anyway=True), None
+
     def __init__(self, *_):
         self.mat = Mat()
         self.rig, self.mm, self.tick = self.mat.rig, MM, self.mat.pass_time
@@ -130,13 +134,12 @@ class Session:
 )
 def test_flags_of_reports_and_a_warning_about_the_picture_are_printed(monkeypatch, capsys, exposure, warning):
     session, wished = Session(), robots.RobotsOptions()
-    session.quality, session.network = CameraQuality(detection=0.6, anyway=True), None
     mat = session.mat
-    mat.exposure = ExposureState(exposure)
-    mat.quality = lambda robot: LinkQuality(1.0, None, None)
+    monkeypatch.setattr(mat, "exposure", ExposureState(exposure), raising=False)
+    monkeypatch.setattr(mat, "quality", lambda robot: LinkQuality(1.0, None, None))
     for robot, flags in zip(mat.robots, (EMPTY, PARKED, DEADMAN, DEADMAN | RESTARTED), strict=True):
         robot.flags = flags
-    status = robots._full_status(session, wished)
+    status = robots._full_status(cast(RobotSession, session), wished)
     assert warning in status["picture"]
     assert [[name for name in robots.STATES if one[name]] for one in status["robots"]] == [
         ["empty"],

@@ -22,6 +22,7 @@ from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.input.events import Button
 from tests.scenes.editor.artist import Artist, Mouse, checked, verdict_of, wait_for
+from tests.scenes.editor.test_keeping import empty
 
 pytestmark = pytest.mark.usefixtures("home")
 
@@ -112,7 +113,7 @@ def test_football(artist: Artist) -> None:
     bench = editor.bench
     for _ in range(3):
         artist.choose("mirror")
-    assert bench.symmetry is Symmetry.FOUR
+    assert editor.bench.symmetry is Symmetry.FOUR
     artist.choose("tool 2")
     artist.click((100, 50))
     ends: list[Any] = [{wall.get("from"), wall.get("to")} for wall in bench.history.now.of("wall")]
@@ -137,7 +138,7 @@ def test_football(artist: Artist) -> None:
     assert bench.history.now.of("goal")[0].get("width") == 320
     for _ in range(6):
         artist.choose("undo")
-    assert bench.history.now == titled(EDITORS["football"].empty, "NEW")
+    assert bench.history.now == empty("football")
     verdict = verdict_of(artist)
     assert not verdict.problems
     assert len(verdict.routes) == 6

@@ -13,7 +13,7 @@ from pigaming_app.events.journal import Corrected
 from pigaming_app.events.match_setup import outcome_of, setup_of
 from pigaming_app.events.spec import Entrant, Format
 from pigaming_app.games.registry import OURS
-from pigaming_app.scenes.events import choice, next_page
+from pigaming_app.scenes.events import next_page
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.manage.corrections import Correction, ResultsList
 from pigaming_app.scenes.events.manage.event_page import EventPage
@@ -431,7 +431,7 @@ def test_matches_of_ais_are_played_in_the_background_and_counted_once(
     class AtOnce:
         """Matches that are over as soon as they are asked for."""
 
-        def __init__(self, event, fixtures):  # type: ignore[no-untyped-def]
+        def __init__(self, event, fixtures):
             self.outcomes = [result_of(fixture) for fixture in fixtures]
             self.left = 0
 
@@ -439,7 +439,7 @@ def test_matches_of_ais_are_played_in_the_background_and_counted_once(
         def over(self) -> bool:
             return not self.outcomes
 
-        def next_outcome(self):  # type: ignore[no-untyped-def]
+        def next_outcome(self):
             return self.outcomes.pop(0) if self.outcomes else None
 
         def end(self) -> None:
@@ -550,7 +550,7 @@ def test_no_folder_for_events_is_said(arcade: Arcade, monkeypatch: pytest.Monkey
     def full(path: Path, event: object) -> None:
         raise NotSaved("the disk is full")
 
-    monkeypatch.setattr(choice.event_files, "save", full)
+    monkeypatch.setattr(event_files, "save", full)
     page = EventsPage(arcade.context)
     draft = Draft(entrants=[Entrant("ANA"), Entrant("BEA"), Entrant("EVA")])
     assert page.begin(draft) == arcade.context.words("app.unsaved")

@@ -7,7 +7,7 @@ import pytest
 
 from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer
 from pigaming_app.scenes.flow.access import ESCAPE_SECONDS, OWNER_SECONDS, TAKE_SECONDS
-from pigaming_app.scenes.lobby import scene as lobby
+from pigaming_app.scenes.lobby import seat_card
 from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
@@ -133,10 +133,10 @@ def test_empty_seats_name_the_button_of_every_device_that_could_join(arcade: Arc
         arcade.context.words.switch(language)
         page = Lobby(arcade.context, "pitanks")
         assert page.page.invited == ("A", "Cross", "1", space, control, "U")
-        assert len(lobby.card.rows_of(page.page.invited)) == 2, "they fit on a card"
+        assert len(seat_card.rows_of(page.page.invited)) == 2, "they fit on a card"
         page.seats.join(xbox)
         page.seats.join(KEYS[1])
-        assert page.page.invited == ("Cross", "1", space, "U")
+        assert [*page.page.invited] == ["Cross", "1", space, "U"]
 
 
 def test_in_setup_only_seated_devices_choose(arcade: Arcade) -> None:

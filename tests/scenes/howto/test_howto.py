@@ -165,7 +165,7 @@ def test_a_clip_shows_its_box_only_and_begins_anew(controls: Controls) -> None:
         ticks.append(clip.runner.match.state.tick)
         points.append(clip.runner.match.state.robots[0].score)
     assert len(looks) > 8
-    assert canvas.get_at((300, 600)) == (0, 0, 0), "outside of the box"
+    assert canvas.get_at((300, 600)) == pygame.Color("black"), "outside of the box"
     assert max(ticks) > ticks[-1], "begun anew"
     assert (max(points), points[-1]) == (1, 0)
 

@@ -25,6 +25,7 @@ from pigaming_app.scenes.lab.view import warming
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.sim.record import digest
+from pigaming_app.ui.draw.text import wrap_balanced
 from pigaming_app.ui.draw.theme import BODY, text_width
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
@@ -347,7 +348,7 @@ def test_labels_fit_their_boxes(arcade: Arcade, language: str) -> None:
         arcade.wait(0.1)
         assert places(there.prompts.labels, ROOM)[-1][1] <= SAFE.right
     for name in KNOB_NAMES:
-        lines = page.wrap_balanced(words(f"lab.{name}"), 2)
+        lines = wrap_balanced(words(f"lab.{name}"), 2)
         assert len(lines) <= 2
         assert all(text_width(line, BODY, "body") <= 206 for line in lines)
     left, right = page.bar_ends(words)

@@ -11,6 +11,7 @@ from pigaming_app.scenes.lab import saved_robots as robots
 from pigaming_app.scenes.lab.pages.menu import LabMenu, RobotNamePage
 from pigaming_app.scenes.lab.pages.open_page import COLUMNS, ROWS, OpenPage
 from pigaming_app.scenes.lab.scene import Lab
+from pigaming_app.scenes.pages.name_page import LETTERS
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.input.events import Button
 from tests import tags
@@ -44,7 +45,7 @@ def save(arcade: Arcade, name: str) -> None:
 
 
 def spell(page: RobotNamePage, name: str) -> None:
-    page.picker.letters = [robots.LETTERS.index(letter) for letter in name.ljust(robots.LENGTH)]
+    page.picker.letters = [LETTERS.index(letter) for letter in name.ljust(robots.LENGTH)]
 
 
 def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Arcade) -> None:

@@ -50,8 +50,7 @@ def tap(arcade: Arcade, device: Device, button: Button) -> None:
 
 
 def lobby_of(arcade: Arcade) -> Lobby:
-    lobby = arcade.open(Lobby(arcade.context, "pitanks"))
-    return lobby
+    return arcade.open(Lobby(arcade.context, "pitanks"))
 
 
 def test_the_lobby_opens_with_the_code_and_phones_join_on_it(open_to_phones: Arcade) -> None:
@@ -63,13 +62,12 @@ def test_the_lobby_opens_with_the_code_and_phones_join_on_it(open_to_phones: Arc
     tap(arcade, one, Button.FIRE)
     tap(arcade, two, Button.FIRE)
     assert lobby.seats.devices()[:2] == [one, two]
-    assert arcade.stack.top is page
-    page.draw(arcade.screen)
+    assert arcade.shown(JoinByPhone) is page
     tap(arcade, two, Button.BACK)
     assert lobby.seats.devices()[:2] == [one, None], "turbo leaves the seat, as on a pad"
     tap(arcade, two, Button.FIRE)
     tap(arcade, one, Button.FIRE)
-    assert arcade.stack.top is page, "one is ready"
+    assert arcade.shown(JoinByPhone) is page, "one is ready"
     tap(arcade, two, Button.FIRE)
     assert arcade.stack.top is lobby, "both are ready: the countdown runs"
     assert [place.ready for place in lobby.seats.places[:2]] == [True, True]
@@ -160,9 +158,8 @@ def test_a_locked_phone_halts_the_match_and_goes_on_as_the_same_device(arcade: A
     arcade.frame()
     page = arcade.shown(Reconnect)
     assert page.seat == 1
-    page.draw(arcade.screen)
     tap(arcade, one, Button.FIRE)
-    assert arcade.stack.top is page, "another player's phone does not take the seat"
+    assert arcade.shown(Reconnect) is page, "another player's phone does not take the seat"
     phones.connect(two.number)
     arcade.frame()
     assert page.replugged

@@ -23,7 +23,7 @@ def ended(monkeypatch, number, variant="together", teams=ALLIES, winners=(0, 1, 
     return Ending("factory", BRAINS, teams, (2, 3, 2, 1), winners if number or teams != ALLIES else (), variant)
 
 
-def opened(arcade, ending, finished=True) -> Results:
+def opened(arcade, ending: Ending, finished=True) -> Results:
     results = ending.results(arcade, finished)
     results.age = 0.0
     arcade.open(results)

@@ -1,6 +1,7 @@
 """Glow rendering: light near the drawing, black elsewhere."""
 
 from itertools import pairwise
+from unittest.mock import Mock
 
 import pygame
 import pytest
@@ -72,14 +73,13 @@ def test_ink_that_crosses_tiles_and_bands_has_no_seams(ss: int):
 
 
 def test_no_surface_of_a_page_is_as_large_as_its_sheet(monkeypatch):
-    sizes = []
-    surface = pygame.Surface
-    monkeypatch.setattr(pygame, "Surface", lambda size, *flags: sizes.append(size) or surface(size, *flags))
+    surface = Mock(wraps=pygame.Surface)
+    monkeypatch.setattr(pygame, "Surface", surface)
     page = LayeredCanvas()
     page.glow.void([(100, 100), (1800, 1000)], 8)
     page.text("M", LABEL, 400, 1000)
     page.render()
-    assert max(w * h for w, h in sizes) == 1920 * 1080
+    assert max(w * h for w, h in (call.args[0] for call in surface.call_args_list)) == 1920 * 1080
 
 
 def test_solid_hides_the_ground_in_a_sprite_only_where_it_lies():

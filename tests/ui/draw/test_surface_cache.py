@@ -123,7 +123,7 @@ def test_named_arguments_and_defaults_tell_results_apart() -> None:
 
 def test_a_result_without_surfaces_costs_nothing() -> None:
     cache = SurfaceCache(KB)
-    empty = cache.cached(list)
+    empty = cache.cached(list[pygame.Surface])
     assert empty() is empty()
     assert cache.bytes == 0
 

@@ -18,7 +18,7 @@ pytest.importorskip("cv2")
 from pigaming_app import hardware
 from pigaming_app.hardware.calibration import camera_task as looking
 from pigaming_app.hardware.calibration import height_procedure as standing
-from pigaming_app.hardware.calibration import procedure as calibrating
+from pigaming_app.hardware.calibration.boards import BOARD
 from pigaming_app.hardware.calibration.corner_pin import CornerPin
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError
 from pigaming_app.hardware.calibration.quality import assessed, used_anyway
@@ -123,7 +123,7 @@ def test_the_boards_are_shown_with_no_other_light(arcade: Operated) -> None:
     arcade.begin()
     arcade.picture()
     shown = pixels_of(arcade.context.canvas.screen)[:, :, 0]
-    plain = calibrating.BOARD.picture()
+    plain = BOARD.picture()
     assert np.array_equal(shown[:1044], plain[:1044])
     assert not np.array_equal(shown[1044:], plain[1044:]), "the progress is in the margin below"
 

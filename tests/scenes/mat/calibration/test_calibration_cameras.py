@@ -19,14 +19,13 @@ from pigaming_app.hardware.vision import discovery as cameras
 from pigaming_app.hardware.vision.discovery import CameraInfo
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.mat.calibration import boards_page as boards
-from pigaming_app.scenes.mat.calibration import setup_page as page
 from pigaming_app.scenes.mat.calibration.result_page import ResultPage
 from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Button, Device
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.cases import one_in
 from tests.scenes.operated import Operated
 
@@ -176,7 +175,7 @@ def test_lengths_change_faster_while_held_and_are_saved(controls: Controls, tmp_
     arcade.press(Button.RIGHT, device=Device("pad", 0))
     assert first.measures.width == before + 1
     for _ in range(60):
-        arcade.stack.top.handle(page.InputEvent(Button.RIGHT, Device("pad", 0), repeat=True))
+        arcade.stack.top.handle(InputEvent(Button.RIGHT, Device("pad", 0), repeat=True))
     assert first.measures.width > before + 1000
     arcade.go("lid")
     arcade.press(*[Button.LEFT] * 3)

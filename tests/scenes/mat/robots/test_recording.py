@@ -8,6 +8,7 @@ import pytest
 from pigaming_app.games.replay import ReplayError
 from pigaming_app.hardware import recordings
 from pigaming_app.hardware.control import match_recording
+from pigaming_app.hardware.control.recorded_plant import RobotTrack
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.jobs import play as play_job
@@ -44,7 +45,7 @@ class MatSession(RobotSession):
         self.mat = Mat()
 
     def open(self) -> Rig:
-        return self.mat.rig  # type: ignore[no-any-return]
+        return self.mat.rig
 
     def advance(self, seconds: float) -> float:
         self.mat.pass_time(seconds)
@@ -54,7 +55,7 @@ class MatSession(RobotSession):
 @pytest.fixture
 def played(arcade: Arcade) -> RealMatch:
     """A match of one real robot against a simulated one, with a fault that paused it."""
-    session = MatSession()  # type: ignore[assignment]
+    session = MatSession()
     arcade.context.mat = SessionMat(arcade.context, session)
     match = begun(arcade, (0,))
     session.mat.robots[0].battery = 3.9
@@ -98,7 +99,7 @@ def test_a_recorded_match_ends_as_it_did_and_shows_its_faults(
         with pytest.raises(match_recording.MatchFileError):
             match_recording.recording_of(parts, replay.length)
     shorter = match_recording.MatchRecording(track.first(9))
-    later = match_recording.RobotTrack([*track._numbers[32:], *track._numbers[:32]])
+    later = RobotTrack([*track._numbers[32:], *track._numbers[:32]])
     for name, raw in {
         "short": match_recording.pack(plain, shorter),
         "cut": file.read_bytes()[:-50],
@@ -130,7 +131,7 @@ def test_the_cause_is_among_the_faults_that_a_replay_shows(monkeypatch: pytest.M
 def test_a_match_without_people_ends_at_a_fault_that_needs_them(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    session = MatSession()  # type: ignore[assignment]
+    session = MatSession()
     arcade.context.mat = SessionMat(arcade.context, session)
 
     def show(options: Options) -> int:

@@ -108,7 +108,7 @@ def test_things_are_changed_on_screen_and_kept(simulated: Arcade) -> None:
     simulated.shown(ArenaPage)
     simulated.press(Button.BACK)
     assert simulated.stack.top is simulated.setup
-    assert [spec.use for spec in things_in_play(session_of(simulated.context))] == [Use.MUD]  # type: ignore[arg-type]
+    assert [spec.use for spec in things_in_play(session_of(simulated.context))] == [Use.MUD]
 
 
 def test_an_arena_that_things_block_is_built_again_or_played_without_them(simulated: Arcade) -> None:
@@ -171,7 +171,7 @@ def test_a_match_among_scanned_things_has_no_false_alarm_and_stops_when_one_is_p
 
 def same(one: Outline, other: Outline) -> bool:
     """True if no point of either outline is farther than 10 px from the other."""
-    return max(distances(one, other, 1.0).max(), distances(other, one, 1.0).max()) < 10.0
+    return bool(max(distances(one, other, 1.0).max(), distances(other, one, 1.0).max()) < 10.0)
 
 
 def cage(x: float, y: float) -> list[Prism]:

@@ -21,7 +21,7 @@ from pigaming_app.ui.input.phones import connection, refusals
 from pigaming_app.ui.input.phones import server as servers
 from pigaming_app.ui.input.phones.server import PhoneServer
 from tests.ui.input.phones.client import LONG, phone, play, serving, until
-from tests.ui.input.phones.test_server import pressed, still_plays
+from tests.ui.input.phones.test_server import pressed, presses, still_plays
 
 pytestmark = pytest.mark.usefixtures("_no_threads_stay")
 FIN, RESERVED, TEXT, BINARY, CLOSE, PING = 0x80, 0x40, 1, 2, 8, 9
@@ -224,8 +224,7 @@ def test_five_hundred_connections_leave_room_for_those_who_play(controls: Contro
                     await one.touch(0.0, -1.0)
             await until(lambda: server.refusals.counts["too many connections refused"] >= 500 - servers.MAX_OPENED)
             await one.touch(0.0, 1.0)
-            seen: list[tuple[Button, int]] = []
-            await until(lambda: seen.extend(pressed(controls)) or (Button.DOWN, 0) in seen)
+            seen = await presses(controls, lambda seen: (Button.DOWN, 0) in seen)
             assert (Button.LOST, 0) not in seen
 
     play(story)

@@ -5,7 +5,7 @@ import json
 import socket
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 
 import pytest
@@ -46,6 +46,18 @@ async def answer(session: ClientSession, server: PhoneServer, path: str, **heade
         return response.status, (await response.read()).decode(errors="replace")
 
 
+async def presses(controls: Controls, enough: Callable[[list[tuple[Button, int]]], object]) -> list[tuple[Button, int]]:
+    """The presses from now on, until they are enough."""
+    seen: list[tuple[Button, int]] = []
+
+    def found() -> object:
+        seen.extend(pressed(controls))
+        return enough(seen)
+
+    await until(found)
+    return seen
+
+
 async def drives(controls: Controls, number: int, state: StickState) -> None:
     """Wait until a phone drives so."""
     await until(lambda: [pressed(controls)] and controls.drive(Device("phone", number)) == state)
@@ -55,10 +67,9 @@ async def still_plays(session: ClientSession, server: PhoneServer, controls: Con
     """A phone joins, presses FIRE, and leaves."""
     one = await phone(session, server)
     await one.touch(buttons=BITS[Button.FIRE])
-    seen: list[Button] = []
-    await until(lambda: seen.extend(button for button, _ in pressed(controls)) or Button.FIRE in seen)
+    await presses(controls, lambda seen: Button.FIRE in dict(seen))
     await one.socket.close()
-    await until(lambda: seen.extend(button for button, _ in pressed(controls)) or Button.LOST in seen)
+    await presses(controls, lambda seen: Button.LOST in dict(seen))
 
 
 def test_a_phone_joins_drives_and_is_told_its_seat(controls: Controls, server: PhoneServer) -> None:
@@ -72,8 +83,7 @@ def test_a_phone_joins_drives_and_is_told_its_seat(controls: Controls, server: P
         controls.rumble(Device("phone", 0), 1.0, 0.5, 0.2)
         assert await one.told() == {"rumble": [1.0, 0.5, 200]}
         await one.socket.close()
-        seen: list[tuple[Button, int]] = []
-        await until(lambda: seen.extend(pressed(controls)) or seen[-1:] == [(Button.LOST, 0)])
+        await presses(controls, lambda seen: seen[-1:] == [(Button.LOST, 0)])
 
     play(story)
 
@@ -205,7 +215,7 @@ def test_a_phone_that_returns_gets_its_number_back(controls: Controls, server: P
         pressed(controls)
         for locked, number in ((one, 0), (two, 1)):
             await locked.socket.close()
-            await until(lambda n=number: pressed(controls) == [(Button.LOST, n)])
+            assert await presses(controls, bool) == [(Button.LOST, number)]
         again = await phone(session, server, two.resume)
         assert pressed(controls) == [(Button.FOUND, 1)]
         assert again.resume != two.resume
@@ -222,8 +232,7 @@ def test_a_phone_that_returns_before_it_was_missed_replaces_itself(controls: Con
     async def story(session: ClientSession) -> None:
         old = await phone(session, server)
         await old.touch(0.0, -1.0, BITS[Button.FIRE])
-        seen: list[tuple[Button, int]] = []
-        await until(lambda: seen.extend(pressed(controls)) or {(Button.FIRE, 0), (Button.UP, 0)} <= {*seen})
+        await presses(controls, lambda seen: {(Button.FIRE, 0), (Button.UP, 0)} <= {*seen})
         new = await phone(session, server, old.resume)
         assert pressed(controls) == [], "neither lost nor found"
         controls.forget_taps()
@@ -262,11 +271,11 @@ def test_a_machine_that_stalls_unplugs_nobody_whose_messages_wait(
         await drives(controls, 0, StickState(1.0))
         stalls = threading.Event()
         assert server._loop
-        server._loop.call_soon_threadsafe(lambda: [stalls.set(), time.sleep(0.8)])
+        server._loop.call_soon_threadsafe(stalls.set)
+        server._loop.call_soon_threadsafe(time.sleep, 0.8)
         await asyncio.to_thread(stalls.wait)
         await one.touch(0.0, -1.0, BITS[Button.FIRE])
-        seen: list[tuple[Button, int]] = []
-        await until(lambda: seen.extend(pressed(controls)) or seen)
+        seen = await presses(controls, bool)
         assert seen[0] == (Button.FIRE, 0)
         await one.socket.close()
 
