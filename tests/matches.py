@@ -53,10 +53,14 @@ def finished(match: Match, seconds: float = inf) -> Match:
     return match
 
 
+def player_of(match: Match, seat: int = 0) -> Any:
+    """The player on a seat, of any class."""
+    return match.brains[seat]
+
+
 def mind_of(match: Match, seat: int = 0) -> Any:
     """The mind of the AI on a seat."""
-    player: Any = match.brains[seat]
-    return player.mind
+    return player_of(match, seat).mind
 
 
 class Stick:

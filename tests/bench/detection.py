@@ -89,8 +89,8 @@ def samples(
         for number, (x, y) in zip(numbers, truths, strict=True):
             edge = scale * _edge(optics, x, y)
             at = (optics.sensor(np.array([(x, y)]), LID_HEIGHT)[0] + 0.5) * scale - 0.5
-            aside = at + random.normal(0.0, ASTRAY * scale, 2)
-            mark = detector.detect_in(picture, SearchWindow(*aside, 1.1 * edge + 6.0 + ASTRAY, edge), number)
+            u, v = at + random.normal(0.0, ASTRAY * scale, 2)
+            mark = detector.detect_in(picture, SearchWindow(u, v, 1.1 * edge + 6.0 + ASTRAY, edge), number)
             found = mark is not None and bool(np.hypot(*(mark.corners.mean(axis=0) - at)) < NEAR * edge)
             yield Sample(number, edge, blur, exposure, found)
 

@@ -114,7 +114,7 @@ def _most_hits_win(end: Any, winners: Sequence[int]) -> bool | None:
 
 def _share(cases: Any) -> float:
     """Share of the cases that hold, of those that are not None."""
-    known = [case for case in cases if case is not None]
+    known: list[float] = [case for case in cases if case is not None]
     return sum(known) / max(1, len(known))
 
 

@@ -156,9 +156,9 @@ def print_summary(found: Sequence[Row], summaries: dict[int, Summary]) -> None:
         )
         for wins, count in one.histogram.items():
             print(f"{wins:>14} wins: {count:3} {bar(count, len(found))}".rstrip())
-    for name, count in verdict(found).items():
+    for name, counts in verdict(found).items():
         print(
-            f"\nreward 1 against reward 2, {name}: " + ", ".join(f"{word} in {n}" for word, n in count.items()), end=""
+            f"\nreward 1 against reward 2, {name}: " + ", ".join(f"{word} in {n}" for word, n in counts.items()), end=""
         )
     print(f" of {len(found)} seeds")
 

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -10,7 +11,6 @@ from pigaming_app.ai.game_ai import HELPED_POINT, TURN
 from pigaming_app.ai.registry import make_person, new_match
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.events.next_page import EventMatch
-from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.ui.input.controls import Controls
@@ -32,9 +32,14 @@ def arcade(controls: Controls) -> Arcade:
     return Arcade(controls)
 
 
+def stand_in(**parts: object) -> Any:
+    """An object with these parts alone."""
+    return SimpleNamespace(**parts)
+
+
 def watch_of(arcade: Arcade, folder: Path) -> Watch:
     desk = OperatorDesk(arcade.context, None, True)
-    return Watch(SimpleNamespace(stack=arcade.stack, services=[desk]), DAY, ledger.LedgerFile(folder / "ledger"), 1)
+    return Watch(stand_in(stack=arcade.stack, services=[desk]), DAY, ledger.LedgerFile(folder / "ledger"), 1)
 
 
 def test_a_match_of_an_event_is_noted_with_its_number_and_scores(arcade: Arcade, tmp_path: Path) -> None:
@@ -62,9 +67,9 @@ def test_a_visitor_drives_a_race_to_its_finish(style: str) -> None:
     """With the stick alone, looked at as often as on the stage, in both driving styles of a kiosk."""
     seats = Seat("human", 0), Seat("off", 1), Seat("off", 2), Seat("off", 3)
     match = new_match(Setup("race", "classic", seats, 10.0, 1, "standard", 1))
-    drivers = SimpleNamespace(style_of=lambda device: style)
-    scene, stick = SimpleNamespace(match=match, devices=[Device("pad", 1)], drivers=drivers), StickState()
-    visit = Visit(SimpleNamespace(reactions={}))
+    drivers = stand_in(style_of=lambda device: style)
+    scene, stick = stand_in(match=match, devices=[Device("pad", 1)], drivers=drivers), StickState()
+    visit = Visit(stand_in(reactions={}))
     match.sit(0, make_person("race", style, lambda: stick, 3))
     while not match.over and match.seconds < 20.0:
         if match.state.tick % 5 == 0:
@@ -79,21 +84,15 @@ class Bell(Floor):
 
     rung = 0
 
-    def handle(self, event: InputEvent) -> StackOperation:
+    def handle(self, event: InputEvent) -> None:
         self.rung += event.button is Button.FIRE
 
 
 def test_one_button_twice_is_two_presses(arcade: Arcade, tmp_path: Path) -> None:
     """A release and a press between two looks at a pad would be none."""
     bell, group, taps = Bell(), DAY.groups[0], 0
-    stage = Stage(
-        SimpleNamespace(stack=arcade.stack),
-        replace(DAY, tasks=()),
-        ledger.Ledger(),
-        watch_of(arcade, tmp_path),
-        0.0,
-        tmp_path,
-    )
+    app, watch = stand_in(stack=arcade.stack), watch_of(arcade, tmp_path)
+    stage = Stage(app, replace(DAY, tasks=()), ledger.Ledger(), watch, 0.0, tmp_path)
 
     def ring() -> None:
         nonlocal taps
@@ -126,11 +125,11 @@ class LastMovement:
 def test_sticks_are_released_after_a_match_and_nobody_waits_for_ever(arcade: Arcade, tmp_path: Path) -> None:
     """A stick that stays held moves the focus of the title, and no button counts that stays down."""
     pictures: list[Path] = []
-    canvas, watch, hands = SimpleNamespace(screenshot=pictures.append), watch_of(arcade, tmp_path), LastMovement()
-    app = SimpleNamespace(stack=arcade.stack, context=SimpleNamespace(canvas=canvas))
+    canvas, watch, hands = stand_in(screenshot=pictures.append), watch_of(arcade, tmp_path), LastMovement()
+    app = stand_in(stack=arcade.stack, context=stand_in(canvas=canvas))
     stage = Stage(app, replace(DAY, tasks=()), ledger.Ledger(), watch, 0.0, tmp_path)
     try:
-        stage.group, stage.players = DAY.groups[0], [SimpleNamespace(hands=hands)]
+        stage.group, stage.players = DAY.groups[0], [stand_in(hands=hands)]
         stage.reactions = {MatchScene: lambda: hands.steer(1.0, -1.0, False, True)}
         arcade.open(MatchScene(arcade.context, setup("level1 level1 off off")))
         stage.play(1.0)

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from pigaming_app.ai.learning.league import MIN_COMPILED_MATCHES
-from pigaming_app.ai.learning.rollout import Batch, longest
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Setup, Variant
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import make_setup
+from pigaming_app.games.setup import longest, make_setup
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 

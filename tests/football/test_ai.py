@@ -67,7 +67,7 @@ def test_it_keeps_to_one_way_round_a_bumper_and_the_ball_behind_it(pose, ball):
     """Both ways are about as long, and it has to turn round the ball on either."""
     football = with_brains(match("bumpers", present=(1,)), p1="hand3")
     state = football.state
-    put_robot(state, 1, *pose[:2], heading=pose[2])
+    put_robot(state, 1, pose[0], pose[1], heading=pose[2])
     put_ball(state, *ball)
     state.ball.out = 0
     while not state.ball.touched and state.tick < 350:

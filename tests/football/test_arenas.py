@@ -4,7 +4,7 @@ import pytest
 
 from pigaming_app.games.arenas import arenas, load, parse
 from pigaming_app.sim.arena import ArenaError
-from pigaming_app.sim.things.spec import ThingSpec, written
+from pigaming_app.sim.things.spec import ThingSpec, Use, written
 from tests.football.pitch import ARENAS
 
 
@@ -54,7 +54,7 @@ def test_too_few_drop_points_are_refused():
 
 
 def test_drop_points_below_things_are_left_out():
-    box = ThingSpec("wall", ((770.0, 140.0), (830.0, 140.0), (830.0, 200.0), (770.0, 200.0)), 4.0)
+    box = ThingSpec(Use.WALL, ((770.0, 140.0), (830.0, 140.0), (830.0, 200.0), (770.0, 200.0)), 4.0)
     arena = parse("football", GOOD + written((box,)), "x.toml")
     assert len(arena.plan.drops) == len(load("football", "classic").plan.drops) - 1
     assert (800.0, 170.0) not in arena.plan.drops

@@ -14,9 +14,10 @@ from pigaming_app.sim.contact import drive, in_wall
 from pigaming_app.sim.kernel import compiled
 from pigaming_app.sim.record import copy, digest, packed
 from pigaming_app.sim.world import DT
-from pigaming_football.physics import note_steps, reflect
+from pigaming_football.contacts import reflect
+from pigaming_football.physics import note_steps
 from pigaming_football.rules import judge, move
-from pigaming_football.state import Ball
+from pigaming_football.state import Ball, Football
 from tests.floor import from_wall
 from tests.football.pitch import ARENAS, BALL, ROBOT, overlap, put_ball, put_robot, state
 
@@ -32,7 +33,7 @@ def number(*limits):
     return random.uniform(-limit, limit) if random.random() < 0.9 else random.choice((-limit, 0.0, limit))
 
 
-def place(radius):
+def place(radius) -> tuple[float, float]:
     """A random place where the rim leaves this radius free."""
     x, y = (random.uniform(radius, end - radius) for end in (1600.0, 900.0))
     return x, y
@@ -283,7 +284,7 @@ def overlap_of_walls(football):
 
 @pytest.mark.long
 def test_both_bodies_move_any_ball_alike():
-    chance, every = Random(3), []
+    chance, every = Random(3), list[Football]()
     while len(every) < 4000:
         football = state(chance.choice(ARENAS))
         for k in range(4):

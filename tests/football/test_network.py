@@ -54,7 +54,7 @@ def test_everything_is_seen_where_it_is():
         assert seen[FEET] == (ball.holder == seat + 1)
         away = [hypot(robot.x - me.x, robot.y - me.y) for robot in now.robots]
         mates, others = ([k for k in range(4) if k != seat and k % 2 == team] for team in (seat % 2, 1 - seat % 2))
-        order = (*mates, *sorted(others, key=lambda k, away=away: away[k]))
+        order = (*mates, *sorted(others, key=away.__getitem__))
         for k, j in zip(range(OTHERS, OTHERS + 3 * OTHER, OTHER), order, strict=True):
             x, y = place(FAR * (1.0 - seen[k + 4]), *seen[k + 1 : k + 3])
             if away[j] < 1.9 * FAR:
@@ -136,6 +136,7 @@ def test_the_network_that_ships_is_offered_and_explains_itself():
     football.sit(0, make_brain("football", "net", 1))
     run(football, 120)
     told = thoughts_of(football, 0)
+    assert told is not None
     assert told.heads.keys() == {"drive", "turn", "kick", "turbo"}
     assert {sight.kind for sight in told.percepts}
 

@@ -114,7 +114,7 @@ def test_a_drop_point_in_a_box_blocks_unless_robots_get_in(gap: int, blocks: boo
 def test_a_goal_is_out_of_reach_where_a_picture_of_the_pitch_has_no_way_to_it() -> None:
     """Random walls before the left goal, and the areas of pictures of 4 px: of a ball 4 px wider, and 4 px narrower."""
     cv2 = pytest.importorskip("cv2")
-    draw, told = Random(5), []
+    draw, told = Random(5), list[bool]()
     while len(told) < 30:
         drawing = BARE
         for _ in range(draw.randint(2, 6)):

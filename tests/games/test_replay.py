@@ -5,6 +5,7 @@ import json
 import random
 import zlib
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -152,7 +153,7 @@ def head_of(path):
     return json.loads(path.read_bytes().partition(b"\n")[0])
 
 
-NONSENSE = {
+NONSENSE: dict[str, dict[str, Any]] = {
     "no setup": {"setup": None},
     "setup is a text": {"setup": "classic"},
     "setup is a list": {"setup": [1]},
@@ -172,7 +173,7 @@ def test_a_forged_head_is_refused(name, path):
     refused(path, forged(path, **NONSENSE[name]))
 
 
-SETUPS = {
+SETUPS: dict[str, dict[str, Any]] = {
     "another game": {"game": "chess"},
     "another variant": {"variant": "blitz"},
     "no time": {"minutes": 0},

@@ -10,6 +10,7 @@ from pigaming_app.games.arenas import arenas, load, parse
 from pigaming_app.games.race.course import point_at
 from pigaming_app.games.race.passages import passages
 from pigaming_app.games.race.racing_line import fastest_line
+from pigaming_app.games.race.start import reroute
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import decode, encode, to_match, verify
 from pigaming_app.sim.action import set_action
@@ -205,7 +206,7 @@ def test_drivers_go_round_a_thing_that_was_put_on_their_line_during_the_race():
     base = load("race", "classic")
     match = run(match_of("race", ["hand3"] * 4, base, goal=3), 400)
     things = (box(800, 130, 70, 60, 0.3),)
-    apply = games()["race"].reroute(base, match.state.rules, things)
+    apply = reroute(base, match.state.rules, things)
     replace_things(match.state, things, len(base.walls))
     apply(match.state)
     while not match.over:

@@ -133,7 +133,7 @@ def overlap(world):
 def huddle(random, walls, x, y):
     """A world with four robots at the free positions nearest to (x, y)."""
     world = floor(walls)
-    poses, spread = [], 100.0
+    poses, spread = list[tuple[float, float, float]](), 100.0
     while len(poses) < 4:
         px = min(max(x + random.uniform(-spread, spread), RADIUS), WIDTH - RADIUS)
         py = min(max(y + random.uniform(-spread, spread), RADIUS), HEIGHT - RADIUS)
@@ -203,7 +203,7 @@ def test_a_crush_leaves_robots_apart_among_any_walls(walls, half, seed):
     try_world = floor(walls, half=half)
     free = [(a, b) for a in range(40, 1561, 40) for b in range(40, 861, 40) if not in_wall(try_world, a, b)]
     free.sort(key=lambda place: hypot(place[0] - x, place[1] - y))
-    poses = []
+    poses: list[tuple[float, float, float]] = []
     for a, b in free:
         if len(poses) < 4 and all(hypot(a - c, b - d) >= 2 * RADIUS for c, d, _ in poses):
             poses.append((a, b, 0.0))

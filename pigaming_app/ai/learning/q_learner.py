@@ -5,7 +5,7 @@ from the Boltzmann distribution exp(Q / T), and T falls as experience grows.
 """
 
 from pigaming_app.ai.qlearning.features import SECTORS, nearest_opponent, opponent_of, situation, wall_of
-from pigaming_app.ai.qlearning.recipe import RecipeRecord
+from pigaming_app.ai.qlearning.recipe import Recipe
 from pigaming_app.ai.qlearning.table import ACTIONS, LearnerMind, QTable, apply_move, max_value, sample_move
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.kernel import kernel
@@ -76,7 +76,7 @@ def temperature(table: QTable) -> float:
 
 
 @kernel
-def action_reward(match: PiTanks, seat: int, opponent: int, state: int, action: Action, knobs: RecipeRecord) -> float:
+def action_reward(match: PiTanks, seat: int, opponent: int, state: int, action: Action, knobs: Recipe) -> float:
     """Immediate reward for choosing `action` in `state`, points."""
     reward = 0.0
     if action.fire and not (knobs.loaded and match.tanks[seat].cooldown):
@@ -94,7 +94,7 @@ def action_reward(match: PiTanks, seat: int, opponent: int, state: int, action: 
 
 
 @kernel
-def transition_reward(before: int, after: int, knobs: RecipeRecord) -> float:
+def transition_reward(before: int, after: int, knobs: Recipe) -> float:
     """Reward for the transition from one decision's state to the next one's, points."""
     begun = exposed(before, knobs) if knobs.exposure else opponent_behind(before, knobs)
     reward: float = knobs.behind if exposed(after, knobs) and (knobs.behind_always or not begun) else 0.0
@@ -102,12 +102,12 @@ def transition_reward(before: int, after: int, knobs: RecipeRecord) -> float:
 
 
 @kernel
-def exposed(state: int, knobs: RecipeRecord) -> int:
+def exposed(state: int, knobs: Recipe) -> int:
     """1 if the opponent is behind and the closest wall is in another direction."""
     return 1 if opponent_behind(state, knobs) and wall_of(state) != opponent_of(state) else 0
 
 
 @kernel
-def opponent_behind(state: int, knobs: RecipeRecord) -> int:
+def opponent_behind(state: int, knobs: Recipe) -> int:
     """1 if the direction of the opponent counts as behind."""
     return 1 if knobs.behind_from <= opponent_of(state) <= knobs.behind_to else 0

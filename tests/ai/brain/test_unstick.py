@@ -7,6 +7,7 @@ import pytest
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.brain.unstick import PUSHING, Reflex
 from pigaming_app.ai.learning import training
+from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.ai.qlearning.table import MOVES, Learned, LearnerMind, Move, player
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.arenas import arenas
@@ -22,7 +23,8 @@ AHEAD = Move(1.0, 0.0, 0)
 def single_minded(move: Move, reflex: bool) -> BrainKind:
     """A player whose table prefers the same move in every state."""
     table = training.fresh_table(1)
-    table.knobs.period, table.knobs.cold = 5, 0.02
+    for name, value in {"period": 5, "cold": 0.02}.items():
+        setattr(table.knobs, name, value)
     table.q[MOVES.index(move) :: len(MOVES)] = [10.0] * (len(table.q) // len(MOVES))
     return player("single", Learned(table), reflex)
 
@@ -83,7 +85,7 @@ def test_it_is_on_for_seats_alone():
 
     assert Reflex().on == 0
     assert [switched(BRAINS["pitanks"][name]) for name in ("q1", "q2")] == [1, 1]
-    course = training.TableTraining(training.RECIPES[1], 1, fast=False, minutes=0.1)
+    course = training.TableTraining(RECIPES[1], 1, fast=False, minutes=0.1)
     assert switched(course.checkpoint().kind) == 0
     assert course._ones[0].reflex.on == 0
 

@@ -67,7 +67,7 @@ def test_topics_cover_every_input_once_and_only_one_on_which_a_network_depends_c
         brain.reset(mind, 1)
         mind.inputs[:] = [100.0] * ENCODING.size
         mind.logits[:] = weights.logits(mind.inputs)
-        shares = make_explain(ENCODING)(match.state, 0, mind, weights).utilities
+        shares = dict(make_explain(ENCODING)(match.state, 0, mind, weights).utilities)
         assert shares.pop(topic) > 0.1
         assert not any(shares.values())
 

@@ -8,7 +8,7 @@ import pytest
 from pigaming_app.ai.brain.kind import BrainPlayer, no_weights
 from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PETALS, WALL, Thoughts, blend, petal, towards
 from pigaming_app.ai.explanations.registry import explain_of, thoughts_of
-from pigaming_app.ai.factory import foreman
+from pigaming_app.ai.factory.mind import PERIOD
 from pigaming_app.ai.pitanks import fsm, gunner
 from pigaming_app.ai.qlearning.features import NONE, SECTORS, state
 from pigaming_app.ai.qlearning.recipe import Recipe
@@ -78,8 +78,8 @@ def test_a_match_plays_out_alike_whether_anybody_asks_or_not(game, name):
         if tick % 20 == 0:
             assert digest(watched.state) == digest(alone.state)
     assert digest(watched.state) == digest(alone.state)
-    for one, other in zip(watched.brains, alone.brains, strict=True):
-        assert digest(one.mind) == digest(other.mind)
+    for seat in range(ROBOTS):
+        assert digest(mind_of(watched, seat)) == digest(mind_of(alone, seat))
 
 
 @pytest.mark.parametrize(("game", "name"), one_in(2, ALL))
@@ -314,7 +314,7 @@ def test_a_frozen_driver_waits():
     assert (told.behaviour, told.reason, told.chosen) == ("frozen", "bumped", "wait")
     assert told.utilities["wait"] == 1.0
     assert max(told.rose) <= 0.0, "it wants to go nowhere"
-    assert foreman.PERIOD == 5
+    assert PERIOD == 5
 
 
 # ------------------------------------------------------------------------------------------------------------- tables

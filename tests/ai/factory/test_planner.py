@@ -6,7 +6,7 @@ from math import hypot
 import numpy as np
 import pytest
 
-from pigaming_app.ai.explanations.factory import explain
+from pigaming_app.ai.explanations.registry import thoughts_of
 from pigaming_app.ai.factory.brains import LEVELS
 from pigaming_app.ai.factory.navigation import FAR
 from pigaming_app.ai.learning.rollout import Batch
@@ -26,7 +26,7 @@ from tests.bench.makespan_bound import Floor, Search, bound
 from tests.bench.trial import Trial
 from tests.cases import one_in, repeated
 from tests.games.factory.shop import Shop
-from tests.matches import finished, match_of, mind_of
+from tests.matches import finished, match_of
 
 FLOORS = arenas("factory")
 NAMES = [level.name for level in LEVELS]
@@ -100,7 +100,7 @@ def test_four_of_the_best_spoil_nothing_and_one_team_delivers_everything(floor):
         match.tick()
         for seat in range(4):
             if match.state.tick % (2 * HZ) == seat:
-                explain(match.state, seat, mind_of(match, seat), None)
+                assert thoughts_of(match, seat)
     assert match.state.winner
     assert match.seconds < 120.0
     assert sum(load.spoiled for load in match.state.loads) == 0

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pigaming_app.ai.explanations.factory import explain
+from pigaming_app.ai.explanations.registry import thoughts_of
 from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS, make_brain
 from pigaming_app.games.arenas import arenas
@@ -28,8 +28,8 @@ def first_aim(shop, seat=0):
     return shop.loads[seat].aim - 1
 
 
-def told(shop, seat=0):
-    return explain(shop.state, seat, mind_of(shop.match, seat), None)
+def told(match):
+    return thoughts_of(match, 0)
 
 
 def without_loose(shop):
@@ -53,7 +53,7 @@ def test_it_takes_a_loose_pallet_that_lies_near():
     aim = first_aim(shop)
     assert shop.slots[aim].kind == SHARED
     assert shop.slots[aim].pallet
-    assert (told(shop).behaviour, told(shop).reason) == ("take", "anybody")
+    assert (told(shop.match).behaviour, told(shop.match).reason) == ("take", "anybody")
 
 
 def test_it_steals_what_the_others_have_left_in_a_machine():
@@ -62,7 +62,7 @@ def test_it_steals_what_the_others_have_left_in_a_machine():
     put(shop, p, DONE, FIRE, out, waited=shop.state.rules.claim)
     shop.rails.poses[0] = (shop.slots[out].x - 120.0, shop.slots[out].y, 0.0)
     assert first_aim(shop) == out
-    assert (told(shop).behaviour, told(shop).reason) == ("take", "anybody")
+    assert (told(shop.match).behaviour, told(shop.match).reason) == ("take", "anybody")
 
 
 def test_it_leaves_to_its_owner_what_is_not_free_yet():
@@ -80,7 +80,7 @@ def test_a_rush_order_comes_first(which):
     shop.pallets[shop.slots[rush].pallet - 1].rush = shop.state.rules.rush
     shop.rails.poses[0] = (300.0, 228.0, 3.14)
     assert first_aim(shop) == rush
-    assert (told(shop).behaviour, told(shop).reason) == ("fetch", "rush")
+    assert (told(shop.match).behaviour, told(shop.match).reason) == ("fetch", "rush")
 
 
 def test_a_rush_order_without_a_chance_is_an_ordinary_one():
@@ -100,7 +100,7 @@ def test_it_contests_the_fast_machine(fast):
     shop.rails.poses[0] = (800.0, 300.0, -1.57)
     aim = first_aim(shop)
     assert (shop.slots[aim].kind, shop.slots[aim].machine) == (INPUT, fast)
-    assert (told(shop).behaviour, told(shop).reason) == ("bring", "fast")
+    assert (told(shop.match).behaviour, told(shop.match).reason) == ("bring", "fast")
 
 
 @pytest.mark.long
@@ -190,8 +190,7 @@ def test_the_weakest_sets_out_the_wrong_way_and_says_so():
         match.tick()
         if mind.detour > 0 and mind.resting <= 0 and not mind.freeing:
             wrong += 1
-            said = explain(match.state, 0, mind, None)
-            assert (said.behaviour, said.reason) == ("detour", "lost")
+            assert (told(match).behaviour, told(match).reason) == ("detour", "lost")
     assert wrong > HZ
 
 
@@ -227,4 +226,4 @@ def test_an_ordinary_pallet_is_told_as_in_standard():
     shop.pallets[p].state, shop.pallets[p].rush = DONE, 0
     aim = first_aim(shop)
     assert shop.slots[aim].kind == EXIT
-    assert (told(shop).behaviour, told(shop).reason) == ("deliver", "done")
+    assert (told(shop.match).behaviour, told(shop.match).reason) == ("deliver", "done")

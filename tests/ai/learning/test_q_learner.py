@@ -41,7 +41,7 @@ from pigaming_app.ai.qlearning.table import (
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.action import set_action
-from pigaming_app.sim.record import digest
+from pigaming_app.sim.record import digest, fields_of
 
 FIRE = MOVES.index((0.0, 0.0, 1))
 DRIVE = MOVES.index((1.0, 0.0, 0))
@@ -124,7 +124,7 @@ def test_a_wall_that_is_shot_away_is_no_longer_the_closest():
 
 
 def test_among_several_the_nearest_of_another_team_is_the_opponent():
-    seats = tuple(Seat("q1", team) for team in (0, 1, 0, 1))
+    seats = (Seat("q1", 0), Seat("q1", 1)) * 2
     match = Match(Setup("pitanks", "classic", seats, 1.0, 1, "classic")).state
     for robot, x in zip(match.robots, (100.0, 900.0, 200.0, 500.0), strict=True):
         robot.x, robot.y = x, 300.0
@@ -244,7 +244,7 @@ def test_a_recipe_nothing_can_be_learned_with_is_refused(wrong):
 
 
 def test_a_kernel_reads_the_same_numbers_as_a_recipe_has():
-    assert [field.name for field in RecipeRecord()._fields] == list(vars(Recipe()))
+    assert [field.name for field in fields_of(RecipeRecord)] == list(vars(Recipe()))
 
 
 # ------------------------------------------------------------------------------------------ learning

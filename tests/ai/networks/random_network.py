@@ -4,11 +4,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from pigaming_app.ai.networks.files import TrainedNetwork, TrainingCurve
+from pigaming_app.ai.networks.files import TrainedNetwork, TrainingCurve, Values
 from pigaming_app.ai.networks.policy import HIDDEN
 from pigaming_app.ai.networks.registry import ENCODINGS
 
-RECIPE = {"rate": 1e-3, "opponents": ["hand1", "hand2"], "anneal": True, "rules": "pickups"}
+RECIPE: dict[str, Values] = {"rate": 1e-3, "opponents": ["hand1", "hand2"], "anneal": True, "rules": "pickups"}
 CURVE = TrainingCurve(("updates", "wins"), ((1.0, 0.5), (2.0, 0.75)))
 
 

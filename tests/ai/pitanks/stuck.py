@@ -15,7 +15,7 @@ def stuck(arena, seed, strengths, variant):
     Against an opponent that is in contact it may push for long: such times do not count.
     """
     match = match_of("pitanks", strengths, arena, 1.0, seed, variant)
-    trails = [deque(maxlen=round(STUCK_SECONDS * HZ)) for _ in range(4)]
+    trails = [deque[tuple[float, float]](maxlen=round(STUCK_SECONDS * HZ)) for _ in range(4)]
     times = []
     while not match.over:
         match.tick()

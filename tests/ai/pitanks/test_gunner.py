@@ -9,7 +9,7 @@ from pigaming_app.ai.learning.league import duel
 from pigaming_app.ai.pitanks import gunner
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.pitanks.observation import PiTanksObservation, observe
+from pigaming_app.games.pitanks.observation import PiTanksObservation, observe, observe_self
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
 from tests.ai.pitanks.stuck import stuck
@@ -140,7 +140,7 @@ def test_it_swings_to_the_side_with_room():
     match = begun(("hand3", "idle"), arena="classic")
     put(match, (120.0, 50.0), (520.0, 50.0))  # along the upper wall
     mind = match.brains[0].mind
-    gunner.observe_self(match.state, 0, mind.obs)
+    observe_self(match.state, 0, mind.obs)
     gunner.choose_target(match.state, 0, mind)
     for weave in (1.0, -1.0):
         mind.weave = weave

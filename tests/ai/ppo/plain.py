@@ -1,6 +1,7 @@
 """A small task in uncompiled play: compiling the loop of a task takes longer than all tests of the learner."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -38,8 +39,8 @@ def plain_loop(task):
     def loop(matches, minds, rows, *more):
         own = list(weights)
         own[number] = [layers_of(row) for row in rows[number]]
-        states = [unpack(state, match) for match in matches]
-        seated = [[unpack(cast.mind, mind) for mind in seats] for seats in minds]
+        states: list[Any] = [unpack(state, match) for match in matches]
+        seated: list[list[Any]] = [[unpack(cast.mind, mind) for mind in seats] for seats in minds]
         collect(states, seated, own, *more)
         matches[:] = packed(states)
         minds[:] = packed([mind for seats in seated for mind in seats]).reshape(minds.shape)

@@ -10,7 +10,7 @@ from pigaming_app.ai.networks.policy import packed_layers
 from pigaming_app.ai.ppo.lab import lesson
 from pigaming_app.ai.ppo.lab.lesson import HELD, SECTORS, LabTraining, Situations
 from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin
-from pigaming_app.ai.ppo.lab.task import RIVAL, NetworkRecipe, reward_of
+from pigaming_app.ai.ppo.lab.task import RIVAL, TASK, NetworkRecipe, reward_of
 from pigaming_app.ai.ppo.learner import PolicyNetwork
 from pigaming_app.ai.ppo.win_rates import win_rates
 from pigaming_app.sim.kernel import can_compile
@@ -63,7 +63,7 @@ def test_it_learns_step_by_step_and_reports(threads: Executor):
     report = taught.report()
     assert report.state.updates == 3
     assert 3 * 4 * (6 + 2 * 2) / 2 < report.state.decisions <= 3 * 4 * (6 + 2 * 2), "less where matches ended"
-    assert report.state.matches == pytest.approx(3 * 8 * 0.4 / (60 * lesson.MINUTES))
+    assert report.state.matches == pytest.approx(3 * 8 * 0.4 / (60 * 0.05))
     assert len(report.habits) == SECTORS
     assert any(report.habits)
     assert not np.array_equal(report.state.weights.matrices[0], first.state.weights.matrices[0])
@@ -105,8 +105,8 @@ def test_the_plan_tells_left_from_right():
     inputs[:, OTHERS + 4], inputs[:, OTHERS + 5] = np.cos(angles), np.sin(angles)
     situations = Situations()
     situations.add(np.delete(inputs, 8, axis=0))
-    plan = situations.habits(policy, value)
-    assert plan[8] is None
+    plan = {k: habit for k, habit in enumerate(situations.habits(policy, value)) if habit}
+    assert plan.keys() == {*range(SECTORS)} - {8}
     assert [plan[k].action for k in (2, 4, 6)] == ["turn_right"] * 3
     assert [plan[k].action for k in (10, 12, 14)] == ["turn_left"] * 3
     assert plan[0].action == "unknown"
@@ -119,7 +119,9 @@ def test_the_plan_tells_left_from_right():
 def test_it_beats_the_hand_made_robot_within_a_minute_at_the_speed_of_real_matches():
     with ThreadPoolExecutor(1) as threads:
         taught = LabTraining(Begin(0, 3), threads)
-        assert taught.report().share < 0.2
+        share = taught.report().share
+        assert share is not None
+        assert share < 0.2
         while taught.training.updates * lesson.LESSON < 60.0:
             taught.learn(NetworkRecipe())
-        assert win_rates(lesson.TASK, packed_layers(taught.training.layers()), 50, threads)[RIVAL].wins >= 40
+        assert win_rates(TASK, packed_layers(taught.training.layers()), 50, threads)[RIVAL].wins >= 40

@@ -87,7 +87,9 @@ def test_the_file_of_the_network_names_its_recipe(halfway):
     network = decode(encode(trained_network(halfway, "mine")), "mine.npz")
     assert network.recipe["rate"] == TINY.rate
     assert network.recipe["WIN"] == 2.0
-    assert network.recipe["line_ups"][0] == "1 learner hand3 off off"
+    assert network.recipe["line_ups"] == [
+        f"1 learner {name} off off" for name in ("hand3", "learner", "exploiter", "pool")
+    ]
     assert (network.updates, network.decisions, network.licence) == (2, halfway.decisions, "MIT")
     assert json.dumps(network.recipe)
     played = packed_layers(halfway.layers())

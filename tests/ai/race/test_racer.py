@@ -79,7 +79,7 @@ def test_courses_can_be_driven_anticlockwise(track):
 @pytest.mark.parametrize("track", one_in(4, TRACKS))
 def test_nobody_misses_a_line_or_is_stuck_and_all_finish(track, mixture):
     match = race(mixture, track, seed=11)
-    trails = [deque(maxlen=STUCK) for _ in range(4)]
+    trails = [deque[tuple[float, float]](maxlen=STUCK) for _ in range(4)]
     while not match.over:
         match.tick()
         for robot, racer, action, trail in zip(

@@ -123,10 +123,9 @@ def test_the_stick_stays_in_its_range_and_the_race_is_not_changed():
 
 
 def test_a_helped_person_drives_by_the_helped_stick_of_the_style():
-    state = placed(600.0, -90.0)
+    state, stick = placed(600.0, -90.0), StickState(0.5, 0.75, False, True)
     for name, style in ((HELPED_TURN, AIS["race"].driving[TURN]), (HELPED_POINT, AIS["race"].driving[POINT])):
-        stick = StickState(0.5, 0.75, False, True)
-        HumanPlayer(lambda stick=stick: stick, AIS["race"].driving[name]).think(state, 0)
+        HumanPlayer(lambda: stick, AIS["race"].driving[name]).think(state, 0)
         action = state.actions[0]
         expected = helped_stick(state, 0, *style(state, 0, stick))
         assert (action.linear, action.angular) == tuple(map(quantise, expected))

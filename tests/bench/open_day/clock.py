@@ -17,7 +17,8 @@ RECORD = struct.Struct("<dIII")  # seconds, process, place, frames
 STORAGE = "pigaming_app.storage"
 EARLY = (f"{STORAGE}.day_log", f"{STORAGE}.scores.book", f"{STORAGE}.scores.table", "pigaming_app.events.climb_files")
 PLACES = ("other", "title", "match", "event", "ending", "results")
-REAL_DATETIME, REAL_DATE = datetime_module.datetime, datetime_module.date
+REAL_DATETIME = datetime_module.datetime
+REAL_DATE = datetime_module.date
 
 
 class DayClock:

@@ -4,7 +4,7 @@ import asyncio
 import threading
 from contextlib import suppress
 
-from aiohttp import ClientError, ClientSession, ClientTimeout, WSMsgType
+from aiohttp import ClientError, ClientSession, ClientTimeout, ClientWebSocketResponse, WSMsgType
 
 from pigaming_app.ui.input.phone_messages import Touches, pack
 
@@ -72,8 +72,8 @@ class Handset:
             if socket._response.connection and socket._response.connection.transport:
                 socket._response.connection.transport.abort()
 
-    async def _read(self, socket: "asyncio.Future[object] | object") -> None:
-        async for message in socket:  # type: ignore[attr-defined]
+    async def _read(self, socket: ClientWebSocketResponse) -> None:
+        async for message in socket:
             if message.type is WSMsgType.TEXT:
                 self.texts += 1
                 if "resume" in (values := message.json()):

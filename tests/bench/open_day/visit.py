@@ -164,7 +164,7 @@ class Visit:
         observe(state, seat, mind.senses, mind.obs)
         act(mind.obs, mind, action)
         x, y = float(action.angular), -float(action.linear)
-        if scene.drivers.style_of(scene.devices[seat]) in (POINT, HELPED_POINT):
+        if (device := scene.devices[seat]) and scene.drivers.style_of(device) in (POINT, HELPED_POINT):
             x, y = where_to_go(action, state.robots[seat], state.rules.turn_rate)
         return x, y, bool(action.fire), bool(action.turbo)
 

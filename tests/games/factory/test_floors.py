@@ -8,7 +8,7 @@ from pigaming_app import ASSETS
 from pigaming_app.games.arenas import arenas, load, parse
 from pigaming_app.games.factory.layout import BODY, SHELF
 from pigaming_app.games.factory.pedestrians import send, walk
-from pigaming_app.games.factory.state import ENTRY, EXIT, FORK, INPUT, OUTPUT, REACH, SLOTS, WORKERS, Worker
+from pigaming_app.games.factory.state import ENTRY, EXIT, FORK, INPUT, OUTPUT, REACH, SLOTS, WORKERS, Factory, Worker
 from pigaming_app.sim.arena import ArenaError, build
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.world import HEIGHT, HZ, WIDTH, World
@@ -115,7 +115,7 @@ def test_robots_go_round_machines_but_reach_every_slot_from_one_side_at_least(fl
 @pytest.mark.parametrize("floor", FLOORS)
 def test_people_get_from_home_to_every_machine_and_back(floor):
     arena = load("factory", floor)
-    world = World()
+    world = Factory()
     build(world, arena)
     assert len(arena.plan.homes) == WORKERS
     for home in arena.plan.homes:

@@ -2,7 +2,6 @@
 
 from math import cos, hypot, pi, sin
 from random import Random
-from typing import Annotated
 
 import pytest
 
@@ -12,18 +11,17 @@ from pigaming_app.games.factory.pedestrians import (
     ARRIVED_NEAR_ROBOT,
     RESTING_CLEARANCE,
     TURN_RATE,
-    Motion,
     send,
     track_motion,
     walk,
 )
+from pigaming_app.games.factory.state import Factory, Worker
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.arena import build
 from pigaming_app.sim.contact import in_wall
-from pigaming_app.sim.flow_field import Route
-from pigaming_app.sim.record import digest, record
+from pigaming_app.sim.record import digest
 from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH, World
+from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
 from tests.floor import arena
 
 PACE, GIRTH = 130.0, 20.0  # px/s, px
@@ -31,30 +29,9 @@ U = [(600.0, 250.0, 1000.0, 250.0), (1000.0, 250.0, 1000.0, 650.0), (1000.0, 650
 BOX = [*U, (600.0, 650.0, 600.0, 250.0)]
 
 
-@record
-class Walker:
-    """A minimal walker."""
-
-    x: float
-    y: float
-    heading: float
-    walking: int
-    side: int
-    route: Route
-    closest: float
-    stuck_ticks: int
-
-
-@record
-class Yard(World):
-    """A minimal world for walkers."""
-
-    motions: Annotated[list[Motion], ROBOTS]
-
-
 def floor(walls=(), poses=()):
     """A world with robots at rest at `poses`."""
-    world = Yard()
+    world = Factory()
     build(world, arena(walls, poses))
     for robot, motion in zip(world.robots, world.motions, strict=True):
         robot.present = int(robot in world.robots[: len(poses)])
@@ -81,7 +58,7 @@ def at_speed(world, speed):
 
 
 def walker(x, y, to):
-    made = Walker()
+    made = Worker()
     made.x, made.y = x, y
     send(made, *to)
     return made
@@ -148,10 +125,10 @@ def test_it_finds_the_way_out_of_a_u_and_round_it():
 
 @pytest.mark.parametrize("place", [("factory", name) for name in arenas("factory")] + [("pitanks", "classic")])
 def test_it_gets_from_anywhere_to_anywhere(place):
-    world, chance = Yard(), Random(3)
+    world, chance = Factory(), Random(3)
     build(world, load(*place))
 
-    def free():
+    def free() -> tuple[float, float]:
         while True:
             x, y = chance.uniform(50, WIDTH - 50), chance.uniform(50, HEIGHT - 50)
             if not any(in_wall(world, x + dx, y + dy) for dx in (-3, 3) for dy in (-3, 3)):

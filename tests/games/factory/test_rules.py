@@ -35,7 +35,7 @@ from pigaming_app.games.factory.state import (
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import HZ
 from tests.games.factory.shop import Shop
-from tests.matches import Stick, finished, match_of
+from tests.matches import Stick, finished, match_of, player_of
 
 FLOORS = arenas("factory")
 
@@ -78,7 +78,7 @@ def test_a_press_lifts_the_next_one_sets_down():
 def test_holding_fire_is_one_press():
     shop = Shop()
     shop.stand(0, entry(shop, ICE))
-    shop.match.brains[0].fire = 1
+    player_of(shop.match).fire = 1
     for _ in range(2 * HZ):
         shop.tick()
         assert shop.loads[0].pallet, "it has lifted, and does not set down"
@@ -92,9 +92,9 @@ def test_the_fork_reaches_forty_px_from_64_px_ahead_of_the_robot(heading):
         shop.stand(0, s, off, heading)
         x, y, _ = shop.rails.poses[0]
         assert hypot(x - shop.slots[s].x, y - (shop.slots[s].y + off)) == pytest.approx(64.0)
-        shop.match.brains[0].fire = 1
+        player_of(shop.match).fire = 1
         shop.tick()
-        shop.match.brains[0].fire = 0
+        player_of(shop.match).fire = 0
         shop.tick()
         assert bool(shop.loads[0].pallet) == lifts
 
@@ -410,7 +410,7 @@ def test_in_a_wrong_machine_a_pallet_is_spoiled_at_once_and_replaced_after_ten_s
     shop.pallets[p].state = state
     s = shop.input_of(makes)
     shop.stand(0, s)
-    shop.match.brains[0].fire = 1
+    player_of(shop.match).fire = 1
     shop.tick()
     assert (shop.pallets[p].state, shop.pallets[p].place, shop.pallets[p].at) == (DAMAGED, IN_SLOT, s)
     assert [load.spoiled for load in shop.loads] == [1, 0, 0, 0]
@@ -551,10 +551,10 @@ def test_a_worker_who_is_driven_over_continues_working():
 def test_stick_and_turbo_ask_for_the_speeds_of_the_rules():
     shop = Shop()
     robot = shop.state.robots[0]
-    shop.match.brains[0] = Stick(angular=0.5)
+    shop.match.brains[0] = stick = Stick(angular=0.5)
     shop.tick()
     assert (robot.requested_linear, robot.requested_angular) == (260.0, 1.5)
-    shop.match.brains[0].turbo = 1
+    stick.turbo = 1
     shop.tick()
     assert robot.requested_linear == pytest.approx(1.3 * 260.0)
     shop.tick(2 * HZ)

@@ -314,7 +314,7 @@ def test_brains_see_light_knock_out_bounty_finale_and_overtime():
     assert (obs.finale, obs.overtime) == (0, 0)
     match = ticks(level([3, 3, 2], minutes=0.5), 1)
     observe(match, 2, PiTanksSenses(), obs)
-    assert (obs.finale, obs.overtime, obs.seconds_left) == (0, 1, pytest.approx(15.0))
+    assert (obs.finale, obs.overtime, obs.seconds_left) == pytest.approx((0, 1, 15.0))
     assert [other.worth for other in obs.others[1:]] == [0, 0]
     observe(match, 0, PiTanksSenses(), obs)
     assert obs.others[0].worth == 1

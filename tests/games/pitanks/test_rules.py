@@ -319,7 +319,7 @@ def test_a_ricochet_bounces_twice_and_stops_at_the_third_wall():
     corridor = [(400.0, 300.0, 1000.0, 300.0), (400.0, 600.0, 1000.0, 600.0)]
     match = holding(RICOCHET, [(700.0, 450.0, pi / 2), (1500.0, 100.0, 0.0)], corridor)
     ticks(match, 1, fire=[0])
-    bullet, ways = match.bullets[0], []
+    bullet, ways = match.bullets[0], list[bool]()
     while bullet.alive and len(ways) < 500:
         ways.append(bullet.vy > 0)
         ticks(match, 1)

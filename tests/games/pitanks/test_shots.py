@@ -131,7 +131,7 @@ def stops(match, seat):
 
 def crowd(random, walls):
     """Poses of four robots, mostly crowded, clear of walls and of each other, mostly facing another robot."""
-    poses = []
+    poses: list[tuple[float, float, float]] = []
     x, y = random.uniform(40, WIDTH - 40), random.uniform(40, HEIGHT - 40)
     while len(poses) < 4:
         near = random.random() < 0.8

@@ -55,7 +55,7 @@ def test_a_place_on_a_straight_and_in_a_bend():
     assert (place.along, place.aside) == pytest.approx((pi / 2 * 150 + 50, 30), abs=0.1)
     assert (place.tangent_x, place.tangent_y, place.half, place.on) == pytest.approx((1, 0, 80, 1))
     locate(course, 500.0, 119.0, place)
-    assert (place.aside, place.on) == (pytest.approx(-81), 0)
+    assert (place.aside, place.on) == pytest.approx((-81, 0))
     a = 1.25 * pi  # half way round the first bend, 20 px to the left of the line
     locate(course, 450 + 170 * cos(a), 350 + 170 * sin(a), place)
     assert (place.along, place.aside) == pytest.approx((pi / 4 * 150, -20), abs=0.2)

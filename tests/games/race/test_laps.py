@@ -54,7 +54,7 @@ def judged(path, lines, own, laps, carried):
     events = sorted((when, line, way) for line, (a, b) in enumerate(ends) for when, way in cuts(path, a, b, carried))
     wanted = [(own + i) % 4 for i in range(4 * laps + 1)]  # in order, all the way to the finish
     passed, own_at, void, missed = 0, [], 0, 0
-    undone = []  # lines gone back over since the last that counted, most recent last
+    undone: list[int] = []  # lines gone back over since the last that counted, most recent last
     for when, line, way in events:
         if passed == len(wanted):
             break
@@ -134,7 +134,7 @@ def test_wild_robots_that_push_each_other(track, seed):
     match = match_of("race", ["idle"] * 4, track, 3.0, seed, "standard", 2)
     for seat in range(4):
         match.sit(seat, Wild(seat, seed))
-    paths = [[] for _ in range(4)]
+    paths = [list[tuple[float, float]]() for _ in range(4)]
     while not match.over and match.state.tick < 4000:
         for robot, path in zip(match.state.robots, paths, strict=True):
             path.append((robot.x, robot.y))

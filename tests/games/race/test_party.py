@@ -66,7 +66,7 @@ def test_a_grid_in_a_narrow_bend_is_drawn_out_until_nobody_touches():
 
 
 def test_every_seat_gets_every_place_equally_often():
-    places = [Counter() for _ in range(4)]
+    places = [Counter[int]() for _ in range(4)]
     for seed in range(48):
         for seat, racer in enumerate(race(seed=seed).state.racers):
             places[seat][racer.rank] += 1

@@ -107,7 +107,7 @@ def distance(track: str, variant: str, drive: list[Leg], seed: int) -> float:
             referee.drove(racer.passed, robot.x, robot.y) if moved else referee.put(passed, robot.x, robot.y)
         path.append((robot.x, robot.y))
     assert judged(path[:-1], state.lines, racer.line, 9, state.rules.carried)[0] == racer.passed
-    return racer.progress
+    return float(racer.progress)
 
 
 class Driver:

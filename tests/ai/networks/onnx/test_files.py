@@ -17,7 +17,7 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.jobs.cli import main
 from tests.ai.networks.onnx.tiny_onnx import DOUBLE, endless, field, model, node, tensor, troubled
-from tests.matches import finished, match_of
+from tests.matches import finished, match_of, player_of
 
 ENCODING = ENCODINGS["pitanks"]
 SIZE, LESS = ENCODING.size, ENCODING.size - 1
@@ -127,7 +127,7 @@ class TestWithTheExtra:
     )
     def test_one_that_fails_in_a_match_leaves_its_seat_idle(self, raw, reason, monkeypatch, capsys):
         """As one whose trouble depends on its input."""
-        failures = []
+        failures: list[str] = []
         monkeypatch.setattr(OnnxPolicy, "_try", lambda policy: None)
         monkeypatch.setattr("pigaming_app.ai.networks.onnx.files.failed", failures)
         Path("a.onnx").write_bytes(raw)
@@ -138,7 +138,7 @@ class TestWithTheExtra:
             assert (action.linear, action.angular, action.fire, action.turbo) == (0, 0, 0, 0)
         assert capsys.readouterr().err == f"PiGaming: a.onnx: {reason}; its seat idles from here on\n"
         assert failures == ["a.onnx"]
-        process = match.brains[0].weights._process._process
+        process = player_of(match).weights._process._process
         assert (process.returncode == child.TOO_LONG) == (raw == looping(10**12))
         assert not os.path.exists(f"/proc/{process.pid}")
 
