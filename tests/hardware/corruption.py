@@ -39,8 +39,8 @@ def corrupted(good, count, seed=1):
         shifted = np.where(np.arange(length) >= at[:, None], np.roll(broken, -1, axis=1), broken)
         shifted[:, -1] = value
         broken = np.where((kind == LOSS)[:, None], shifted, broken).astype(np.uint8)
-    for kind, spoilt in ((BURST, _burst), (STEP, _out_of_step)):
-        broken[way == kind] = spoilt(broken[way == kind], random)
+    for number, spoilt in ((BURST, _burst), (STEP, _out_of_step)):
+        broken[way == number] = spoilt(broken[way == number], random)
     end = packets[random.integers(0, len(good), count)]
     broken[way == SPLICE] = _spliced(broken[way == SPLICE], end[way == SPLICE], random)
     same = (broken == packets[chosen]).all(axis=1) | (broken == end).all(axis=1)

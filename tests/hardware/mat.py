@@ -10,9 +10,9 @@ import numpy as np
 
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane, Lens
 from pigaming_app.hardware.control.kinematics import IDEAL
-from pigaming_app.hardware.control.rig import UNMEASURED, Rig
+from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.radio.protocol import LinkQuality
-from pigaming_app.hardware.signals import CameraFrame, Fix, Telemetry
+from pigaming_app.hardware.signals import CameraFrame, Fix, Telemetry, WheelCommand
 from pigaming_app.sim.drivetrain import Drivetrain, Wheel, twist
 from pigaming_app.sim.plant import Sighting
 
@@ -36,7 +36,7 @@ class Robot:
     def __init__(self, pose, train):
         self.x, self.y, self.heading = pose
         self.train = train
-        self.command = None
+        self.command: WheelCommand | None = None
         self.linear = self.angular = 0.0
         self.seen, self.duplicate, self.battery, self.received = 0.0, False, 5.0, 0.0
         self.hidden = self.silent = False
@@ -58,6 +58,11 @@ class Robot:
 NOMINAL_MM = 1.32  # per px, of an arena of 2112 mm
 
 
+def rig_of(camera, mat, clock=None, **about) -> Rig:
+    """The rig of a camera, and of the tracker and the link that a mat is."""
+    return Rig(camera, mat, mat, clock or mat.clock, **about)
+
+
 class Mat:
     """Camera, tracker and link in one; `rig` combines them."""
 
@@ -67,13 +72,13 @@ class Mat:
         self.blind, self.fault, self.closed = False, None, False
         self.last_captured = 0.0
         self.rejections = {}
-        self.coming = deque()
+        self.coming: deque[tuple[float, tuple[WheelCommand | None, ...]]] = deque()  # on the air
         self.radio = [0, 1, 2, 3]  # channel of each robot
-        self.past = deque()  # (s, poses) in transit through the camera
+        self.past: deque[tuple[float, list[tuple[float, float, float]]]] = deque()  # in the camera
         self.pictures = 0
         self.boards = {}
         self.misfits = {}
-        self.rig = Rig(self, self, self, self.clock, (UNMEASURED,) * 4, mm=NOMINAL_MM)
+        self.rig = rig_of(self, self, mm=NOMINAL_MM)
 
     def clock(self):
         return self.now
@@ -112,7 +117,7 @@ class Mat:
         pass
 
     def process(self, frame):
-        return [Fix(i, *pose, frame.captured) for i, pose in enumerate(self.past[0][1])]
+        return [Fix(i, x, y, heading, frame.captured) for i, (x, y, heading) in enumerate(self.past[0][1])]
 
     def sense(self, now):
         ahead = now - self.now

@@ -7,13 +7,19 @@ from typing import Any
 
 import pytest
 
-from pigaming_app.storage.messages import OperatorError
+from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.ui.i18n import english
 
 
 def sentence(fault: Any) -> str:
     """The text of an OperatorMessage or OperatorError."""
     return english().long_sentence(fault.message if isinstance(fault, OperatorError) else fault)
+
+
+def key_of(fault: OperatorMessage | None) -> str:
+    """The key of a fault that there must be."""
+    assert fault is not None
+    return fault.key
 
 
 @contextmanager

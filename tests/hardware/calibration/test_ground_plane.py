@@ -10,7 +10,7 @@ import pytest
 
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, Lens, read, to_toml
 from pigaming_app.hardware.session import store
-from pigaming_app.hardware.signals import DetectedMarker
+from pigaming_app.hardware.signals import DetectedMarker, Fix
 from pigaming_app.hardware.vision.markers import ROBOT_IDS
 from tests.hardware.mat import nominal
 from tests.hardware.sentences import refused, sentence
@@ -25,6 +25,13 @@ def edge_on(ground, robot, x, y, height, edge=50.0):
     half = 0.5 * edge / ground.mm
     corners = np.array([(x + half, y - half), (x + half, y + half), (x - half, y + half), (x - half, y - half)])
     return DetectedMarker(ROBOT_IDS[robot], ground.to_camera(corners, height))
+
+
+def fix_of(ground, mark, captured=0.0):
+    """The fix that a marker must have."""
+    (fix,) = ground.fixes([mark], captured)
+    assert isinstance(fix, Fix)
+    return fix
 
 
 def test_straightening_undoes_bending_all_over_the_picture():
@@ -47,7 +54,7 @@ def test_a_lid_is_seen_beside_its_place_by_the_height_rule():
 
 def test_a_marker_on_a_lid_is_a_robot_and_its_top_is_ahead():
     ground = nominal()
-    (fix,) = ground.fixes([edge_on(ground, 2, 300.0, 700.0, 70.0)], 5.0)
+    fix = fix_of(ground, edge_on(ground, 2, 300.0, 700.0, 70.0), 5.0)
     assert fix.robot == 2
     assert fix.captured == 5.0
     assert (fix.x, fix.y) == pytest.approx((300.0, 700.0))
@@ -129,8 +136,7 @@ def test_a_heading_is_where_the_top_of_the_marker_points():
     ground = nominal()
     mark = edge_on(ground, 1, 800.0, 400.0, 70.0)
     turned = DetectedMarker(ROBOT_IDS[1], np.roll(mark.corners, -1, axis=0))
-    (fix,) = ground.fixes([turned], 0.0)
-    assert abs(fix.heading) == pytest.approx(pi / 2.0)
+    assert abs(fix_of(ground, turned).heading) == pytest.approx(pi / 2.0)
 
 
 HERE = "1: 1024 × 768"

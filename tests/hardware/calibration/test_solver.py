@@ -6,7 +6,8 @@ import pytest
 from pigaming_app.hardware.calibration.boards import ARENA_AT, BOARD, BOARD_IDS, CANVAS, HELD_OUT, BoardSamples
 from pigaming_app.hardware.calibration.camera_position import height_by_robot, height_by_ruler
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError
-from pigaming_app.hardware.calibration.solver import homography, least_squares, solve, verify, with_verification
+from pigaming_app.hardware.calibration.least_squares import least_squares
+from pigaming_app.hardware.calibration.solver import homography, solve, verify, with_verification
 from pigaming_app.hardware.signals import CameraFrame
 from tests.hardware.pictures import MM, SIZE, Pinhole, speckled
 from tests.hardware.sentences import refused

@@ -13,6 +13,7 @@ from pigaming_app.hardware.emulator.arena import ARENA_AT, EmulatedArena
 from pigaming_app.hardware.emulator.objects import LID_HEIGHT, FlatObject, lid
 from pigaming_app.hardware.emulator.renderer import ExposureSetup
 from pigaming_app.hardware.session.emulated import calibrated
+from pigaming_app.hardware.signals import DetectedMarker
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector
 from tests.hardware.tracking.blind_bed import TRUTH, BlindBed
 
@@ -33,7 +34,8 @@ def sights(arena):
     """Markers in pictures of lids on a robot and flat on the mat, at hand-laid places, by trial."""
     detector, page = MarkerDetector(WEARERS), np.zeros((1080, 1920), np.uint8)
     cv2.circle(page, (round(SPOT[0] + ARENA_AT[0]), round(SPOT[1] + ARENA_AT[1])), 90, 128, -1)
-    random, trials = np.random.default_rng(1), []
+    random = np.random.default_rng(1)
+    trials: list[list[DetectedMarker | None]] = []
     for number in (16, 17, 45):
         trials.append([])
         for height in (LID_HEIGHT, 0.0):

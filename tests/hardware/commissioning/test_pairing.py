@@ -120,8 +120,8 @@ def test_latency_is_dead_time_and_age_of_the_picture_without_the_motors_lag():
     assert found.total == pytest.approx(TRUE.dead_time + LATE, abs=0.03)
 
 
-def test_a_robot_that_does_not_move_has_no_latency():
+def test_a_robot_that_does_not_move_has_no_latency(monkeypatch):
     mat = Mat()
     mat.radio = [0, 1, 3, 3]
-    mat.send = lambda wheels: None
+    monkeypatch.setattr(mat, "send", lambda wheels: None)
     assert shaken(mat) is None

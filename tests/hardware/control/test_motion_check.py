@@ -76,7 +76,8 @@ def ahead(speed, turn=0.0):
 
 def mashed(speed, seed):
     """Random sticks, each held for up to a second."""
-    random, held = Random(seed), {}
+    random = Random(seed)
+    held: dict[int, tuple[float, tuple[float, float]]] = {}  # until (s), twist
 
     def ask(time):
         for robot in range(4):
@@ -145,7 +146,7 @@ def test_it_lasts_until_somebody_has_looked():
     run = Wired([(800.0, 450.0, 0.0), (800.0, 750.0, 0.0), *ASIDE], "held").drive(ahead(200.0), 5.0)
     assert run.plant.safety.latched == {0}
     run.plant.clear_fault(0)
-    run.mat.robots[0].roll = type(run.mat.robots[0]).roll.__get__(run.mat.robots[0])
+    del run.mat.robots[0].roll
     assert run.drive(ahead(200.0), 2.0).plant.faults == []
     assert run.mat.robots[0].x > 900.0
 
@@ -156,7 +157,7 @@ def test_a_robot_that_is_switched_off_is_said_to_be_silent_and_drives_on_once_it
     run.mat.robots[0].silent = True
     run.drive(ahead(0.0), 0.2).drive(ahead(150.0), 2.5)
     assert [(fault.name, fault.robot) for fault in run.plant.faults] == [("silent", 0)]
-    run.mat.robots[0].roll = type(run.mat.robots[0]).roll.__get__(run.mat.robots[0])
+    del run.mat.robots[0].roll
     run.mat.robots[0].silent = False
     run.drive(lambda time: [(150.0, 0.0)] * 4, 2.5)
     assert run.plant.faults == []

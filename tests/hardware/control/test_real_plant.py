@@ -2,6 +2,7 @@
 
 from math import hypot, pi
 from random import Random
+from unittest.mock import Mock
 
 import pytest
 
@@ -77,16 +78,15 @@ def test_a_robot_stops_short_of_a_wall_by_its_own_radius(board, radius, speed, m
 @pytest.mark.parametrize("thinking", [0.0, 0.03])
 def test_a_tick_predicts_all_robots_once_unless_the_game_thinks_for_long(monkeypatch, thinking):
     mat = Mat()
-    plant, predicted = on_floor(mat), []
-    predict = mat.predict
-    monkeypatch.setattr(mat, "predict", lambda now, ahead: predicted.append(now) or predict(now, ahead))
+    plant, predict = on_floor(mat), Mock(wraps=mat.predict)
+    monkeypatch.setattr(mat, "predict", predict)
     for _ in range(10):
-        predicted.clear()
+        predict.reset_mock()
         plant.sense()
         mat.pass_time(thinking)
         plant.drive(AHEAD, 0.02)
-        assert len(predicted) == (2 if thinking else 1)
-        assert predicted[-1] == mat.now
+        assert predict.call_count == (2 if thinking else 1)
+        assert predict.call_args.args[0] == mat.now
         mat.pass_time()
 
 
@@ -183,12 +183,13 @@ def test_an_unseen_robot_coasts_then_drives_at_half_speed_then_stops():
     mat = Mat([(300.0, 450.0, 0.0), *STARTS[1:]])
     plant = on_floor(mat)
     drive(plant, mat, AHEAD, 0.6)
-    full = mat.robots[0].command.left
+    full = mat.robots[0].command
+    assert full is not None
     mat.robots[0].hidden = True
     drive(plant, mat, AHEAD, 0.1)
-    assert mat.robots[0].command.left == pytest.approx(full, abs=0.02)
+    assert mat.robots[0].command == pytest.approx(full, abs=0.02)
     drive(plant, mat, AHEAD, 0.1)
-    assert mat.robots[0].command.left == pytest.approx(0.5 * full, abs=0.04)
+    assert mat.robots[0].command == pytest.approx((0.5 * full.left, 0.5 * full.right), abs=0.04)
     drive(plant, mat, AHEAD, 0.12)
     assert stands(mat, 0)
 

@@ -2,17 +2,18 @@
 
 import threading
 import time
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
 
 from pigaming_app.hardware.control.kinematics import IDEAL, LEVELS, Kinematics
-from pigaming_app.hardware.control.rig import UNMEASURED, Rig
+from pigaming_app.hardware.control.rig import UNMEASURED
 from pigaming_app.hardware.radio.packets import DEADMAN
 from pigaming_app.hardware.signals import CameraFrame, WheelCommand
 from pigaming_app.hardware.tracking.motion_model import WheelCorrection
 from pigaming_app.sim.drivetrain import NOMINAL
-from tests.hardware.mat import Mat
+from tests.hardware.mat import Mat, rig_of
 
 
 class Eye:
@@ -50,7 +51,7 @@ def picture(number, shade):
 
 def test_a_driver_that_repeats_a_picture_shows_nothing_new():
     tracker = Tracker()
-    rig = Rig(Eye(picture(1, 10), picture(2, 10), picture(3, 11)), tracker, tracker, tracker.clock)
+    rig = rig_of(Eye(picture(1, 10), picture(2, 10), picture(3, 11)), tracker)
     for _ in range(5):
         rig.pump()
     assert tracker.shown == [1, 3]
@@ -58,7 +59,7 @@ def test_a_driver_that_repeats_a_picture_shows_nothing_new():
 
 def test_the_tracker_receives_nominal_twists_and_none_for_robots_that_are_off():
     tracker = Tracker()
-    rig = Rig(Eye(), tracker, tracker, tracker.clock)
+    rig = rig_of(Eye(), tracker)
     wheels = rig.kinematics[0].wheels((200.0, 0.5))
     rig.send([wheels, WheelCommand(0.0, 0.0), None, None])
     (twists,) = tracker.twists
@@ -68,7 +69,7 @@ def test_the_tracker_receives_nominal_twists_and_none_for_robots_that_are_off():
 
 def test_what_the_tracker_learns_of_wheels_is_used_to_steer(monkeypatch):
     tracker = Tracker()
-    rig = Rig(Eye(picture(1, 10)), tracker, tracker, tracker.clock)
+    rig = rig_of(Eye(picture(1, 10)), tracker)
     even = rig.kinematics[2].wheels((260.0, 0.0))
     monkeypatch.setattr(tracker, "wheel_correction", lambda robot: WheelCorrection(0.9, 1.1, 1.0, 0.0, 0.0))
     rig.pump()
@@ -93,7 +94,7 @@ def test_a_robot_that_was_never_seen_is_unseen_and_one_that_is_just_late_is_not(
 def test_threads_look_and_talk_and_end_when_it_is_closed():
     before = threading.active_count()
     tracker = Tracker()
-    rig = Rig(Eye(*[picture(i, i) for i in range(20)]), tracker, tracker, time.monotonic).start()
+    rig = rig_of(Eye(*[picture(i, i) for i in range(20)]), tracker, time.monotonic).start()
     deadline = time.monotonic() + 60.0
     while len(tracker.shown) < 20 and time.monotonic() < deadline:
         time.sleep(0.01)
@@ -116,7 +117,7 @@ def test_a_tracker_that_breaks_once_is_logged_and_goes_on_with_the_next_picture(
         return process(frame)
 
     monkeypatch.setattr(tracker, "process", broken)
-    rig = Rig(Eye(picture(1, 1), picture(2, 2)), tracker, tracker, time.monotonic).start()
+    rig = rig_of(Eye(picture(1, 1), picture(2, 2)), tracker, time.monotonic).start()
     deadline = time.monotonic() + 60.0
     while not tracker.shown and time.monotonic() < deadline:
         time.sleep(0.01)
@@ -146,11 +147,11 @@ def test_limits_and_margin_follow_the_kind_of_robot():
     """On an arena of 1.32 mm/px a simulated robot has a radius of 47.5 mm. A micro:bit robot needs 4.5 V."""
     mat = Mat([(900.0, 450.0, 0.0)] * 4)
     mat.boards = {1: 1}
-    rig = Rig(mat, mat, mat, mat.clock, mm=1.32, kinds=("", "", "microbit", "3pi"))
+    rig = rig_of(mat, mat, mm=1.32, kinds=("", "", "microbit", "3pi"))
     rig.channels = (1, 2, 3, 0)
     assert [rig.kind(robot).key for robot in range(4)] == ["esp32", "microbit", "3pi", "3pi"]
     assert [round(rig.margin(robot), 2) for robot in range(4)] == [8.45, 8.45, 0.0, 0.0]
-    assert Rig(mat, mat, mat, mat.clock, mm=0.66).margin(0) == pytest.approx(47.5 / 0.66 - 37.0)
+    assert rig_of(mat, mat, mm=0.66).margin(0) == pytest.approx(47.5 / 0.66 - 37.0)
     health = rig.health(dict.fromkeys(range(4), 0.0), rig.snapshot())
     assert [(one.battery_low, one.battery_empty) for one in health.values()] == [(4.4, 4.0), (4.6, 4.4)] + [
         (4.4, 4.0)
@@ -163,11 +164,11 @@ def test_a_battery_that_is_not_measured_is_no_empty_one():
     assert mat.rig.health({0: 0.0}, mat.rig.snapshot())[0].battery > 5.0
 
 
-def test_commands_that_are_lost_on_the_air_explain_a_robot_that_stands():
+def test_commands_that_are_lost_on_the_air_explain_a_robot_that_stands(monkeypatch):
     """A robot that is held is stuck; one whose reports cease, or tell of its deadman, is not, and is judged anew."""
     mat = Mat()
     held, free = mat.robots[:2]
-    held.roll = lambda: None
+    monkeypatch.setattr(held, "roll", lambda: None)
     ahead = WheelCommand(0.4, 0.4)
 
     def stuck(seconds):
@@ -195,16 +196,16 @@ def test_commands_that_are_lost_on_the_air_explain_a_robot_that_stands():
 
 
 def test_predictions_reach_as_far_ahead_as_commands_are_measured_to_take(monkeypatch):
-    mat, ahead = Mat(), []
+    mat, predict = Mat(), Mock(return_value=([], []))
     late = [0.0, 0.05, 0.1, -0.01]
     monkeypatch.setattr(
         mat, "wheel_correction", lambda robot: WheelCorrection(1.0, 1.0, 1.0, late[robot], 0.0), raising=False
     )
-    monkeypatch.setattr(mat, "predict", lambda now, more: ahead.append(more) or ([], []))
+    monkeypatch.setattr(mat, "predict", predict)
     mat.pass_time(0.1)
     mat.rig.pump()
     mat.rig.snapshot()
-    assert ahead[-1] == pytest.approx([UNMEASURED.dead_time + more for more in (0.0, 0.05, 0.1, 0.0)])
+    assert predict.call_args.args[1] == pytest.approx([UNMEASURED.dead_time + more for more in (0.0, 0.05, 0.1, 0.0)])
 
 
 WORN = WheelCorrection(0.93, 1.05, 1.02, 0.01, 8.0)

@@ -3,7 +3,7 @@
 import socket
 
 from pigaming_app.hardware.emulator.wifi.boards import WIRING, BoardConfig, Boards
-from pigaming_app.hardware.radio.envelope import DRIVE, announcement_from, seal, unseal
+from pigaming_app.hardware.radio.envelope import DRIVE, REPORT, announcement_from, seal, unseal
 from pigaming_app.hardware.radio.packets import drive_packet
 from pigaming_app.hardware.signals import WheelCommand
 
@@ -45,9 +45,14 @@ class Arcade:
         self.run(1.5)
         datagram = self.received(b"PG2A")[-1]
         found = announcement_from(datagram)
+        assert found is not None
         assert unseal(KEY, found.nonce, b"A", datagram) is not None
         self.nonce = found.nonce
         return found
+
+    def reports(self):
+        """Counters and bodies of the reports that came."""
+        return [unseal(KEY, self.nonce, REPORT, datagram) for datagram in self.received(b"PG2T")]
 
     def received(self, head):
         found = []

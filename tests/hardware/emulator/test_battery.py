@@ -1,15 +1,14 @@
 """Battery voltages at the arcade, measured by ADCs that follow the data sheets of the chips."""
 
-import importlib.util
+import runpy
+from types import SimpleNamespace
 
 import pytest
 
 from pigaming_app.hardware.emulator.wifi.boards import HERE
 from pigaming_app.hardware.radio.packets import EMPTY, LOW, report_from
 
-spec = importlib.util.spec_from_file_location("adc", HERE / "adc.py")
-adc = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(adc)
+adc = SimpleNamespace(**runpy.run_path(str(HERE / "adc.py")))
 
 ERROR = 25  # mV, stated in docs/hardware.md
 PICO, PICO_STEP = "board_pico_w", 3300 / 4096

@@ -204,7 +204,7 @@ def test_a_robot_switched_on_before_its_network_joins_it_later(arcade):
     assert any(arcade.motors)
 
 
-WRONG = {  # what is wrong in the files of a robot, and what it prints
+WRONG: dict[str, tuple[dict[str, bytes | None], str]] = {  # what is wrong in the files of a robot, and what it prints
     "no config": ({"config.py": None}, "no module named 'config'"),
     "a syntax error": ({"config.py": b'ROBOT = 1\nNETWORK = "at home\n'}, 'config.py", line 2: SyntaxError'),
     "as by PowerShell's >": ({"config.py": "ROBOT = 2\r\n".encode("utf-16")}, 'config.py", line 1: SyntaxError'),

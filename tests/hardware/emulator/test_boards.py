@@ -4,9 +4,9 @@ import socket
 
 import pytest
 
-from pigaming_app.hardware.radio.envelope import REPORT, unseal
+from pigaming_app.hardware.radio.envelope import REPORT
 from pigaming_app.hardware.radio.packets import DEADMAN, PARKED, RESTARTED, drive_packet, report_from, with_crc
-from tests.hardware.emulator.one_board import ARENA, KEY, ON
+from tests.hardware.emulator.one_board import ARENA, ON
 
 pytestmark = pytest.mark.long
 
@@ -23,7 +23,7 @@ def test_a_command_drives_the_motors_until_the_deadman_stops_them(arcade):
     arcade.run(0.3)
     assert arcade.motors == (0.0, 0.0)
     assert 0.200 <= arcade.boards.powered_until[0] - sent <= 0.216
-    reports = [unseal(KEY, arcade.nonce, REPORT, datagram) for datagram in arcade.received(b"PG2T")]
+    reports = arcade.reports()
     assert [counter for counter, _ in reports] == sorted({counter for counter, _ in reports})
     assert len(reports) in (3, 4, 5)
     first, last = (report_from(body) for _, body in (reports[0], reports[-1]))
@@ -132,5 +132,5 @@ def test_the_button_stops_a_robot_until_it_is_pressed_again(arcade):
         for _ in range(20):
             arcade.drive(0.02)
         assert any(arcade.motors) is moving
-        _, body = unseal(KEY, arcade.nonce, REPORT, arcade.received(b"PG2T")[-1])
+        _, body = arcade.reports()[-1]
         assert bool(report_from(body).flags & PARKED) is not moving

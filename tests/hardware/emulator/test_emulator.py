@@ -206,7 +206,7 @@ def test_after_a_long_time_closed_the_camera_gives_out_its_newest_picture():
     assert 0.05 < arena.clock() - frame.captured < 0.1 + 1 / 30
 
 
-def test_a_rolling_shutter_exposes_lower_rows_later():
+def test_a_rolling_shutter_exposes_lower_rows_later(monkeypatch):
     """Of two robots that drive right, the lower one has got farther by its way while the rows between are read."""
     gaps = []
     for readout in (0.0, 1 / 20):
@@ -214,7 +214,7 @@ def test_a_rolling_shutter_exposes_lower_rows_later():
         for robot, y in ((0, 150.0), (1, 750.0)):
             arena.place(robot, (300.0, y, 0.0))
             body = arena.robots[robot]
-            body.roll = lambda body=body: setattr(body, "x", body.x + 0.5 * 1000.0 * 0.002)
+            monkeypatch.setattr(body, "roll", lambda body=body: setattr(body, "x", body.x + 0.5 * 1000.0 * 0.002))
         arena.project(np.full((1080, 1920), 150, np.uint8))
         seen = dict(found(newest(arena, 0.6).image))
         gaps.append(seen[1].mean(axis=0) - seen[0].mean(axis=0))

@@ -44,8 +44,8 @@ def until(true, seconds=60.0):
 @POSIX
 def test_robots_stop_when_the_program_that_drives_them_is_killed():
     arena = EmulatedArena(1, refresh=1000, begin=time.monotonic())
-    with RealtimeArena(arena, PseudoTerminal()) as live:
-        driver = subprocess.Popen([sys.executable, "-c", DRIVER, live.terminal.name, str(arena.arena_id)], cwd=ROOT)
+    with RealtimeArena(arena, terminal := PseudoTerminal()):
+        driver = subprocess.Popen([sys.executable, "-c", DRIVER, terminal.name, str(arena.arena_id)], cwd=ROOT)
         try:
             until(lambda: all(robot.left_speed > 100 for robot in arena.robots))
             os.kill(driver.pid, signal.SIGKILL)

@@ -66,8 +66,8 @@ def test_a_robot_in_the_shadow_of_a_tower_is_not_lit():
 def test_a_tower_hides_the_robot_behind_it_from_the_camera():
     arena = EmulatedArena(1)
     eye, robot = np.array(arena.optics.lens.eye[:2]), arena.robots[2]
-    between = np.array([robot.x, robot.y]) + 0.12 * (eye - (robot.x, robot.y))
-    arena.furnish([box(*between, 130.0, 130.0, 400.0)])
+    x, y = np.array([robot.x, robot.y]) + 0.12 * (eye - (robot.x, robot.y))
+    arena.furnish([box(x, y, 130.0, 130.0, 400.0)])
     arena.project(WHITE)
     assert sorted(number for number, _ in found(newest(arena).image)) == [0, 1, 3]
     arena.furnish([])

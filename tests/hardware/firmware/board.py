@@ -4,7 +4,7 @@ import os
 import shutil
 import subprocess
 from pathlib import Path
-from typing import NamedTuple
+from typing import IO, NamedTuple, cast
 
 from pigaming_app.hardware.radio import packets
 from pigaming_app.hardware.radio.packets import PacketDecoder, drive_packet
@@ -35,16 +35,17 @@ class Event(NamedTuple):
 
 
 class Board:
-    """A simulated robot."""
+    """A simulated robot; `files` as of `build`."""
 
-    def __init__(self, program, firmware, address, arena):
+    def __init__(self, files, address, arena):
         self.process = subprocess.Popen(
-            [program, firmware, str(BAUD), str(address), str(arena)],
+            [*files, str(BAUD), str(address), str(arena)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
         )
-        lines = iter(self.process.stdout.readline, "")
+        self._commands, self._output = cast(IO[str], self.process.stdin), cast(IO[str], self.process.stdout)
+        lines = iter(self._output.readline, "")
         self.device = next(line for line in lines if line.startswith("/dev/")).strip()
         import serial
 
@@ -57,11 +58,11 @@ class Board:
 
     def do(self, line):
         """Execute a command of the board; returns its output."""
-        self.process.stdin.write(line + "\n")
-        self.process.stdin.flush()
-        new = []
+        self._commands.write(line + "\n")
+        self._commands.flush()
+        new: list[Event] = []
         while not new or new[-1].kind != "done":
-            at, kind, *motors = self.process.stdout.readline().split()
+            at, kind, *motors = self._output.readline().split()
             new.append(Event(int(at), kind, tuple(map(int, motors))))
         self.at = new.pop().at
         self.events += new
@@ -103,9 +104,9 @@ class Board:
 
     def close(self):
         self.port.close()
-        self.process.stdin.close()
+        self._commands.close()
         assert self.process.wait(timeout=10) == 0
-        self.process.stdout.close()
+        self._output.close()
 
 
 def build(folder):

@@ -33,7 +33,7 @@ def make_board(built):
     boards = []
 
     def make(address=1, arena=ARENA):
-        boards.append(Board(*built, address, arena))
+        boards.append(Board(built, address, arena))
         return boards[-1]
 
     yield make
@@ -282,7 +282,8 @@ def test_the_whole_way_from_the_link_to_the_motors(make_board, end):
         board.run(10)
     assert board.motors == (duty(32), -256)
     assert link.telemetry[2].battery == pytest.approx(5.0, abs=0.01)
-    assert link.quality(2).echo < 0.05
+    assert (echo := link.quality(2).echo) is not None
+    assert echo < 0.05
     assert link.fault is None
     ended = board.at
     if end == "closed":

@@ -113,8 +113,8 @@ def test_robots_that_are_driven_into_things_at_full_stick_never_touch_them(seed)
     bed.furnish(some_things(seed, 8, bed.arena.optics, STARTS))
     specs = specs_of(bed)
     arena = parse("pitanks", OPEN_FLOOR + written(specs), "open.toml")
-    seats = tuple(Seat("human", team) for team in range(ROBOTS))
-    setup = Setup("pitanks", "open", seats, 0.5, seed, games()["pitanks"].default.name)
+    one, two, three, four = (Seat("human", team) for team in range(ROBOTS))
+    setup = Setup("pitanks", "open", (one, two, three, four), 0.5, seed, games()["pitanks"].default.name)
     match = Match(setup, lambda world: RealPlant(world, bed.rig), arena)
     targets = [spec.middle for spec in specs if spec.use is Use.WALL]
     for seat in range(ROBOTS):

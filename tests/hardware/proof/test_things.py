@@ -11,7 +11,7 @@ from pigaming_app.hardware.proof.things import ThingsBed, compare, distances, tr
 from pigaming_app.hardware.scan.things import ThingKind
 from pigaming_app.jobs.bench.robots import TARGETS
 from tests.cases import repeated
-from tests.hardware.proof.things_watch import BETWEEN, WatchedMatch
+from tests.hardware.proof.things_watch import BETWEEN, WatchedMatch, layout_of
 
 
 def test_outlines_apart_by_a_millimetre_on_all_sides_differ_by_one():
@@ -50,7 +50,7 @@ def test_a_dark_glossy_phone_is_one_thing_and_what_differs_by_28_percent_is_foun
     true = [box(x, y, 150, 75, high, 0.3 + 0.01 * x, grey, "glossy", 2) for x, y, high, grey in looks]
     true += [box(500, 200, 200, 140, TAPE, 0.2, pale), box(100, 0, 150, 100, TAPE, 0.7, pale, seed=7)]
     bed.furnish(true, [(200.0, 150.0, 0.0), (1400.0, 750.0, 1.0), (1400.0, 150.0, 2.0), (200.0, 750.0, 3.0)])
-    found = bed.scan().layout.things
+    found = layout_of(bed.scan()).things
     assert len(found) == len(true)
     for thing in true:
         kinds = [replace(thing, height=20.0 if tall else TAPE) for tall in (True, False)]
@@ -68,7 +68,7 @@ def test_white_things_on_a_grey_mat_are_found(monkeypatch):
     true += [box(-450, 220, 200, 140, TAPE, 0.2, 0.66), box(500, 200, 200, 140, TAPE, 0.2, 0.34)]
     true += [box(-150, 200, 150, 100, 15.0, 0.5, 0.9), box(100, 0, 150, 100, TAPE, 0.7, 0.95)]
     bed.furnish(true, [(200.0, 150.0, 0.0), (1400.0, 750.0, 1.0), (1400.0, 150.0, 2.0), (200.0, 750.0, 3.0)])
-    found = bed.scan().layout.things
+    found = layout_of(bed.scan()).things
     assert len(found) == len(true)
     for thing in true:
         assert max(compare(found, [thing], bed).worsts, default=99.0) < 6.0, thing
@@ -79,21 +79,18 @@ def test_an_empty_mat_is_empty_and_a_mat_without_robots_uses_the_projectors_know
     bed = ThingsBed(3)
     places = [(300.0, 200.0, 0.0), (1300.0, 700.0, 1.0), (1300.0, 200.0, 2.0), (800.0, 450.0, 3.0)]
     bed.furnish([], places)
-    empty = bed.scan().layout
-    assert empty is not None
+    empty = layout_of(bed.scan())
     assert empty.things == ()
     bed.furnish(BETWEEN, [])
     assert "projector_robots" in str(bed.scan().fault)
-    layout = bed.scan(empty).layout
-    assert layout is not None
-    assert [thing.kind for thing in layout.things] == [ThingKind.TALL] * len(BETWEEN)
+    assert [thing.kind for thing in layout_of(bed.scan(empty)).things] == [ThingKind.TALL] * len(BETWEEN)
 
 
 @pytest.mark.again  # through the screens: test_arena_page
 @pytest.mark.long(first=True)
 def test_things_are_watched_over_a_match_without_a_false_alarm_until_one_is_pushed():
     match = WatchedMatch(2)
-    assert len(match.scan.layout.things) == len(BETWEEN)
+    assert len(layout_of(match.scan).things) == len(BETWEEN)
     assert not match.drive(120.0)
     assert match.watch.checks > 100
     match.push(1)

@@ -130,6 +130,7 @@ def test_a_reader_gets_each_frame_once_with_its_time_and_the_newest_of_several(t
         writer.write(CameraFrame(page, float(number), number))
     good, image = feed.read()
     assert good
+    assert image is not None
     assert image.min() == image.max() == 4
     assert feed.get(opencv().CAP_PROP_POS_MSEC) == 4000.0
     monkeypatch.setattr("pigaming_app.hardware.proof.frame_feed.PATIENCE", 0.0)

@@ -11,6 +11,7 @@ from pigaming_app.hardware.emulator.things.prism import box, cylinder
 from pigaming_app.hardware.proof.testbed import Testbed
 from pigaming_app.hardware.proof.trials import FigureEight
 from pigaming_app.hardware.scan.procedure import Scan
+from pigaming_app.hardware.scan.things import ThingLayout
 from pigaming_app.hardware.scan.watch import ThingsWatch
 from pigaming_app.hardware.session.emulated import QUICK
 from pigaming_app.hardware.signals import CameraFrame
@@ -58,6 +59,12 @@ class WatchedMatch:
 
     def _view(self, frame: CameraFrame) -> None:
         self.watch.process(frame, [(seen.x, seen.y) for seen in self.bed.rig.tracker.sense(frame.captured)])
+
+
+def layout_of(scan: Scan) -> ThingLayout:
+    """The layout that a scan must have found."""
+    assert scan.layout is not None, scan.fault
+    return scan.layout
 
 
 def scanned(bed: Testbed) -> Scan:

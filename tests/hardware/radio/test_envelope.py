@@ -52,10 +52,8 @@ def test_an_announcement_carries_the_state_of_a_robot_and_a_printable_name():
     datagram = announce(KEY, 5, ROBOT)
     assert envelope.announcement_from(datagram) == ROBOT
     assert unseal(KEY, NONCE, ANNOUNCE, datagram) is not None
-    assert envelope.announcement_from(announce(KEY, 5, ROBOT._replace(name="a\x1b\nb"))).name == "ab"
-    cut = announce(KEY, 5, ROBOT._replace(name="é" * 15 + "x"))
-    assert envelope.announcement_from(cut).name == "é" * 8
-    assert envelope.announcement_from(announce(KEY, 5, ROBOT._replace(name="x" + "é" * 15))).name == "x" + "é" * 7
+    for name, kept in (("a\x1b\nb", "ab"), ("é" * 15 + "x", "é" * 8), ("x" + "é" * 15, "x" + "é" * 7)):
+        assert envelope.announcement_from(announce(KEY, 5, ROBOT._replace(name=name))) == ROBOT._replace(name=kept)
 
 
 @pytest.mark.parametrize("datagram", OTHERS)
@@ -120,7 +118,7 @@ def test_reports_are_fresh_and_commands_and_stops_arrive_in_a_flood(site):
                 while site.robot.obeyed[-1][4] != (command is not None):
                     ages.append(site.step(command))
                 stops.append(time.monotonic() - ordered)
-        assert int(flood.stdout.read()) > 5000, "too slow a flood proves nothing"
+        assert int(flood.communicate()[0]) > 5000, "too slow a flood proves nothing"
     assert max(ages) < 0.3
     assert max(stops) < 0.3
     assert site.link.fault is None

@@ -15,7 +15,7 @@ from pigaming_app.hardware.radio.packets import RobotReport
 from pigaming_app.hardware.radio.xbee_frames import ReceivedPacket
 from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
 from pigaming_app.hardware.signals import Telemetry, WheelCommand
-from tests.hardware.sentences import sentence
+from tests.hardware.sentences import key_of, sentence
 from tests.hardware.wire import ARENA, Radio, Time, Wire, drive_from, report_packet, run
 
 ROOT = Path(__file__).parents[3]
@@ -100,10 +100,10 @@ def test_robots_are_heard_in_every_mode(mode, time):
     link.pump()
     said = reported(2, 1, packets.LOW, 4321) + reported(2, 1, 0, 4300)
     for part in (said[:9], said[9:]):
-        if mode is XBeeMode.TRANSPARENT:
-            wire.coming += part
-        else:
+        if isinstance(wire, Radio):
             wire.say(ReceivedPacket(2, -40, 0, part))
+        else:
+            wire.coming += part
     time.now += 0.015
     link.pump()
     assert link.telemetry == {1: Telemetry(1, 4.3, 0, 100.015)}
@@ -160,7 +160,7 @@ def test_garbage_on_the_line_is_named_and_forgotten(mode, time):
         wire.coming += b"\x00\xff\x7e\x12\xd4\xff"
 
     run(link, time, 1.2, noise)
-    assert link.fault.key == "radio_garbled"
+    assert key_of(link.fault) == "radio_garbled"
     report = reported(1, 0, 0, 5000)
     escaped = mode is XBeeMode.API2
     good = xbee_frames.frame(xbee_frames.encode(ReceivedPacket(1, -30, 0, report)), escaped)
@@ -211,13 +211,14 @@ def test_in_a_thread_it_beats_by_itself_and_ends_within_a_second():
 
 
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
-def test_a_fault_of_the_program_stops_the_robots_and_is_told():
+def test_a_fault_of_the_program_stops_the_robots_and_is_told(monkeypatch):
     radio = Radio(real_time.monotonic)
     air = XBeeProtocol(ARENA)
     link = Link(lambda: radio, real_time.monotonic, air, name="COM3")
     link.send([AHEAD])
-    air.receive = lambda received, now: 1 / 0
+    monkeypatch.setattr(air, "receive", lambda received, now: 1 / 0)
     link.start()
+    assert link._thread is not None
     link._thread.join(timeout=60.0)
     assert crews(radio) == [STOPPED] * 5
     assert sentence(link.fault) == "COM3 failed because of a program error: see the log."

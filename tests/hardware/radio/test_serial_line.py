@@ -17,7 +17,7 @@ from pigaming_app.hardware.radio.serial_line import (
     radio_message,
     serial_port,
 )
-from tests.hardware.sentences import sentence
+from tests.hardware.sentences import key_of, sentence
 from tests.hardware.wire import Time, Wire
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
@@ -148,7 +148,7 @@ def test_a_write_that_fails_loses_the_port(kind):
     wire.cut = kind(errno.EIO, "Input/output error")
     line.write(b"x")
     assert not line.is_open
-    assert line.fault.key == "radio_unplugged"
+    assert key_of(line.fault) == "radio_unplugged"
 
 
 def test_a_port_that_takes_no_bytes_is_reported_as_stuck_after_a_second_and_stays_open():

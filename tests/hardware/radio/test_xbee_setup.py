@@ -91,14 +91,14 @@ def test_after_a_refusal_another_value_is_taken_at_once(mode):
 
 
 def test_who_gives_up_midway_can_begin_again_at_once():
-    module = Module(0, 0)
-    cable = Cable(module, Time())
+    module, time = Module(0, 0), Time()
+    cable = Cable(module, time)
     cable.late = 0.015
     carrier = Carrier(cable.open, cable.clock, "COM3")
     steps = XBeeSetup(carrier, parameters(2, NETWORK, "api2", 57600), 57600).steps()
     while module.values[b"ID"] != NETWORK.pan:
         next(steps)
-        cable.clock.now += 0.01
+        time.now += 0.01
     steps.close()
     assert module.saved[b"ID"] != NETWORK.pan
     assert set_up(module, 2, cable=cable) < 4.0
@@ -106,7 +106,7 @@ def test_who_gives_up_midway_can_begin_again_at_once():
 
 
 @pytest.mark.parametrize("name", [b"CH", b"ID", b"MY", b"DL", b"BD", b"AP"])
-def test_a_value_that_is_taken_but_not_kept_is_named(name):
+def test_a_value_that_is_taken_but_not_kept_is_named(name, monkeypatch):
     """Every wanted value differs from the one that the radio keeps."""
     module = Module(0, 9, baud=9600)
     command, kept = module.command, module.values[name]
@@ -117,7 +117,7 @@ def test_a_value_that_is_taken_but_not_kept_is_named(name):
             module.values[name] = kept
         return answer
 
-    module.command = forgetful
+    monkeypatch.setattr(module, "command", forgetful)
     module.values[b"DH"] = 1
     with pytest.raises(OperatorError) as refusal:
         set_up(module, 0, "transparent" if name == b"DL" else "api2")

@@ -9,6 +9,7 @@ import sys
 import time
 from contextlib import contextmanager
 from pathlib import Path
+from typing import IO, cast
 
 import pytest
 
@@ -30,11 +31,12 @@ class Watched:
     def __init__(self, topic, environment):
         command = ["rostopic", "echo", "-p", topic]
         self.process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-        os.set_blocking(self.process.stdout.fileno(), False)
+        self._output = cast(IO[bytes], self.process.stdout)
+        os.set_blocking(self._output.fileno(), False)
         self.lines, self._rest = [], b""
 
     def read(self):
-        while chunk := self.process.stdout.read():
+        while chunk := self._output.read():
             *whole, self._rest = (self._rest + chunk).split(b"\n")
             self.lines += [(time.monotonic(), line.decode()) for line in whole if line[:1].isdigit()]
         return self.lines

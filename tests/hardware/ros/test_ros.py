@@ -10,6 +10,7 @@ import time
 from math import pi
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import pytest
 
@@ -20,6 +21,7 @@ from pigaming_app.hardware.ros.node import ArenaFrame, RosUnavailable, require_r
 from pigaming_app.hardware.ros.robots import RosLink, RosPoses
 from pigaming_app.hardware.session.robot_session import cause_of
 from pigaming_app.hardware.session.ros import RosSession
+from pigaming_app.hardware.signals import WheelCommand
 from pigaming_app.sim.world import DT, ROBOTS, World
 from pigaming_app.ui.i18n import LANGUAGES, texts
 from tests.hardware.ros.network import JOB, NEEDS_ROSCORE, network, until
@@ -54,7 +56,7 @@ def test_a_package_that_is_missing_is_named_in_one_line(monkeypatch, missing):
         monkeypatch.setitem(sys.modules, name, ModuleType(name))
     with pytest.raises(RosUnavailable) as refusal:
         require_roscore()
-    assert refusal.value.message.values["package"].startswith(missing)
+    assert str(refusal.value.message.values["package"]).startswith(missing)
 
 
 class Registrations(ModuleType):
@@ -124,10 +126,13 @@ def test_no_topic_is_registered_while_robots_drive(no_ros, monkeypatch):
     rig = session.open()
     try:
         assert rig.remote
-        rig.link._closing.set()
-        rig.link._thread.join()
+        link = rig.link
+        assert isinstance(link, RosLink)
+        assert link._thread is not None
+        link._closing.set()
+        link._thread.join()
         at_first = len(fake.registered)
-        rig.link.node.publish_twist(3, (0.0, 0.0))
+        link.node.publish_twist(3, (0.0, 0.0))
         session.publish({})
         assert len(fake.sent) == 2
     finally:
@@ -174,11 +179,18 @@ def test_without_poses_the_speeds_become_zero_and_at_the_end_they_are_zero_five_
     assert node.closed
 
 
+def joined(clock):
+    """A network that only remembers, and the poses and the link of the robots in it."""
+    node: Any = Node()
+    poses = RosPoses(node, ArenaFrame.of_width(2112.0), clock, TRAINS)
+    return node, poses, RosLink(node, poses, TRAINS)
+
+
 def remote_plant(robots):
     """The plant of a match over a network that only remembers, its node, and the time."""
-    node, now = Node(), [100.0]
-    poses = RosPoses(node, ArenaFrame.of_width(2112.0), lambda: now[0], TRAINS)
-    rig = Rig(poses, poses, RosLink(node, poses, TRAINS), lambda: now[0], TRAINS)
+    now = [100.0]
+    node, poses, link = joined(lambda: now[0])
+    rig = Rig(poses, poses, link, lambda: now[0], TRAINS)
     rig.remote = True
     world = World()
     for robot in robots:
@@ -220,10 +232,8 @@ def test_late_and_missing_poses_are_called_that(late, names, cause):
 
 
 def test_a_link_thread_that_fails_leaves_zero_speeds(monkeypatch):
-    node = Node()
-    poses = RosPoses(node, ArenaFrame.of_width(2112.0), time.monotonic, TRAINS)
-    link = RosLink(node, poses, TRAINS)
-    link.send([(0.5, 0.5), None, None, None])
+    node, _, link = joined(time.monotonic)
+    link.send([WheelCommand(0.5, 0.5), None, None, None])
     failures = iter([OSError])
     pump = link.pump
 

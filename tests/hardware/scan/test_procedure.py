@@ -138,6 +138,11 @@ class Mirror:
         return Light(self.room, np.zeros_like(self.room), np.zeros_like(self.room))
 
 
+def disagreement(mirror, seen):
+    """Cells in which a watch sees another light than expected."""
+    return ThingsWatch(mirror, lambda: 0.0).disagreement(seen, [], [])
+
+
 @pytest.mark.parametrize("share", [-0.3, 0.4])
 def test_a_bright_or_dark_spot_of_room_light_is_no_change_but_a_small_box_in_it_is(share):
     y, x = np.mgrid[0:180, 0:320].astype(np.float32)
@@ -145,10 +150,9 @@ def test_a_bright_or_dark_spot_of_room_light_is_no_change_but_a_small_box_in_it_
     noise = np.random.default_rng(2).normal(0.0, 1.5, room.shape)
     spot_light = 1.0 + share * np.exp(-(((x - 200) / 80) ** 2) - ((y - 150) / 65) ** 2)
     seen = (room * spot_light + noise).astype(np.float32)
-    watch = ThingsWatch(Mirror(room), lambda: 0.0)
-    assert not watch.disagreement(seen, [], []).any()
+    assert not disagreement(Mirror(room), seen).any()
     seen[140:148, 200:208] *= 0.5
-    rows, columns = np.nonzero(watch.disagreement(seen, [], []))
+    rows, columns = np.nonzero(disagreement(Mirror(room), seen))
     assert len(rows) >= 50
     assert 139 <= rows.min() <= rows.max() <= 148
     assert 199 <= columns.min() <= columns.max() <= 208
@@ -162,7 +166,7 @@ def test_a_pale_thing_is_seen_beside_the_edges_of_the_old_place_where_the_light_
     seen = room + np.random.default_rng(3).normal(0.0, 1.0, room.shape).astype(np.float32)
     seen[80:90, 148:155] *= np.float32(grey)  # two cells wide on both sides
     seen[2:12, 40:80] *= np.float32(0.5)  # scores, above the arena
-    off = ThingsWatch(mirror, lambda: 0.0).disagreement(seen, [], [])
+    off = disagreement(mirror, seen)
     assert off.sum() == (40 if grey < 1.0 else 0)
     assert not off[80:90, 150:153].any()
 

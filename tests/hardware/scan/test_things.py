@@ -11,7 +11,6 @@ from pigaming_app.games.arenas import load, with_things
 from pigaming_app.hardware.scan.blocks import BLOCK_HEIGHT, TIMEOUT, BlockTracker
 from pigaming_app.hardware.scan.convex import convex_parts
 from pigaming_app.hardware.scan.things import (
-    MOST,
     LayoutError,
     ProjectorPlace,
     Thing,
@@ -25,7 +24,7 @@ from pigaming_app.hardware.scan.things import (
 from pigaming_app.hardware.session.store import load_things, save_things
 from pigaming_app.hardware.signals import CameraFrame
 from pigaming_app.sim.things.convex import is_convex, signed_area
-from pigaming_app.sim.things.spec import Use
+from pigaming_app.sim.things.spec import MOST, Use
 from tests.hardware.mat import nominal
 from tests.hardware.pictures import lids, speckled, square
 from tests.hardware.sentences import refused
@@ -108,7 +107,7 @@ def painted(*polygons):
 def test_a_box_that_lost_its_corners_gets_them_back():
     box = [(50, 60), (150, 100), (120, 180), (20, 140)]
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (7, 7))
-    (found,) = convex_parts(cv2.morphologyEx(painted(box), cv2.MORPH_OPEN, kernel), ORIGIN)
+    (found,) = convex_parts(cv2.morphologyEx(painted(box), cv2.MORPH_OPEN, kernel).astype(np.uint8), ORIGIN)
     assert len(found) == 4
     assert all(np.hypot(*(found - corner).T).min() < 3.0 for corner in box)
 

@@ -165,6 +165,7 @@ class Eye:
     """A fake camera with one frame of each of these sizes."""
 
     fault: OperatorMessage | None = None
+    exposure = ExposureState()
 
     def __init__(self, *sizes: tuple[int, int]) -> None:
         self.frames = [CameraFrame(np.zeros((h, w), np.uint8), 0.1 * i, i) for i, (w, h) in enumerate(sizes)]

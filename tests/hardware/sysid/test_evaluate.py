@@ -31,10 +31,10 @@ def danced(seconds, noise=0.0, train=TRUE, fps=30):
     world = floor(poses=[(robot.x, robot.y, robot.heading) for robot in mat.robots])
     plant, dance, chance = RealPlant(world, mat.rig), ExcitationPattern(), np.random.default_rng(1)
     told_at, wheels, seen_at, poses = [], [], [], []
-    send = mat.send
-    mat.send = lambda one: (told_at.append(mat.now), wheels.append(one), send(one))
     for tick in range(round(seconds / 0.02)):
         plant.drive(dance.twists(mat.now, plant.sense()), 0.02)
+        told_at.append(mat.now)
+        wheels.append(mat.coming[-1][1])
         mat.pass_time()
         if tick % round(50 / fps) == 0:
             seen_at.append(mat.now)

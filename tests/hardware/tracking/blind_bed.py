@@ -1,12 +1,14 @@
 """The robot loop on the emulated arena without pictures: fixes come from true poses, with noise and late stamps."""
 
 from math import hypot
+from typing import Any, cast
 
 import numpy as np
 
 from pigaming_app.hardware.emulator.arena import STARTS
 from pigaming_app.hardware.emulator.camera import FrameTiming
 from pigaming_app.hardware.emulator.objects import LID_HEIGHT
+from pigaming_app.hardware.emulator.renderer import SceneRenderer
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.signals import DetectedMarker
 from pigaming_app.hardware.tracking.tracker import Tracker
@@ -56,16 +58,16 @@ class BlindBed:
         timing = FrameTiming(30.0, 0.060)
         self.session = EmulatedSession(seed, False, timing=timing, ground=ground, tracker=BlindTracker)
         self.arena = self.session.arena
-        self.arena.camera.painter = Poses(self.arena)
+        self.arena.camera.painter = cast(SceneRenderer, Poses(self.arena))
         self.rig = self.session.open()
         delays(self.arena, dead)
-        newest = self.rig.camera.newest
+        camera, newest = cast(Any, self.rig.camera), self.rig.camera.newest
 
         def stamped():
             frame = newest()
             return frame and frame._replace(captured=frame.captured + self.late)
 
-        self.rig.camera.newest = stamped
+        camera.newest = stamped
         self.ticks = 0
 
     def drive(self, seconds, speed=260.0):

@@ -87,7 +87,7 @@ def test_robots_that_stand_are_held_or_pushed_do_not_spoil_it():
 def test_a_wheel_that_is_driven_by_noise_alone_has_no_delay():
     random = np.random.default_rng(1)
     sent = [(0.02 * i, *random.uniform(-200.0, 200.0, 2)) for i in range(400)]
-    seen = [Fix(0, *random.normal(0.0, 1.0, 3), 0.033 * i) for i in range(240)]
+    seen = [Fix._make((0, *random.normal(0.0, 1.0, 3), 0.033 * i)) for i in range(240)]
     assert motion_delay(sent, seen, 62.0).error > SURE
     assert motion_delay([(time, 0.0, 0.0) for time, *_ in sent], seen, 62.0).error == inf
     assert motion_delay(sent, seen[:5], 62.0).error == inf

@@ -183,7 +183,7 @@ def errors(stranger, seconds, seed=1, noise=(0.7, 0.012), fps=30, late=0.06):
         x, y, heading = stranger.pose
         if step % round(500 / fps) == 0:
             at = random.normal((x, y, heading), (noise[0], noise[0], noise[1]))
-            frames.append((now + late, Fix(0, *at.tolist(), now)))
+            frames.append((now + late, Fix._make((0, *at.tolist(), now))))
         while frames and frames[0][0] <= now:
             robot.correct(frames.pop(0)[1])
         if step % 10 == 0 and now > 0.2:

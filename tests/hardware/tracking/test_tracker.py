@@ -1,6 +1,7 @@
 """The tracker from images to poses: driving, occlusion and recovery, hands, and duplicate markers."""
 
 from math import hypot, pi, tau
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -66,17 +67,16 @@ def test_four_robots_are_found_at_once_and_to_a_pixel():
         assert turned < 0.03
 
 
-def test_they_are_found_again_picture_after_picture_near_where_they_were():
+def test_they_are_found_again_picture_after_picture_near_where_they_were(monkeypatch):
     mat = Mat()
     mat.show(dict(enumerate(POSES)))
-    looks = []
-    quick = mat.tracker._markers.detect_quickly
-    mat.tracker._markers.detect_quickly = lambda *what: looks.append(what) or quick(*what)
+    quick = Mock(wraps=mat.tracker._markers.detect_quickly)
+    monkeypatch.setattr(mat.tracker._markers, "detect_quickly", quick)
     for step in range(12):
         driving = (300.0 + 8.0 * step, 200.0, 0.4)
         assert mat.show({0: driving, **dict(enumerate(POSES[1:], 1))}) == {0, 1, 2, 3}
     assert mat.tracker.duplicates() == set()
-    assert len(looks) <= 4  # 0.4 s, with one search of the whole image every 0.1 s
+    assert quick.call_count <= 4  # 0.4 s, with one search of the whole image every 0.1 s
 
 
 def test_a_robot_that_comes_onto_the_mat_is_found_within_a_tenth_of_a_second():

@@ -1,6 +1,7 @@
 """Camera capture with a fake driver: delivered frames, recovery from faults, and messages."""
 
 import os
+import sys
 import threading
 import time
 
@@ -13,7 +14,7 @@ from pigaming_app.hardware.vision import discovery as cameras
 from pigaming_app.hardware.vision.camera import Camera
 from pigaming_app.hardware.vision.exposure import lock_exposure
 from pigaming_app.hardware.vision.markers import OpenCVMissing
-from tests.hardware.sentences import refused, sentence
+from tests.hardware.sentences import key_of, refused, sentence
 
 LONG = 60.0  # s after which a test gives up waiting: the machine may be busy
 
@@ -115,7 +116,7 @@ def test_a_camera_that_is_unplugged_is_said_and_used_again_when_it_is_back(monke
         wait_for_pictures(driver, camera)
         driver.alive = False
         wait_for(lambda: camera.fault is not None)
-        assert camera.fault.key in ("stopped", "no_camera", "other_cameras")
+        assert key_of(camera.fault) in ("stopped", "no_camera", "other_cameras")
         driver.alive = True
         wait_for_pictures(driver, camera)
         assert driver.tries > 1
@@ -170,7 +171,7 @@ def test_what_a_camera_lets_be_locked_is_locked():
 @pytest.fixture
 def system(tmp_path, monkeypatch):
     """A Linux system with temporary device folders."""
-    monkeypatch.setattr(cameras.sys, "platform", "linux")
+    monkeypatch.setattr(sys, "platform", "linux")
     monkeypatch.setattr(cameras, "DEVICES", tmp_path / "class")
     monkeypatch.setattr(cameras, "NODES", tmp_path / "dev")
     (tmp_path / "dev").mkdir()
@@ -213,13 +214,13 @@ def test_a_busy_camera_is_said_to_be_busy(system):
 
 
 def test_other_systems_get_one_sentence_too(monkeypatch):
-    monkeypatch.setattr(cameras.sys, "platform", "win32")
+    monkeypatch.setattr(sys, "platform", "win32")
     assert [known.number for known in cameras.cameras()] == [0, 1, 2]
     assert sentence(cameras.unavailable_reason(1)).endswith(".")
 
 
 def test_without_opencv_there_is_one_sentence(monkeypatch):
-    monkeypatch.setitem(__import__("sys").modules, "cv2", None)
+    monkeypatch.setitem(sys.modules, "cv2", None)
     with refused(OpenCVMissing, "install opencv-python-headless"):
         Camera(0)
 

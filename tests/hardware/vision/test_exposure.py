@@ -27,7 +27,7 @@ WHITE = 157.0  # grey level of a board in normal light
 
 def controlled(traits, fresh=True, kept=None, seconds=6.0, fps=30.0, driver=CameraDriver):
     """A control after these seconds of pictures, and the camera it controls."""
-    camera = EmulatedCamera(None, FrameTiming(fps), lambda: 0.0, 1, traits)
+    camera = EmulatedCamera(None, FrameTiming(fps), lambda: 0.0, 1, traits)  # type: ignore[arg-type]  # it paints nothing
     control = ExposureControl(cv2, driver(camera), 0.0, SETTLE, fresh, kept)
     watch(control, camera, 0.0, seconds, fps)
     return control, camera

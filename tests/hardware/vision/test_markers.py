@@ -1,5 +1,7 @@
 """Marker detection: all sizes, projected light, blur, dim light, and both major versions of OpenCV; measured blur."""
 
+from typing import Any
+
 import cv2
 import numpy as np
 import pytest
@@ -26,7 +28,7 @@ def test_markers_are_found_however_large(edge, way):
     corners = square((400.3, 300.8, 0.7), edge)
     picture = speckled(lids([(3, corners)], SIZE))
     markers = MarkerDetector(IDS)
-    found = {
+    found: Any = {
         "detect_quickly": lambda: markers.detect_quickly(picture, edge, dim=False),
         "detect_in": lambda: [markers.detect_in(picture, SearchWindow(405.0, 296.0, 1.3 * edge + 8.0, edge), 3)],
         "detect": lambda: markers.detect(picture),
@@ -86,6 +88,7 @@ def test_corners_are_exact_to_a_tenth_of_a_pixel():
         corners = square((400.3 + 0.37 * i, 300.8 - 0.21 * i, 0.7 + 0.5 * i), 34.0)
         picture = speckled(lids([(3, corners)], SIZE), seed=i)
         mark = markers.detect_in(picture, SearchWindow(402.0, 298.0, 52.0, 34.0), 3)
+        assert mark is not None
         misses.append(markers.refine(picture, [mark])[0].corners - corners)
     assert np.sqrt(np.square(misses).mean()) < 0.1
     assert np.abs(np.mean(misses, axis=1)).max() < 0.1  # of the middle
@@ -127,10 +130,10 @@ def test_a_known_blur_is_measured_on_a_turned_and_noisy_marker(blur):
     page = np.full((2 * edge, 2 * edge), 200, np.uint8)
     marker = cv2.resize(cv2.aruco.generateImageMarker(words, 17, 6), (edge, edge), interpolation=cv2.INTER_NEAREST)
     page[edge // 2 : edge // 2 + edge, edge // 2 : edge // 2 + edge] = np.where(marker > 0, 200, 20)
-    page = cv2.warpAffine(page, cv2.getRotationMatrix2D((edge, edge), 13, 1), page.shape, borderValue=200)
-    page = cv2.resize(page, None, fx=1 / FINE, fy=1 / FINE, interpolation=cv2.INTER_AREA)
-    page = cv2.GaussianBlur(page, (0, 0), blur).astype(float)
-    image = np.clip(page + np.random.default_rng(1).normal(0, 2.5, page.shape), 0, 255).astype(np.uint8)
+    seen = cv2.warpAffine(page, cv2.getRotationMatrix2D((edge, edge), 13, 1), page.shape, borderValue=200)
+    seen = cv2.resize(seen, None, fx=1 / FINE, fy=1 / FINE, interpolation=cv2.INTER_AREA)
+    seen = cv2.GaussianBlur(seen, (0, 0), blur).astype(float)
+    image = np.clip(seen + np.random.default_rng(1).normal(0, 2.5, seen.shape), 0, 255).astype(np.uint8)
     detector = MarkerDetector([17])
     (measured,) = blur_of(cv2, image, detector.refine(image, detector.detect(image)))
     assert measured == pytest.approx(blur, abs=0.1, rel=0.06)
