@@ -36,6 +36,11 @@ class CameraView(Service):
     def close_if_requested(self, event: pygame.Event) -> bool:
         return self.window is not None and self.window.close_if_requested(event)
 
+    def close(self) -> None:
+        """Close the window while SDL is there: freed later, it would take another at its address with it."""
+        if self.window:
+            self.window.close()
+
 
 def service(context: Context, options: Options) -> Service | None:
     return CameraView(context) if options.emulator_seed is not None else None

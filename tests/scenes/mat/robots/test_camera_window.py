@@ -1,10 +1,15 @@
 """The second window, with the view of the emulated camera."""
 
+from pathlib import Path
+from typing import Any
+
 import pygame
 import pytest
 
 from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.mat.camera_window import SIZE, CameraWindow
+from pigaming_app.scenes.start import run
 from pigaming_app.ui.input.controls import Controls
 
 pytest.importorskip("cv2")
@@ -43,3 +48,23 @@ def test_without_a_second_window_the_arcade_prints_a_reason_and_goes_on(
     window.update(1.0)
     assert "no second window" in capsys.readouterr().err
     assert window.window is None
+
+
+def test_no_window_is_open_when_the_video_closes(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Else pygame frees it later, and with it a window that SDL has opened at the same address."""
+    opened, at_the_end = [], []
+
+    class Noted(pygame.Window):
+        def __init__(self, *words: Any, **options: Any) -> None:
+            super().__init__(*words, **options)
+            opened.append(self)
+
+        def destroy(self) -> None:
+            opened.remove(self)
+            super().destroy()
+
+    quit_video = pygame.display.quit
+    monkeypatch.setattr(pygame, "Window", Noted)
+    monkeypatch.setattr(pygame.display, "quit", lambda: (at_the_end.append(len(opened)), quit_video()))  # type: ignore[func-returns-value]
+    assert run(Options(headless=True, emulator_seed=1, scoreboard=1, frames=2)) == 0
+    assert at_the_end == [0]
