@@ -115,9 +115,10 @@ class Watch:
             assert pallet.state in (RAW, HALF, DONE)
 
 
-@pytest.mark.parametrize("brains", [PAIRS, TWO])
+@pytest.mark.parametrize(
+    ("floor", "brains"), one_in(2, [(floor, brains) for floor in FLOORS for brains in (PAIRS, TWO)])
+)
 @pytest.mark.parametrize("pallets", one_in(3, [5, 2, 8]))
-@pytest.mark.parametrize("floor", FLOORS)
 def test_invariants_hold_while_drivers_of_all_kinds_play(floor, pallets, brains):
     match = match_of("factory", brains, floor, 5.0, pallets, "standard", pallets)
     watch = Watch(match.state)

@@ -114,13 +114,13 @@ def test_robots_that_are_driven_into_things_at_full_stick_never_touch_them(seed)
     specs = specs_of(bed)
     arena = parse("pitanks", OPEN_FLOOR + written(specs), "open.toml")
     one, two, three, four = (Seat("human", team) for team in range(ROBOTS))
-    setup = Setup("pitanks", "open", (one, two, three, four), 0.5, seed, games()["pitanks"].default.name)
+    setup = Setup("pitanks", "open", (one, two, three, four), 0.25, seed, games()["pitanks"].default.name)
     match = Match(setup, lambda world: RealPlant(world, bed.rig), arena)
     targets = [spec.middle for spec in specs if spec.use is Use.WALL]
     for seat in range(ROBOTS):
         match.sit(seat, Rammer(ROBOTS * seed + seat, targets))
-    result = play(bed, match, 30.0)
+    result = play(bed, match, 15.0)
     assert len(targets) == 6
-    assert result.seconds - result.paused >= 29.0
+    assert result.seconds - result.paused >= 14.0
     assert bed.nearest > 0.0
     assert bed.attempts >= 12

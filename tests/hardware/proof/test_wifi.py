@@ -8,6 +8,7 @@ from pigaming_app.jobs.bench import robots_arcade
 from pigaming_app.jobs.bench.robots import TARGETS
 from pigaming_app.jobs.bench.wifi import play
 from pigaming_app.storage.plugins.parts import plugins
+from tests.cases import repeated
 
 pytestmark = [pytest.mark.long(first=True), pytest.mark.usefixtures("micropython")]
 LONGEST = TARGETS["wifi_worst_stop_ms"] / 1e3  # s
@@ -21,7 +22,7 @@ def test_every_fault_stops_the_motors_of_boards_that_were_paired():
     assert max(stops.values()) <= LONGEST
 
 
-@pytest.mark.parametrize("game", [game for game in games() if game not in ADDED])
+@pytest.mark.parametrize("game", repeated(game for game in games() if game not in ADDED))
 def test_robots_are_paired_and_a_whole_match_is_played_to_its_end(game):
     run = play(game, 3, 0.2, paired=game == "pitanks")
     assert run.seconds - run.paused >= 12.0

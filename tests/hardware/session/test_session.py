@@ -2,7 +2,6 @@
 
 import sys
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +9,7 @@ import numpy as np
 import pytest
 
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
-from pigaming_app.hardware.calibration.quality import assessed
+from pigaming_app.hardware.calibration.quality import CameraQuality
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.lighting import Lighting
@@ -74,7 +73,7 @@ def test_a_computer_without_opencv_says_so(home: Path, monkeypatch: pytest.Monke
 def test_without_pyserial_or_camera_it_says_so_and_what_the_calibration_kept_is_set_and_warned_about(
     home: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    calibrate(HERE, replace(assessed(28.0, 2.4, ExposureState(0.0166, gain=120.0)), anyway=True))
+    calibrate(HERE, CameraQuality(0.0166, 120.0, marker_px=28.0, detection=0.5, anyway=True))
     monkeypatch.setitem(sys.modules, "serial", None)
     mat = real_mat(Settings(camera=63, port="/dev/nowhere"))
     try:

@@ -186,7 +186,7 @@ def test_drivetrains_of_emulated_robots_are_kept_apart_from_real_ones(tmp_path, 
     head = {"kind": "head", "format": "pigaming-run-1", "mm": 1.3, "emulated": True}
     sent = {"kind": "sent", "time": 0.0, "seq": 1, "wheels": [[0.3, 0.2], None, None, None]}
     seen = []
-    for i in range(600):  # wheels 62 px apart at 0.3 and 0.2 of 758 px/s: 189 px/s and 1.22 rad/s
+    for i in range(450):  # wheels 62 px apart at 0.3 and 0.2 of 758 px/s: 189 px/s and 1.22 rad/s
         turn = 1.22 * 0.05 * i
         at = [0, 800.0 + 155.0 * sin(turn), 450.0 - 155.0 * cos(turn), turn]
         seen.append({"kind": "seen", "captured": 0.5 + 0.05 * i, "time": 0.6 + 0.05 * i, "fixes": [at]})
