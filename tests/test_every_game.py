@@ -1,6 +1,7 @@
 """Properties of every game on each of its arenas; a game in games() is tested without further registration."""
 
 import os
+from itertools import product
 from math import isfinite
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
@@ -30,7 +31,7 @@ THINGS = {
         "race": (("wall", 790, 110), ("mud", 300, 180), ("line", 1300, 780)),
     }.items()
 }
-BY_HAND = {"pitanks": "fsm", "race": "hand3"}  # as in other tests, which find the loop in the cache
+BY_HAND = {"pitanks": "fsm", "race": "hand3"}
 TWINS_TICKS = 20_000  # over all matches of the comparison of the two bodies
 
 
@@ -50,11 +51,11 @@ def companies():
             yield game, arena, (0, 0, 1, 1)
 
 
-def company(game):
-    """Brains for the four seats: the best one, a machine by hand, if any, and random ones."""
+def company(game, by_hand=False):
+    """Brains for the four seats: the best one, or a machine by hand, if any, and random ones."""
     kinds = BRAINS[game]
-    by_hand = kinds[BY_HAND.get(game, "random")]
-    return [kinds.get("level5", kinds["random"]), kinds["random"], by_hand, kinds["random"]]
+    best = kinds[BY_HAND.get(game, "random")] if by_hand else kinds.get("level5", kinds["random"])
+    return [best, kinds["random"], kinds["random"], kinds["random"]]
 
 
 def with_things(game, folder):
@@ -98,8 +99,15 @@ def ends_in_time(match):
     assert all(isfinite(number) for number in numbers(match.state))
 
 
-@pytest.mark.parametrize("game", one_in(4, games()))  # compiling takes long
-def test_both_bodies_play_the_same_match_to_the_last_bit(game, tmp_path):
+MARKS = {("pitanks", False): [], ("pitanks", True): [pytest.mark.long]}  # compiling takes long
+BODIES = [
+    pytest.param(*one, marks=MARKS.get(one, [pytest.mark.long, pytest.mark.again]))
+    for one in product(games(), (False, True))
+]
+
+
+@pytest.mark.parametrize(("game", "by_hand"), BODIES)
+def test_both_bodies_play_the_same_match_to_the_last_bit(game, by_hand, tmp_path):
     names = [*arenas(game), str(with_things(game, tmp_path))]
     variants = [*games()[game].variants] * 2
     setups = [
@@ -108,7 +116,8 @@ def test_both_bodies_play_the_same_match_to_the_last_bit(game, tmp_path):
         for seed, variant in enumerate(variants, start=1)
     ]
     each = -(-TWINS_TICKS // len(setups))
-    plain, fast = (Batch(setups, company(game), fast) for fast in (False, True))
+    brains = company(game, by_hand)
+    plain, fast = (Batch(setups, brains, fast) for fast in (False, True))
     for batch in (plain, fast):
         batch.play(each)
     assert sum(state.tick for state in plain.matches) >= TWINS_TICKS
@@ -117,7 +126,7 @@ def test_both_bodies_play_the_same_match_to_the_last_bit(game, tmp_path):
         assert [digest(row) for row in rows] == [digest(mind) for mind in minds]
     assert any(any(scores) for scores in plain.scores())
     for i in range(0, len(setups), 3):
-        alone = Batch([setups[i]], company(game), fast=True)
+        alone = Batch([setups[i]], brains, fast=True)
         alone.play(each)
         assert digest(alone.matches[0]) == digest(fast.matches[i])
 
@@ -125,12 +134,12 @@ def test_both_bodies_play_the_same_match_to_the_last_bit(game, tmp_path):
 @pytest.mark.parametrize("game", games())
 def test_a_match_of_a_batch_is_that_match_alone(game):
     """Plain; the compiled loop in the test above."""
-    setups = [setup(game, seed=seed, variant=variant) for seed in (3, 4) for variant in games()[game].variants]
+    setups = [setup(game, seed=seed, variant=variant) for seed, variant in enumerate(games()[game].variants, start=3)]
     together = Batch(setups, company(game), False)
-    together.play(600)
+    together.play(300)
     for i, one in enumerate(setups):
         alone = Batch([one], company(game), False)
-        alone.play(600)
+        alone.play(300)
         assert digest(alone.matches[0]) == digest(together.matches[i])
 
 

@@ -68,12 +68,23 @@ def accepted(read, trees, errors):
     return sum(refused_or_used(partial(read, tree), errors) for tree in trees)
 
 
+def some(trees, share):
+    """A share of these trees, by chance."""
+    every = list(trees)
+    return random.Random(1).sample(every, int(share * len(every)))
+
+
+SEARCHED = pytest.mark.parametrize("share", [0.25, pytest.param(1.0, marks=pytest.mark.long)])
+
+
+@SEARCHED
 @pytest.mark.parametrize("game", games())
-def test_arenas(game):
+def test_arenas(game, share):
     name = arenas.arenas(game)[0]
     tree = tomllib.loads(load_arena(game, name).source)
-    some = random.Random(1).sample(list(mutated(tree)), 300)
-    assert 0 < accepted(lambda one: arenas.parse(game, toml(one), "a.toml"), some, ArenaError) < len(some) / 2
+    found = some(mutated(tree), 0.08 * share)
+    used = accepted(lambda one: arenas.parse(game, toml(one), "a.toml"), found, ArenaError)
+    assert int(share) <= used < len(found) / 2
 
 
 def test_climbs_and_ratings():
@@ -101,8 +112,9 @@ def test_robots():
     )
 
 
+@SEARCHED
 @pytest.mark.filterwarnings("error")
-def test_calibrations(tmp_path):
+def test_calibrations(tmp_path, share):
     tree = tomllib.loads(ground.to_toml(nominal()))
     tree.pop("check")
     path = tmp_path / "calibration.toml"
@@ -113,7 +125,7 @@ def test_calibrations(tmp_path):
         with np.errstate(all="raise", under="ignore"):
             load_calibration(path).fixes([], 0.0)
 
-    assert accepted(calibration, mutated(tree), CalibrationError) > 50
+    assert accepted(calibration, some(mutated(tree), share), CalibrationError) > 50 * share
 
 
 def run_lines(count):
@@ -174,11 +186,12 @@ def test_a_run_takes_little_memory(tmp_path, monkeypatch, tail):
         runs.load(path)
 
 
-def test_what_is_accepted_as_a_run_is_measured_and_replayed(tmp_path):
+@SEARCHED
+def test_what_is_accepted_as_a_run_is_measured_and_replayed(tmp_path, share):
     path, chance = tmp_path / "run.jsonl", random.Random(5)
     lines = run_lines(400)
     extremes = ([0, -1e5, 1e5, 1e5], [0, 1e5, -1e5, -1e5], [3, 0, 0, 0])
-    for _ in range(3):
+    for _ in range(round(3 * share)):
         for number in chance.sample(range(len(lines)), 30):
             if lines[number]["kind"] == "seen":
                 lines[number]["fixes"] = [chance.choice(extremes)]
@@ -227,7 +240,8 @@ def forged(head, packed):
     return json.dumps(known).encode() + b"\n" + packed
 
 
-def test_replays(tmp_path):
+@SEARCHED
+def test_replays(tmp_path, share):
     path = tmp_path / "a.replay"
     head, packed = packed_replay(path)
 
@@ -235,7 +249,7 @@ def test_replays(tmp_path):
         path.write_bytes(forged(one, packed))
         load_replay(path)
 
-    assert accepted(read, mutated(head), ReplayError) > 20
+    assert accepted(read, some(mutated(head), share), ReplayError) > 20 * share
 
 
 def test_a_forged_replay_plays_to_its_end(tmp_path):
@@ -261,16 +275,17 @@ def forged_table(head, q, n, check=True):
     return packed.getvalue()
 
 
-def test_tables(tmp_path):
+@SEARCHED
+def test_tables(tmp_path, share):
     shipped, path = ASSETS / "brains" / "q1.npz", tmp_path / "a.npz"
     with np.load(shipped) as file:
         head, q, n = json.loads(str(file["head"])), file["q"], file["n"]
     used = 0
     values: list[object] = [None, True, -1, HUGE, 2**63, 1e308, float("nan"), "", "\n" * 300, [], {}]
-    for one in random.Random(2).sample(list(mutated(head, values)), 60):
+    for one in some(mutated(head, values), 0.1 * share):
         path.write_bytes(forged_table(json.loads(json.dumps(one)), q, n))
         used += refused_or_used(lambda: load_table(path), TableError)
-    assert 1 < used < 30
+    assert share < used < 30 * share
     for wrong in (q * np.nan, q[:5], q.astype("<f4"), q.reshape(2, -1), q.astype(object)):
         packed = BytesIO()
         np.savez_compressed(packed, head=np.array(json.dumps(head)), q=wrong, n=n)

@@ -55,11 +55,14 @@ FILES = [PACKAGE.parent / "main.py", *sorted(path for path in PACKAGE.rglob("*.p
 @cache
 def nodes(path):
     """The imports and texts of a file, each with True if at module level."""
-    every = [*ast.walk(ast.parse(path.read_text(encoding="utf-8")))]
-    inside = {id(node) for f in every if isinstance(f, ast.FunctionDef) for node in ast.walk(f)}
-    return [
-        (node, id(node) not in inside) for node in every if isinstance(node, ast.Import | ast.ImportFrom | ast.Constant)
-    ]
+    found, left = [], [(ast.parse(path.read_text(encoding="utf-8")), True)]
+    while left:
+        node, at_once = left.pop()
+        if isinstance(node, ast.Import | ast.ImportFrom | ast.Constant):
+            found.append((node, at_once))
+        at_once = at_once and not isinstance(node, ast.FunctionDef)
+        left += [(child, at_once) for child in ast.iter_child_nodes(node)]
+    return found
 
 
 def imported(path):

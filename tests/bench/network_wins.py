@@ -1,6 +1,7 @@
 """Win rates of a PiTanks network against every other machine, on every arena, by every rule set.
 
-    python -m tests.bench.network_wins BRAIN [--matches 400] [--seed 10001] [--rivals A,B] [--arenas A] [--variants V]
+    python -m tests.bench.network_wins BRAIN [--matches 400] [--seed 10001] [--minutes 2] [--rivals A,B] [--arenas A]
+        [--variants V]
 
 BRAIN is a registered name or the path of a file. Duels are played on the arenas of the arcade and on two on which no
 network is trained; pairs of two against pairs of `hand3`, and one against three `hand3`, over all of them. The limits
@@ -127,13 +128,14 @@ def main() -> int:
     parser.add_argument("brain")
     parser.add_argument("--matches", type=int, default=400)
     parser.add_argument("--seed", type=int, default=10001)
+    parser.add_argument("--minutes", type=float, default=MINUTES)
     parser.add_argument("--rivals", default=",".join(RIVALS))
     parser.add_argument("--arenas", default=",".join(PLACES))
     parser.add_argument("--variants", default=",".join(VARIANTS))
     words = parser.parse_args()
-    names = (text.split(",") for text in (words.rivals, words.arenas, words.variants))
+    rivals, places, variants = (text.split(",") for text in (words.rivals, words.arenas, words.variants))
     seeds, found = range(words.seed, words.seed + words.matches), list[Result]()
-    for one in results(find_brain(GAME, words.brain), seeds, *names):
+    for one in results(find_brain(GAME, words.brain), seeds, rivals, places, variants, words.minutes):
         found.append(one)
         low, high = wilson(one.won, one.matches)
         title = f"{one.variant:10}{Path(one.arena).stem or 'all arenas':12}{WORDS[one.kind]} {one.rival}"

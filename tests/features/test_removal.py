@@ -61,7 +61,7 @@ def test_the_arcade_runs_without_a_feature(name: str, game: str, tmp_path: Path)
 
 def test_the_arcade_runs_without_all_of_them(tmp_path: Path) -> None:
     rooms = tuple(room for of_one in ROOMS.values() for room in of_one)
-    toured = without(rooms, tmp_path, "tour", *CORE_GAMES)
+    toured = without(rooms, tmp_path, "tour", CORE_GAMES[0])
     assert toured.stderr == ""
     assert toured.stdout.splitlines() == [f"tiles: {' '.join(CORE_GAMES)} options", "done"]
 

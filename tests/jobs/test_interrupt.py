@@ -32,9 +32,8 @@ BODIES = {  # what keeps a job busy when Ctrl-C comes, once it has begun
     "a thread": "from concurrent.futures import ThreadPoolExecutor as Pool\n"
     "command = [sys.executable, '-c', 'import time; time.sleep(99)']\n"
     "begin()\nwith Pool() as threads: threads.submit(subprocess.run, command).result()",
-    "a destructor": "class A:\n    def __del__(self):\n        time.sleep(99)\n"
-    "begin()\na = A()\ndel a\nwhile True: pass",
-    "a handler": "begin()\ntry: time.sleep(99)\nexcept BaseException:\n    while True: pass",
+    "a destructor": "class A:\n    def __del__(self):\n        time.sleep(99)\nbegin()\na = A()\ndel a\ntime.sleep(99)",
+    "a handler": "begin()\ntry: time.sleep(99)\nexcept BaseException: time.sleep(99)",
     "a library": "begin()\ntry: time.sleep(99)\nexcept BaseException: raise ValueError from None",
     "a child": "begin()\nsubprocess.run([sys.executable, '-c', 'import time; time.sleep(99)'])",
 }

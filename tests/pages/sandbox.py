@@ -18,6 +18,7 @@ from pigaming_app.ai.networks.files import encode
 from pigaming_app.ai.ppo import shard, win_rates
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.registry import BRAINS
+from pigaming_app.games import setup
 from pigaming_app.games.registry import games
 from pigaming_app.jobs import arcade, cli, play
 from pigaming_app.jobs.bench import phones
@@ -157,10 +158,11 @@ def seat_hunter(patch: pytest.MonkeyPatch) -> None:
 
 
 def shorten_matches(patch: pytest.MonkeyPatch) -> None:
-    """Let matches of the usual length last for MINUTES."""
+    """Let matches of the usual length last for MINUTES, without overtime."""
+    patch.setattr(setup, "MIN_MINUTES", MINUTES)
     for game in games().values():
         for name, rules in [*game.variants.items()]:
-            short = replace(rules, default_minutes=MINUTES)  # type: ignore[arg-type]  # less than any choice
+            short = replace(rules, default_minutes=MINUTES, overtime=0.0)  # type: ignore[arg-type]  # less than any choice
             patch.setitem(game.variants, name, short)
 
 

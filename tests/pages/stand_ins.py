@@ -56,16 +56,22 @@ PLACEHOLDERS = (
     Placeholder(r"bundle --out /media/stick", "bundle --out stick", "no stick is plugged in"),
 )
 
-MINUTES = 0.05  # of every match
+MINUTES = 0.01  # of every match
 LIMITS: dict[str, dict[str, object]] = {  # of parsed arguments, by the end of the program's name: less work
-    "play": {"minutes": MINUTES, "at": 1.0},
+    "play": {"minutes": MINUTES, "at": 0.2},
     "duel": {"minutes": MINUTES, "matches": 2},
     "league": {"minutes": MINUTES, "matches": 2, "brains": 3},
-    "train qlearning": {"minutes": MINUTES, "matches": 1},
+    "train qlearning": {"minutes": 0.05, "matches": 1},
     "train ppo": {"minutes": None, "updates": 1},
     "tests.bench.fairness": {"matches": 4},
-    "tests.bench.network_wins": {"matches": 1, "rivals": "idle", "arenas": "classic", "variants": "party"},
-    "tests.bench.network_football": {"matches": 2},
+    "tests.bench.network_wins": {
+        "matches": 1,
+        "minutes": MINUTES,
+        "rivals": "idle",
+        "arenas": "classic",
+        "variants": "party",
+    },
+    "tests.bench.network_football": {"matches": 1},
 }
 MAY_MISS = r".*tests\.bench\..*"  # commands that end with 1 if a limit is missed, as few short matches may
 

@@ -7,11 +7,15 @@ from itertools import pairwise
 import pytest
 
 from pigaming_app import links
+from pigaming_app.games import setup
 from pigaming_app.games.registry import games
+from pigaming_app.jobs.bench import figures
 from pigaming_app.jobs.bench.robots import TARGETS
+from pigaming_app.scenes.bench import frame_times
 from tests.bench.detection import Sample
 from tests.bench.figures import as_markdown, on_page, pattern, robots, write
 from tests.bench.figures.derived import bundles, where_to_get_it
+from tests.bench.figures.duels import LEAST
 from tests.bench.figures.registry import DERIVED, MEASURED
 from tests.bench.figures.seeds import READINGS, compared, counted
 from tests.bench.reproduce_table import BINS, Result, Row
@@ -23,10 +27,13 @@ TRAINING = ("seeds", "verdict")  # their rows are those of robots that train for
 
 @pytest.fixture
 def _small(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No overtime; and given results in place of proofs and pictures that take minutes."""
+    """Short matches without overtime; and given results in place of proofs and pictures that take minutes."""
     for game in games().values():
         for name, variant in game.variants.items():
             monkeypatch.setitem(game.variants, name, replace(variant, overtime=0.0))
+    monkeypatch.setattr(setup, "MIN_MINUTES", LEAST)
+    monkeypatch.setattr(figures, "PLAIN_TICKS", 100)
+    monkeypatch.setattr(frame_times, "FIRST", 1)
     monkeypatch.setattr(robots, "measure", lambda: dict(TARGETS))
     monkeypatch.setattr(robots, "found", lambda *look: [Sample(16, 23.0, 1.4, 1 / 60, True)])
 

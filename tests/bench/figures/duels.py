@@ -17,7 +17,7 @@ STEPS = (
     ("Robot Race", "race", "standard", 200, 64001),
     ("Robot Race", "race", "party", 200, 64001),
 )
-LEAST = 0.05  # minutes of a match in a small run
+LEAST = 0.01  # minutes of a match in a small run
 
 
 def some(matches: int, share: float) -> tuple[int, float | None]:

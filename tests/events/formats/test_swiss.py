@@ -10,7 +10,8 @@ from pigaming_app.events.formats.swiss import default_rounds, pairing
 from pigaming_app.events.spec import Entrant, Format, Result
 from tests.events.examples import by_chance, new_event, pairs_of, played
 
-ROUNDS = ((3, 2), (4, 3), (5, 3), (6, 3), (8, 4), (9, 4), (12, 6), (16, 8), (20, 10), (32, 16), (33, 8), (64, 6))
+ROUNDS = ((3, 2), (4, 3), (5, 3), (6, 3), (8, 4), (9, 4), (12, 6), (16, 8), (20, 10))
+CROWDS = ((32, 16), (33, 8), (64, 6))
 
 
 def test_eight_entrants_of_whom_the_better_seed_always_wins():
@@ -48,7 +49,9 @@ def test_a_tie_is_half_a_point_each():
     assert pairs_of(event, 2) == [("P2", "P3"), ("P1", "P5"), ("P4", "P6")]
 
 
-@pytest.mark.parametrize(("count", "rounds"), ROUNDS)
+@pytest.mark.parametrize(
+    ("count", "rounds"), [*ROUNDS, *(pytest.param(*crowd, marks=pytest.mark.long) for crowd in CROWDS)]
+)
 def test_no_rematch_no_second_bye_and_seats_that_change(count, rounds):
     event = played(new_event(Format.SWISS, count, rounds=rounds), by_chance(count))
     assert event.round == rounds

@@ -1,9 +1,12 @@
 """The job `bench` measures memory: a fresh arcade stays small."""
 
+import pytest
+
 from pigaming_app.games.registry import games
 from pigaming_app.jobs.bench import memory as bench_memory
 
 
+@pytest.mark.long
 def test_the_title_of_a_fresh_arcade_needs_at_most_150_mb() -> None:
     assert ("title", "lobby", *games()) == bench_memory.STATES
     found = bench_memory.measured_alone("title")

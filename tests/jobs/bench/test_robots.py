@@ -23,7 +23,7 @@ def ground():
     return testbed.Testbed(5, 30.0).ground
 
 
-@pytest.mark.parametrize("game", one_in(3, ENCODINGS))
+@pytest.mark.parametrize("game", one_in(4, ENCODINGS))
 def test_a_match_of_networks_on_the_mat_plays_to_its_end(game, ground, tmp_path):
     arena, path = jobs()[list(games()).index(game)].arena, tmp_path / "mine.npz"
     path.write_bytes(encode(random_network(1, game)))

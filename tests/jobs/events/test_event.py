@@ -16,6 +16,7 @@ import pytest
 from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import load
 from pigaming_app.jobs.cli import main
+from tests.cases import one_in
 from tests.jobs.test_hostile_options import ANY, POSIX, fault, furnish
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -269,7 +270,7 @@ OPTIONS = (
 
 
 @POSIX
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", one_in(2, range(2)))
 def test_every_value_is_used_or_refused_in_one_line(tmp_path, monkeypatch, seed):
     (tmp_path / "here").mkdir()
     monkeypatch.chdir(tmp_path / "here")
