@@ -27,7 +27,7 @@ from pigaming_app.ui.draw.frame_budget import Steps, Unfinished, budget, resumab
 from pigaming_app.ui.draw.surface_cache import CacheEntry, SurfaceCache, surfaces
 from pigaming_app.ui.input.events import Button
 from tests.bench.memory import press
-from tests.cases import one_in, repeated
+from tests.cases import repeated
 from tests.matches import setup_of
 from tests.scenes.arcade import Arcade, Floor
 
@@ -115,7 +115,8 @@ def test_the_title_drops_pictures_that_were_interrupted_on_other_pages(arcade: A
     assert len(sheets) == 2, "it began anew"
 
 
-@pytest.mark.parametrize("game", one_in(4, games()))
+@pytest.mark.long
+@pytest.mark.parametrize("game", repeated(games()))
 def test_no_sprite_of_a_match_is_ever_made_twice(arcade: Arcade, game: str, monkeypatch: pytest.MonkeyPatch) -> None:
     made: list[tuple[int, Hashable]] = []
     keep = SurfaceCache._insert
@@ -193,7 +194,7 @@ def test_a_scene_that_has_left_is_freed_in_the_next_frame(
 
 @pytest.mark.long
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="counts the files of /proc")
-@pytest.mark.parametrize(("presses", "each"), repeated([(1_300, 3), (10_000, 12)]))
+@pytest.mark.parametrize(("presses", "each"), repeated([(700, 2), (10_000, 12)]))
 def test_open_files_threads_and_memory_stay_level_over_presses_on_all_screens(presses: int, each: int) -> None:
     command = [sys.executable, "-m", "tests.bench.presses", str(presses), str(each)]
     done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)

@@ -73,5 +73,5 @@ def lines_with_signs(source: str) -> Iterator[int]:
             for part, after in zip(node.values, node.values[1:], strict=False):
                 if re.search(r"(^| )[+−]$", str(getattr(part, "value", ""))) and isinstance(after, ast.FormattedValue):
                     yield node.lineno
-        elif isinstance(node, ast.Call) and ast.unparse(node).endswith(".replace('-', '−')"):
+        elif isinstance(node, ast.Call) and [getattr(word, "value", "") for word in node.args] == ["-", "−"]:
             yield node.lineno

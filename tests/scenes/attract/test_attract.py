@@ -31,19 +31,20 @@ from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.measuring import lit_boxes
 
 LONGEST = 12.0  # s; the longest animation, machine A, then B, repeats after 9.1 s
-PHASES = 0.1  # s between two frames
 FASTEST = 0.08  # s per frame at which a match still runs at full speed
 
 
+@pytest.mark.parametrize("phase", [0.4, pytest.param(0.1, marks=[pytest.mark.long, pytest.mark.again])])
 @pytest.mark.parametrize("game", taught())
-def test_every_picture_of_a_lesson_is_drawn_in_all_its_phases(arcade: Arcade, game: str) -> None:
+def test_every_picture_of_a_lesson_is_drawn_in_all_its_phases(arcade: Arcade, game: str, phase: float) -> None:
+    """A phase, s, lies between two frames."""
     lesson = HowTo(arcade.context, game)
     frames = set()
-    for _ in range(round(LONGEST / PHASES)):
-        lesson.update(PHASES)
+    for _ in range(round(LONGEST / phase)):
+        lesson.update(phase)
         lesson.draw(arcade.screen)
         frames.add(arcade.screen.get_buffer().raw[::4099])
-    assert len(frames) > LONGEST / PHASES / 2, "the pictures move"
+    assert len(frames) > LONGEST / phase / 2, "the pictures move"
 
 
 @pytest.mark.long
@@ -64,6 +65,7 @@ def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
         return Attract(context)
 
     monkeypatch.setattr(Attract, "_next", noted)
+    monkeypatch.setattr("pigaming_app.scenes.attract.scene.MINUTES", 0.2)
     chosen = {"language": language}
     whole = 3 * len(games()) + 1
     options = Options(

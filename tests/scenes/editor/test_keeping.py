@@ -166,7 +166,7 @@ def test_a_full_disk_is_one_sentence_and_the_drawing_stays(mouse: Mouse) -> None
     assert own_arenas("pitanks") == ["mine"]
 
 
-@pytest.mark.parametrize("game", one_in(3, EDITORS))
+@pytest.mark.parametrize("game", one_in(4, EDITORS))
 def test_a_damaged_draft_is_left_out_or_can_be_mended(mouse: Mouse, game: str) -> None:
     store.drafts_folder(game).mkdir(parents=True)
     for i, text in enumerate(DAMAGED):

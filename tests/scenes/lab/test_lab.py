@@ -43,7 +43,7 @@ def _prepared(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(progress, "MATCHES", {True: 2, False: 2})
     monkeypatch.setattr(progress, "MINUTES", {True: 0.2, False: 0.2})
     arcade.open(Lab(arcade.context, fast=False))
-    arcade.wait(0.5)
+    arcade.wait(0.5, fps=4)
 
 
 def lab(arcade: Arcade) -> Lab:
@@ -217,7 +217,7 @@ def test_play_against_it_and_come_back_and_train_on(arcade: Arcade) -> None:
     assert here.table.training.experiences == experiences, "training is paused"
     assert here.table.join()
     arcade.key("ESCAPE", 0.2)
-    arcade.wait(5.0)
+    arcade.wait(5.0, fps=4)
     arcade.key("ESCAPE", 0.8)
     assert lab(arcade) is here
     arcade.wait(0.5)

@@ -44,7 +44,7 @@ def arcade(arcade: Arcade) -> Iterator[Arcade]:
     lab = Lab(arcade.context, fast=False)
     lab.network = NetworkTrainer(5, arcade.context.shared(LabBackground).network_compiler, PLAIN)
     arcade.open(lab)
-    arcade.wait(0.5)
+    arcade.wait(0.5, fps=4)
     yield arcade
     lab.network.end()
     arcade.context.shared(LabBackground).network_compiler.end()
@@ -62,7 +62,7 @@ def wait(arcade: Arcade, condition: Callable[[], bool], timeout: float = 120.0) 
             break
         assert time.monotonic() < end, "timeout"
         arcade.frame(draw=number % 5 == 0)
-        time.sleep(0.01)
+        time.sleep(0.03)
 
 
 def switch(arcade: Arcade) -> None:
@@ -136,6 +136,7 @@ def test_the_network_is_chosen_learns_is_measured_played_against_saved_and_opene
     learn(arcade, updates + 2)
 
 
+@pytest.mark.long
 @needs_numba
 def test_a_training_is_steered_paused_compared_killed_and_left(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
     """A knob, the mouse on the switch, the table of robots, a process that starts again where it was, and an end."""

@@ -22,7 +22,7 @@ from tests.ui.input.virtual_pad import VirtualPad
 @pytest.fixture(autouse=True)
 def _prepared(arcade: Arcade) -> None:
     arcade.open(Lab(arcade.context, fast=False))
-    arcade.wait(0.5)
+    arcade.wait(0.5, fps=4)
 
 
 def lab(arcade: Arcade) -> Lab:
@@ -33,7 +33,7 @@ def menu(arcade: Arcade, item: str) -> None:
     arcade.press(Button.START)
     arcade.shown(LabMenu).focus.move_to(item)
     arcade.press(Button.FIRE)
-    arcade.wait(0.5)
+    arcade.wait(0.5, fps=4)
 
 
 def save(arcade: Arcade, name: str) -> None:

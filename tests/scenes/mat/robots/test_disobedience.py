@@ -11,7 +11,7 @@ from pigaming_app.scenes.mat.robots.match_scene import RealMatch
 from pigaming_app.scenes.mat.robots.pair_again import PairAgain
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade
-from tests.scenes.mat.robots.test_real_match import begun, opened, play, until
+from tests.scenes.mat.robots.test_real_match import begun, goes_on, opened, play, until
 
 pytest.importorskip("cv2")
 WIRING = ("pinned", "lids_swapped", "motors_reversed", "motors_swapped", "motor_reversed")
@@ -70,12 +70,11 @@ def test_a_fault_that_begins_in_a_match_pauses_it_until_somebody_has_looked(
     play(arcade, 0.1)
     assert {name for name, _ in named(arcade)} == {"disobeys"}
     mat.arena.faults.switch(fault, False, 0)
-    play(arcade, 3.0)
+    play(arcade, 1.0)
+    arcade.shown(FaultPage)
     arcade.press(Button.Y)
     until(arcade, RealMatch)
-    before = match.match.state.tick
-    play(arcade, 2.5)
-    assert match.match.state.tick > before
+    goes_on(arcade, match)
 
 
 @pytest.mark.long

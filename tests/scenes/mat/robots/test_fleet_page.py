@@ -79,7 +79,7 @@ def test_batteries_and_visible_robots_are_shown(arcade: Arcade, mat: EmulatedSes
     mat.arena.faults.switch("robot_off", True, 2)
     mat.arena.faults.switch("marker_covered", True, 3)
     mat.arena.faults.switch("old_firmware", True, 1)
-    arcade.wait(4.0, fps=50)
+    arcade.wait(3.0, fps=50)
     page = arcade.shown(FleetPage)
     heard, _, seen, _ = page.lines[0]
     assert heard.startswith("5.")
