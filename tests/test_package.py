@@ -64,7 +64,7 @@ def wheel(folder):
 def environment(folder, wheel):
     """An environment with the wheel and the packages that it requires without any extra."""
     place, required = folder / "environment", folder / "required" / "site-packages"
-    venv.create(place, with_pip=True, symlinks=os.name != "nt")
+    venv.create(place, symlinks=os.name != "nt")
     required.mkdir(parents=True)
     for one in requirements([ARCADE]):
         distribution = metadata.distribution(one.partition(">")[0])
@@ -72,7 +72,18 @@ def environment(folder, wheel):
         for name in {file.parts[0] for file in distribution.files} - {"..", "__pycache__"}:
             (required / name).symlink_to(str(distribution.locate_file(name)))
     (site_packages(place) / "required.pth").write_text(f"{required}\n")
-    command = [python_of(place), "-m", "pip", "install", "-q", "--no-deps", "--no-index", wheel]
+    command = [
+        sys.executable,
+        "-m",
+        "pip",
+        "--python",
+        python_of(place),
+        "install",
+        "-q",
+        "--no-deps",
+        "--no-index",
+        wheel,
+    ]
     subprocess.run(command, env=surroundings(folder), check=True)
     return place
 

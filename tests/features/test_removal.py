@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {feature.name: feature.rooms for feature in every_feature()}
 TILES = [*games(), "howto", "ladder", "events", "lab", "editor", "replays", "options"]
 CORE_GAMES = [game for game in games() if game not in ROOMS]
-WOVEN = {"events", "phones", "kiosk", "mat"}  # offer more than a tile
+WOVEN = {"events", "mat"}  # offer more than a tile
 NEEDED_BY = {"events": {"events", "ladder"}, "learning": {"lab"}, "brain": {"lab"}}
 
 

@@ -111,7 +111,7 @@ def tour(played: Sequence[str]) -> None:
                     frames(app, 3)
                     home(app)
         attract: Any = idle_page(app.context)
-        for make in [next(attract.shows) for _ in range(len(games()) * 6)] if attract else ():
+        for make in [next(attract.shows) for _ in range(len(games()) * 3)] if attract else ():
             if show := make():
                 show.on_enter()
                 show.draw(app.context.canvas.screen)

@@ -75,12 +75,12 @@ def test_a_vector_plays_the_episodes_of_single_environments(name, game):
 @pytest.mark.long
 @pytest.mark.parametrize(("name", "game"), repeated(GAMES))
 def test_compiled_and_plain_play_agree_to_the_last_bit(name, game):
-    options = {"num_envs": 6, "agents": 2, "opponents": ("level3", "level5"), "arena": "all", "minutes": 0.5}
+    options = {"num_envs": 6, "agents": 2, "opponents": ("random",), "arena": "all", "minutes": 0.2}
     for variant in ("party", None):
         plain, fast = (gymnasium.make_vec(name, compiled=c, variant=variant, **options) for c in (False, True))
         plain.action_space.seed(1)
         assert np.array_equal(plain.reset(seed=3)[0], fast.reset(seed=3)[0])
-        for _ in range(330):
+        for _ in range(130):
             action = plain.action_space.sample()
             expected, found = plain.step(action), fast.step(action)
             assert all(np.array_equal(a, b) for a, b in zip(expected[:4], found[:4], strict=True))

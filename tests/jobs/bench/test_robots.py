@@ -43,7 +43,7 @@ def test_knocked_out_robots_keep_out_of_the_walls_on_the_mat(ground, monkeypatch
         return depth(state, x, y)
 
     monkeypatch.setattr(trials, "entered", noted)
-    run = on_mat(MatMatch("pitanks", arena, 30.0, 7, 0.5, brain="hand2", carried=True, variant="party"), ground)
+    run = on_mat(MatMatch("pitanks", arena, 30.0, 7, 0.3, brain="hand2", carried=True, variant="party"), ground)
     assert seen["hits"] >= 10
     assert run.deepest_mm < TARGETS["wall_entry_mm"]
 
