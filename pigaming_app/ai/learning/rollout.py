@@ -57,8 +57,11 @@ def compiled_rollout(game: str, families: tuple[Family, ...]) -> Loop:
 
 
 def cast_with_baselines(kinds: Iterable[BrainKind], fast: bool) -> Cast:
-    """A cast of these brains and the baselines, which cost little: a loop for each would take long to compile."""
-    return Cast([*kinds, IDLE, RANDOM], fast)
+    """A cast of these brains and the baselines, which cost little: a loop for each would take long to compile.
+
+    They come first, so that the same brains have the same loop with a baseline on a seat and without.
+    """
+    return Cast([IDLE, RANDOM, *kinds], fast)
 
 
 class Batch:

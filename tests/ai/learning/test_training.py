@@ -114,7 +114,7 @@ def test_a_checkpoint_stays_as_it_was_and_takes_a_seat(fast):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("fast", BODIES)
+@pytest.mark.parametrize("fast", [False, pytest.param(True, marks=[compiles, pytest.mark.again])])
 def test_measuring_plays_matches_and_leaves_the_training_alone(fast):
     course = short(fast)
     course.run(300)

@@ -78,7 +78,7 @@ def test_both_bodies_of_networks_play_the_same_match_to_the_last_bit():
         for arena, variant in (("labyrinth", "party"), ("classic", "pickups"))
     ]
     line_up = [one, two, kinds["random"], two]
-    plain, fast = (  # the loop of another test, which is in the cache
+    plain, fast = (  # the loop of the company of test_every_game.py, which is in the cache
         Batch(setups, line_up, fast, cast_with_baselines([*line_up, *company("pitanks")], fast))
         for fast in (False, True)
     )

@@ -16,6 +16,7 @@ from pigaming_app.ui.i18n import Words
 from tests.bench.detection import prediction, samples
 from tests.bench.detection import share as emulated_share
 from tests.bench.marker_ids import View, share
+from tests.cases import repeated
 from tests.hardware.mat import nominal
 
 GOOD = ExposureState(1 / 100, 1 / 30, 0.0, False, True)
@@ -82,7 +83,7 @@ def test_a_number_has_one_meaning():
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("number", [0, *ROBOT_IDS])
+@pytest.mark.parametrize("number", [0, *repeated(ROBOT_IDS)])
 def test_the_prediction_is_within_5_points_of_an_independent_camera(number):
     seen, told = share(number, HARD, 240), found_share(number, HARD.edge, HARD.blur, HARD.exposure)
     chance = 0.0 if number else 0.05  # both shares are samples, of a half rather than of nearly all
@@ -92,10 +93,7 @@ def test_the_prediction_is_within_5_points_of_an_independent_camera(number):
 @pytest.mark.long
 @pytest.mark.parametrize(
     ("width", "defocus", "exposure", "numbers"),
-    [
-        (1280, 1.5, 1 / 60, ROBOT_IDS),
-        (1280, 1.1, 1 / 60, (0, 1, 2, 3)),
-    ],
+    repeated([(1280, 1.5, 1 / 60, ROBOT_IDS), (1280, 1.1, 1 / 60, (0, 1, 2, 3))]),
 )
 def test_the_prediction_is_within_5_points_of_the_emulated_camera(width, defocus, exposure, numbers):
     found = list(samples(width, defocus, exposure, 40, seed=7, numbers=numbers))

@@ -15,7 +15,7 @@ UNEQUAL, SLOW = (0.0, 0.02, 0.04, 0.01), (0.01,) * 4  # s
 UNPAIRED = (
     (0.05, (0.0,) * 4, 2.0),
     pytest.param(0.05, SLOW, 3.5, marks=pytest.mark.long),
-    pytest.param(0.0, SLOW, 1.0, marks=pytest.mark.long),
+    pytest.param(0.0, SLOW, 1.0, marks=[pytest.mark.long, pytest.mark.again]),
 )
 
 

@@ -39,13 +39,13 @@ def test_on_the_emulated_arena_the_wizard_matches_ground_truth(tmp_path, calibra
 @pytest.mark.parametrize(
     ("view", "code", "exposure", "enough"),
     [
-        ("long", 0, (16.0, 16.7), True),
-        ("silent", 0, None, True),
         ("dim", 0, (16.0, 16.7), True),
-        ("stubborn", 1, (33.0, 33.4), False),
         ("defocused", 1, (5.9, 6.1), False),
-        ("tilted", 1, (5.9, 6.1), False),
         ("dark", 1, None, None),
+        pytest.param("long", 0, (16.0, 16.7), True, marks=pytest.mark.again),
+        pytest.param("silent", 0, None, True, marks=pytest.mark.again),
+        pytest.param("stubborn", 1, (33.0, 33.4), False, marks=pytest.mark.again),  # --anyway: below
+        pytest.param("tilted", 1, (5.9, 6.1), False, marks=pytest.mark.again),
     ],
 )
 def test_a_camera_that_misses_markers_fails(calibrate, view, code, exposure, enough):
