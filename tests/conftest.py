@@ -119,24 +119,25 @@ def _cache_of_its_own() -> Iterator[None]:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Of a test that runs in all languages, mark all cases `long` but those whose texts are the longest.
+    """Of a test that runs in all languages, leave one of the two with the longest texts unmarked, by turns.
 
-    Of the others, `again` leaves one language, by turns.
+    The other one is `long`, and all others are `again`.
 
     The longest tests come first: a worker that takes one up as its last keeps all others waiting.
     """
     languages = [item for item in items if isinstance(item, pytest.Function) and "language" in _values(item)]
-    from pigaming_app.ui.i18n import LANGUAGES
-
-    others: dict[tuple[str, str], int] = {}
-    less_wordy = [language for language in LANGUAGES if language not in WORDY]
-    both = {_twin(item) for item in languages if _values(item)["language"] in WORDY}
+    both: dict[tuple[str, str], list[pytest.Function]] = {}
+    for item in languages:
+        if _values(item)["language"] in WORDY and not any(item.iter_markers("long")):
+            both.setdefault(_twin(item), []).append(item)
+    for turn, wordy in enumerate(both.values()):
+        wordy.pop(turn % len(wordy))
+        for other in wordy:
+            other.add_marker(pytest.mark.long)
     for item in languages:
         if _values(item)["language"] not in WORDY and _twin(item) in both:
             item.add_marker(pytest.mark.long)
-            turn = others.setdefault(_twin(item), len(others))
-            if _values(item)["language"] != less_wordy[turn % len(less_wordy)]:
-                item.add_marker(pytest.mark.again)
+            item.add_marker(pytest.mark.again)
     items.sort(key=lambda item: not any(mark.kwargs.get("first") for mark in item.iter_markers("long")))
 
 
