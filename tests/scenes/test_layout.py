@@ -19,6 +19,7 @@ from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.button_prompts import type_size
+from tests.cases import one_in
 from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade
 from tests.scenes.measuring import Mark, empty_cache, faults, forget, leave_black, measuring
@@ -105,7 +106,7 @@ def drawn(scene: Scene) -> Callable[[], object]:
     return lambda: scene.draw(pygame.Surface((1920, 1080)))
 
 
-@pytest.mark.parametrize(("game", "variant"), RULES)
+@pytest.mark.parametrize(("game", "variant"), one_in(2, RULES))
 def test_hud_and_rules_of_a_match_are_larger(
     controls: Controls, monkeypatch: pytest.MonkeyPatch, game: str, variant: str
 ) -> None:

@@ -21,6 +21,7 @@ from pigaming_app.scenes.editor.store import titled
 from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.input.events import Button
+from tests.cases import one_in
 from tests.scenes.editor.artist import Artist, Mouse, checked, verdict_of, wait_for
 from tests.scenes.editor.test_keeping import empty
 
@@ -35,6 +36,7 @@ def opened(artist: Artist, game: str, arena: str = "") -> Editor:
     return artist.editor
 
 
+@pytest.mark.parametrize("artist", one_in(3, ["mouse", "keys", "pad"]), indirect=True)
 def test_pitanks(artist: Artist) -> None:
     """Walls are drawn by two taps too, and have dials."""
     editor = opened(artist, "pitanks")
@@ -64,6 +66,7 @@ def test_pitanks(artist: Artist) -> None:
     assert not verdict_of(artist).blocked
 
 
+@pytest.mark.parametrize("artist", one_in(3, ["pad", "keys", "mouse"]), indirect=True)
 def test_factory(artist: Artist) -> None:
     """A machine is moved and turned, and its image with it."""
     editor = opened(artist, "factory", "hall")
@@ -86,6 +89,7 @@ def test_factory(artist: Artist) -> None:
     assert len(verdict.routes) == 6
 
 
+@pytest.mark.parametrize("artist", one_in(3, ["keys", "pad", "mouse"]), indirect=True)
 def test_race(artist: Artist) -> None:
     """Control points are added, dragged and deleted; arcs are as wide as they can be; lines stay on the road."""
     editor = opened(artist, "race")
@@ -107,6 +111,7 @@ def test_race(artist: Artist) -> None:
     assert len(verdict.routes[0]) > 300
 
 
+@pytest.mark.parametrize("artist", one_in(3, ["mouse", "pad", "keys"]), indirect=True)
 def test_football(artist: Artist) -> None:
     """Corners are cut, bumpers and drop points are set on all quarters, and a post takes all others with it."""
     editor = opened(artist, "football")

@@ -186,7 +186,7 @@ def test_a_damaged_draft_is_left_out_or_can_be_mended(mouse: Mouse, game: str) -
         mouse.arcade.press(Button.BACK, Button.BACK)
 
 
-@pytest.mark.parametrize("game", EDITORS)
+@pytest.mark.parametrize("game", one_in(2, EDITORS))
 def test_a_surprise_draws_itself(mouse: Mouse, game: str) -> None:
     mouse.arcade.open(Gallery(mouse.arcade.context, game))
     mouse.arcade.press(Button.RIGHT, Button.FIRE)

@@ -11,7 +11,7 @@ from pigaming_app.ai.registry import new_match
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay
 from pigaming_app.games.replay import recorded as recording_of
-from pigaming_app.scenes.attract.scene import PAGE, Attract, DemoMatch, TimedPage
+from pigaming_app.scenes.attract.scene import MINUTES, PAGE, Attract, DemoMatch, TimedPage
 from pigaming_app.scenes.files import load_replay, save_replay
 from pigaming_app.scenes.play.side_hints import boxes
 from pigaming_app.scenes.replays.watch import IDLE, LINE_LEFT, LINE_RIGHT, LINE_Y, ReplayScene
@@ -24,13 +24,17 @@ from tests.scenes.attract.test_attract import scores_of
 from tests.scenes.measuring import faults, lit_boxes, measuring
 
 
-def test_attract_shows_a_match_then_how_to_play_then_the_scores(arcade: Arcade) -> None:
+def test_attract_shows_a_match_then_how_to_play_then_the_scores(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert MINUTES <= 2.0
+    monkeypatch.setattr("pigaming_app.scenes.attract.scene.MINUTES", 0.2)
     for game in games():
         scores_of(arcade.context, game)
     attract = arcade.open(Attract(arcade.context))
     assert isinstance(attract.show, DemoMatch)
-    assert attract.show.runner.match.setup.minutes <= 2.0
-    arcade.until(lambda: not isinstance(attract.show, DemoMatch), 125.0)
+    assert attract.show.runner.match.setup.minutes == 0.2
+    arcade.until(lambda: not isinstance(attract.show, DemoMatch), 17.0)
     first = attract.show
     assert isinstance(first, TimedPage)
     arcade.wait(0.5, draw=True)

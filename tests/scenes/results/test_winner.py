@@ -39,7 +39,7 @@ WON = outcome({0: 12, 1: -3, 2: 7, 3: 5}, (0,))
 def test_every_ending_has_its_moment_within_the_picture(arcade: Arcade, name: str) -> None:
     results = ENDINGS[name].results(arcade)
     scene = arcade.open(WinnersMoment(arcade.context, results.ended, results))
-    arcade.wait(LENGTH - 0.4, fps=10, draw=True)
+    arcade.wait(LENGTH - 0.4, fps=5, draw=True)
     assert title(scene.name, scene.size, scene.color).image.get_width() <= 1920 - 2 * 96
     for pop in range(POPS):
         sprite = popped(scene.name, scene.size, scene.color, pop)

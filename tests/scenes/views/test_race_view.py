@@ -77,11 +77,11 @@ def test_a_whole_race_of_any_company_draws_and_leaves_the_race_alone(screen, sea
     view, _ = seen(scene, ["human", "level1", "level5", "level3"], language=language)
     for tick in range(600):
         scene.tick()
-        before = digest(scene.state)
+        before = digest(scene.state) if tick % 10 == 0 else ""
         view.watch(scene.state)
-        if tick % 10 == 0:
+        if before:
             view.draw(screen, scene.state, 0.5, 0.2)
-        assert digest(scene.state) == before
+            assert digest(scene.state) == before
         assert len(view.particles.particles) <= MAX_PARTICLES
 
 

@@ -123,7 +123,7 @@ def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Ar
     match = opened(arcade, "pitanks", "level1 level1 off off", 0.02)
     starts = [(robot.x, robot.y, robot.heading) for robot in match.match.state.robots[:2]]
     for robot, (x, y, heading) in enumerate(starts):
-        mat.arena.place(robot, (x + (800.0 - x) * 0.1, y + (450.0 - y) * 0.1, heading + 0.4))
+        mat.arena.place(robot, (x + (800.0 - x) * 0.06, y + (450.0 - y) * 0.06, heading + 0.2))
     play(arcade, 0.5, lit=True)
     assert match.gathering is not None
     until(arcade, lambda: match.gathering is None, 30.0)
