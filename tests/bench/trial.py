@@ -34,6 +34,7 @@ class Trial:
     minutes: float | None = None
     arena: str | None = None  # None: all
     goal: int | None = None
+    fast: bool = False  # compiled, however few ticks
 
     @property
     def rules(self) -> Variant:
@@ -54,7 +55,7 @@ class Trial:
     def batch(self) -> Batch:
         """All matches before their first tick. Raises ChoiceError."""
         setups = self.setups
-        return Batch(setups, [BRAINS[self.game].get(brain) for brain in self.brains], is_compiled(setups))
+        return Batch(setups, [BRAINS[self.game].get(brain) for brain in self.brains], self.fast or is_compiled(setups))
 
     def of(self, *brains: str) -> "Trial":
         """The same trial with other robots."""

@@ -107,21 +107,24 @@ def test_tape_that_is_mud_slows_robots_down(game):
     assert 0.2 * speeds[1] < speeds[0] < 0.6 * speeds[1]
 
 
-@pytest.mark.parametrize(("game", "name"), [(game, name) for game in games() for name in arenas(game)])
-def test_starts_move_out_of_the_way_of_things(game, name):
-    base = load(game, name)
-    for i, start in enumerate(base.starts[: 1 if game == "race" else 4]):
-        arena, reason = attempt(game, name, box(start.x, start.y, 46, 46, 0.4))
-        if not arena:
-            assert game == "factory"
-            assert "slot" in reason
-            continue
-        moved = arena.starts[i]
-        assert not contains(arena.things[0].outline, moved.x, moved.y)
-        assert dist((moved.x, moved.y), (start.x, start.y)) > RADIUS
-        match = match_of(game, ["idle"] * 4, arena)
-        for robot in match.state.robots:
-            assert not in_wall(match.state, robot.x, robot.y)
+@pytest.mark.parametrize(
+    ("game", "name", "i"),
+    [(game, name, 0 if game == "race" else k % 4) for game in games() for k, name in enumerate(arenas(game))],
+)
+def test_starts_move_out_of_the_way_of_things(game, name, i):
+    """A race has one start, that of the grid. On a floor slots may be in the way."""
+    start = load(game, name).starts[i]
+    arena, reason = attempt(game, name, box(start.x, start.y, 46, 46, 0.4))
+    if not arena:
+        assert game == "factory"
+        assert "slot" in reason
+        return
+    moved = arena.starts[i]
+    assert not contains(arena.things[0].outline, moved.x, moved.y)
+    assert dist((moved.x, moved.y), (start.x, start.y)) > RADIUS
+    match = match_of(game, ["idle"] * 4, arena)
+    for robot in match.state.robots:
+        assert not in_wall(match.state, robot.x, robot.y)
 
 
 def test_a_race_is_driven_round_things_in_nearly_the_same_time():
@@ -149,7 +152,7 @@ def test_every_driver_finishes_among_random_things(name, turn):
     assert played
 
 
-@pytest.mark.parametrize("name", one_in(2, arenas("race")))
+@pytest.mark.parametrize("name", one_in(4, arenas("race")))
 def test_the_racing_line_keeps_clear_of_things(name):
     played = 0
     for arena in playable("race", name, range(2), 5):

@@ -13,7 +13,7 @@ mismatch:
 from bisect import bisect_right
 from collections import deque
 from collections.abc import Sequence
-from math import cos, exp, pi, sin, tau
+from math import cos, exp, inf, pi, sin, tau
 from typing import NamedTuple
 
 from pigaming_app.hardware.signals import Fix
@@ -224,7 +224,7 @@ class RobotMotionCheck:
     def _at(self, time: float) -> tuple[float, ...]:
         """Cumulative travel at a time, interpolated; constant before the first command."""
         sent = self._sent
-        at = bisect_right(sent, time, key=lambda travel: travel.time)
+        at = bisect_right(sent, (time, inf))
         if at == 0:
             return sent[0][1:]
         if at == len(sent):

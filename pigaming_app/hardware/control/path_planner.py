@@ -11,17 +11,30 @@ from pigaming_app.sim.flow_field import Route, expand, free_node, update_route
 from pigaming_app.sim.grid import BLOCKED, block_rim, wall_on_grid
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, WIDTH, Wall, World
+from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, WIDTH, Wall
 
 MAX_POINTS = 40  # of a path
 
 Point = tuple[float, float]
 
 
+class Floor:
+    """Walls and grid, the parts of a world in which paths are found."""
+
+    shifts = 0
+
+    def __init__(self, walls: Iterable[Any] = (), grid: Iterable[int] = (0,) * NODES) -> None:
+        self.walls, self.grid = list(walls), list(grid)
+
+    @property
+    def wall_count(self) -> int:
+        """Number of its walls."""
+        return len(self.walls)
+
+
 def inflated_floor(world: Any, berth: float, margin: float = 0.0) -> Any:
     """A floor with the standing walls of the world, each `berth` + `margin` px thicker, for a robot of that margin."""
-    floor: Any = World()
-    floor.walls = []
+    floor: Any = Floor()
     block_rim(floor)
     for i in range(world.wall_count):
         wall = world.walls[i]
@@ -36,8 +49,7 @@ def inflated_floor(world: Any, berth: float, margin: float = 0.0) -> Any:
 
 def with_obstacles(floor: Any, lines: Iterable[tuple[Sequence[Point], float]]) -> Any:
     """A copy of the floor with lines or single points as additional walls, each with its half width, px."""
-    copy: Any = World()
-    copy.wall_count, copy.walls, copy.grid = floor.wall_count, list(floor.walls), list(floor.grid)
+    copy = Floor(floor.walls, floor.grid)
     for points, half in lines:
         for one, other in zip(points, points[1:] or points, strict=False):
             _add(copy, one, other, half)
@@ -87,5 +99,4 @@ def _add(floor: Any, one: Point, other: Point, half: float) -> None:
     wall.left, wall.right = min(ax, bx) - edge, max(ax, bx) + edge
     wall.top, wall.bottom = min(ay, by) - edge, max(ay, by) + edge
     floor.walls.append(wall)
-    floor.wall_count += 1
     wall_on_grid(floor, wall, 1)

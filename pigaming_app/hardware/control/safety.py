@@ -49,7 +49,7 @@ class Health(NamedTuple):
     stopped: bool = False  # the all-stop was pressed
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SafetyRule:
     """One row of the table: the response to a condition, for the robot or for everyone."""
 
@@ -166,11 +166,11 @@ class Safety:
         for rule in RULES:
             for robot in [None] if rule.everyone else real:
                 concerned = list(real) if robot is None else [robot]
-                active = any(rule.condition(real[other]) for other in concerned)
+                active = any(map(rule.condition, map(real.__getitem__, concerned)))
                 if rule.latched and robot is not None:
                     self._latched |= {(rule, robot)} if active else set()
                     active = (rule, robot) in self._latched
-                since = self._since(rule, robot, active, now)
+                since = self._since(rule, robot, active, now) if active or (rule, robot) in self._bad else None
                 if since is None:
                     continue
                 for other in real if rule.latched else concerned:

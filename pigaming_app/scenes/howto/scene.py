@@ -14,7 +14,7 @@ from pigaming_app.scenes.views.game_screens import LESSONS_PER_PAGE
 from pigaming_app.scenes.views.lesson import Lesson
 from pigaming_app.scenes.views.registry import SCREENS, shown_games
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.frame_budget import Steps, budget, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import SMALLEST, fit_lines, fit_size, text, wrap, wrap_balanced
@@ -49,10 +49,14 @@ class HowTo:
         self._begin()
 
     def _begin(self) -> None:
-        self.clips = [
-            LessonClip(self.context, self.game, name, lesson, self._variant(), self.canvas)
-            for name, lesson in self.lessons()
-        ]
+        self.clips: list[LessonClip] = []
+
+    def _build(self) -> None:
+        """Build missing clips. Raises Unfinished when the budget of the frame is spent."""
+        for name, lesson in self.lessons()[len(self.clips) :]:
+            budget.claim()
+            self.clips.append(LessonClip(self.context, self.game, name, lesson, self._variant(), self.canvas))
+            budget.note()
 
     def handle(self, event: InputEvent) -> StackOperation:
         """Turn the page, open a game, or leave."""
@@ -76,6 +80,7 @@ class HowTo:
     def draw(self, screen: pygame.Surface) -> None:
         words = self.context.words
         screen.blit(backdrop(), (0, 0))
+        self._build()
         heading(words("title.howto")).draw(screen)
         for game, box in self._names():
             chip(words(f"events.short_{game}"), box.w, "on" if game == self.game else "off").draw(screen, *box.topleft)

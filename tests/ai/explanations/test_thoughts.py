@@ -1,6 +1,6 @@
 """Explanations of brains: consistent with their actions, plain values, without side effects on the match."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from math import isfinite, pi
 
 import pytest
@@ -22,7 +22,6 @@ from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.plugins.parts import plugins
 from pigaming_app.ui.i18n import texts
-from tests.cases import one_in
 from tests.matches import match_of, mind_of, run
 
 ALL = [
@@ -65,31 +64,31 @@ def thoughts(match: Match, seat: int = 0) -> Thoughts:
 # ------------------------------------------------------------------------------------------------------- all of them
 
 
-@pytest.mark.parametrize(("game", "name"), one_in(2, ALL))
-def test_a_match_plays_out_alike_whether_anybody_asks_or_not(game, name):
-    """With `explain` called on every tick and seat, match and minds stay bit-identical."""
-    others = by_hand(game, name) * 3
-    watched, alone = play(game, name, *others), play(game, name, *others)
-    for tick in range(400):
-        for seat in range(ROBOTS):
-            thoughts(watched, seat)
+def line_ups() -> Iterator[tuple[str, list[str]]]:
+    """All brains of each game, four at a time; the last few with one made by hand."""
+    for game in BRAINS:
+        names = [name for other, name in ALL if other == game]
+        for k in range(0, len(names), ROBOTS):
+            yield game, [*names[k:], *by_hand(game) * ROBOTS][:ROBOTS]
+
+
+LINE_UPS = list(line_ups())
+
+
+@pytest.mark.parametrize("ticks", [300, pytest.param(1500, marks=pytest.mark.long)])
+@pytest.mark.parametrize(("game", "brains"), LINE_UPS)
+def test_a_match_plays_out_alike_whether_anybody_asks_or_not_and_what_is_told_has_words(game, brains, ticks):
+    """With `explain` called for every seat, match and minds stay bit-identical."""
+    words, watched, alone = texts("en"), play(game, *brains, seed=3), play(game, *brains, seed=3)
+    for tick in range(ticks):
+        if tick % 3 == 0:
+            for seat in range(ROBOTS):
+                check(thoughts(watched, seat), words)
         watched.tick()
         alone.tick()
-        if tick % 20 == 0:
-            assert digest(watched.state) == digest(alone.state)
     assert digest(watched.state) == digest(alone.state)
     for seat in range(ROBOTS):
         assert digest(mind_of(watched, seat)) == digest(mind_of(alone, seat))
-
-
-@pytest.mark.parametrize(("game", "name"), one_in(2, ALL))
-def test_everything_told_is_plain_finite_and_has_words(game, name):
-    words, match = texts("en"), play(game, name, *by_hand(game, name), name, *by_hand(game), seed=3)
-    for tick in range(1500):
-        if tick % 3 == 0:
-            for seat in (0, 2):
-                check(thoughts(match, seat), words)
-        match.tick()
 
 
 def check(told: Thoughts, words: Mapping[str, str]) -> None:

@@ -31,10 +31,9 @@ def test_more_matches_say_more():
     assert widths == sorted(widths, reverse=True)
 
 
-@pytest.mark.parametrize("brain", ["random", "fsm"])
-def test_a_duel_with_oneself_is_even(brain):
+def test_a_duel_with_oneself_is_even():
     """Both matches of a pair are identical, so a win on one side is a loss on the other."""
-    result = duel("pitanks", brain, brain, matches=8, seed=5, minutes=0.5, variant="plain", fast=False)
+    result = duel("pitanks", "fsm", "fsm", matches=8, seed=5, minutes=0.5, variant="plain", fast=False)
     assert result.wins == result.losses
     assert result.mean_score_left == result.mean_score_right
     assert result.wins + result.ties + result.losses == 8
@@ -130,7 +129,7 @@ def test_a_league_is_every_pairs_duel_over_the_same_seeds(monkeypatch):
     assert [one.rating.rating for one in found.standings] == [0.0] * 3
 
 
-@pytest.mark.parametrize(("game", "minutes"), [("pitanks", 0.5), ("race", 0.5), ("factory", 1.5)])
+@pytest.mark.parametrize(("game", "minutes"), [("pitanks", 0.5), ("race", 0.5)])
 def test_a_league_puts_who_plays_before_who_stands_still(game, minutes):
     found = league.league(game, ["idle", "level5", "random"], matches=2, seed=1, minutes=minutes, fast=False)
     assert found.standings[0].brain == "level5"

@@ -8,7 +8,7 @@ import pytest
 from pigaming_app.ai.networks.pitanks import GUN, OTHERS, SIZE
 from pigaming_app.ai.networks.policy import packed_layers
 from pigaming_app.ai.ppo.lab import lesson
-from pigaming_app.ai.ppo.lab.lesson import HELD, SECTORS, LabTraining, Situations
+from pigaming_app.ai.ppo.lab.lesson import SECTORS, LabTraining, Situations
 from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin
 from pigaming_app.ai.ppo.lab.task import RIVAL, TASK, NetworkRecipe, reward_of
 from pigaming_app.ai.ppo.learner import PolicyNetwork
@@ -72,19 +72,22 @@ def test_it_learns_step_by_step_and_reports(threads: Executor):
     ]
 
 
-def test_a_network_from_a_file_stays_as_it_is_until_its_value_function_is_learned(threads: Executor):
+def test_a_network_from_a_file_stays_as_it_is_until_its_value_function_is_learned(
+    threads: Executor, monkeypatch: pytest.MonkeyPatch
+):
     before = LabTraining(Begin(0, 3), threads)
     before.learn(NetworkRecipe())
     state = before.report().state._replace(matches=12.5, updates=40)
+    monkeypatch.setattr(lesson, "HELD", 3)
     taught = LabTraining(Begin(1, 4, state), threads)
     values = [matrix.copy() for matrix in taught.training.learner.value.weights]
-    for _ in range(HELD):
+    for _ in range(3):
         taught.learn(NetworkRecipe())
     held = taught.report(measured=False).state
     for one, other in zip(held.weights.matrices, state.weights.matrices, strict=True):
         assert np.array_equal(one, other)
     assert not np.array_equal(taught.training.learner.value.weights[0], values[0])
-    assert held.updates == 40 + HELD
+    assert held.updates == 40 + 3
     assert held.matches > 12.5
     taught.learn(NetworkRecipe())
     assert not np.array_equal(taught.report(measured=False).state.weights.matrices[0], state.weights.matrices[0])

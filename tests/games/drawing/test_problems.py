@@ -54,13 +54,15 @@ def test_shipped_arenas_have_none(game: str, name: str) -> None:
 
 @pytest.mark.parametrize(("game", "name"), SHIPPED)
 def test_they_are_found_while_somebody_draws(game: str, name: str) -> None:
-    drawing, seconds = drawn(game, name), []
-    for _ in range(5):
+    drawing = drawn(game, name)
+
+    def seconds() -> float:
         examined.cache_clear()
         begin = process_time()
         problems(game, drawing)
-        seconds.append(process_time() - begin)
-    assert min(seconds) < LIMIT
+        return process_time() - begin
+
+    assert any(seconds() < LIMIT for _ in range(5))
 
 
 @pytest.mark.parametrize(

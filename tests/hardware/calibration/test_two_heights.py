@@ -36,7 +36,7 @@ def sights(arena):
     cv2.circle(page, (round(SPOT[0] + ARENA_AT[0]), round(SPOT[1] + ARENA_AT[1])), 90, 128, -1)
     random = np.random.default_rng(1)
     trials: list[list[DetectedMarker | None]] = []
-    for number in (16, 17, 45):
+    for number in (16, 45):
         trials.append([])
         for height in (LID_HEIGHT, 0.0):
             ((x, y),) = arena.optics.mat(np.array([SPOT]) + ARENA_AT + random.uniform(-15.0, 15.0, 2)).tolist()
@@ -75,7 +75,7 @@ def test_one_height_alone_tells_nothing(made, sights):
     assert not heights.wrong
 
 
-@pytest.mark.parametrize(("width", "wrong"), [(1.0, False), (0.98, False), (1.05, True), (0.95, True)])
+@pytest.mark.parametrize(("width", "wrong"), [(0.98, False), (1.05, True), (0.95, True)])
 def test_driving_robots_show_a_wrong_width(width, wrong):
     bed = BlindBed(seed=4, ground=replace(TRUTH, width_mm=TRUTH.width_mm * width))
     assert bed.rig.tracker.wrong_size is None

@@ -118,7 +118,7 @@ def test_robots_take_their_places_in_an_arena_round_walls_and_each_other(name):
 
 def test_a_robot_whose_place_is_taken_waits():
     mat = Mat([(400.0, 450.0, 0.0), (1000.0, 450.0, pi), *STARTS[2:]])
-    assert gathered(mat, {0: (1000.0, 450.0, 0.0)}, seconds=12.0) is None
+    assert gathered(mat, {0: (1000.0, 450.0, 0.0)}, seconds=4.0) is None
     assert mat.robots[1].x == 1000.0
     assert hypot(mat.robots[0].x - 400.0, mat.robots[0].y - 450.0) < 1.0, "it does not drive about"
 
