@@ -19,6 +19,8 @@ from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import Arcade, Floor
 from tests.scenes.events.drawn import an_event, played, running, saved
 
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
+
 
 def managed(arcade: Arcade, run: RunningEvent, row: str) -> EventPage:
     page = arcade.open(EventPage(arcade.context, run.path, run, Pop()))

@@ -22,6 +22,8 @@ from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from tests.scenes.events.drawn import an_event, played, running
 
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
+
 STEP = 0.1  # s of a frame
 KIOSK = Options(headless=True, kiosk=True, step=STEP)
 KEYS = Device("keys", 0)

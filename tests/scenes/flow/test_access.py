@@ -23,6 +23,8 @@ from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.ui.input.virtual_pad import PLAYSTATION, VirtualPad
 
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
+
 RUNNING = 4.0  # seconds until a match runs
 BUTTONS = ("b", "start", "x", "y", "up", "down", "left", "right", "rightshoulder")  # all but FIRE
 EVERY = (

@@ -25,6 +25,8 @@ from pigaming_app.ui.input.phone_pads import Phones
 from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade
 
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
+
 MOUSE = Device("mouse")
 
 

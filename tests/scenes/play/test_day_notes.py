@@ -11,6 +11,8 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.day_log import DayLog, PlayedMatch, read_day
 from tests.scenes.arcade import KEYS, Arcade, setup
 
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
+
 
 @pytest.fixture(autouse=True)
 def _prepared(arcade: Arcade, tmp_path: Path) -> None:

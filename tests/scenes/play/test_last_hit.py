@@ -15,6 +15,8 @@ from pigaming_app.sim.record import digest, from_bytes, to_bytes
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import Arcade, setup
 
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
+
 
 def party(minutes=0.05, brains="idle idle off off"):
     return replace(setup(brains, minutes), variant="party")

@@ -22,6 +22,8 @@ from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.measuring import lit_boxes
 from tests.ui.input.virtual_pad import VirtualPad
 
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
+
 COUNTDOWN = 3.8  # seconds until GO
 
 

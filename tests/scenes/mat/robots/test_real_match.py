@@ -38,6 +38,8 @@ from tests.scenes.arcade import Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
 pytest.importorskip("cv2")
+
+pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
 FPS = 50
 
 
