@@ -68,7 +68,7 @@ def test_the_arcade_runs_without_all_of_them(tmp_path: Path) -> None:
 
 def test_jobs_of_the_core_run_and_those_of_features_are_refused(tmp_path: Path) -> None:
     rooms = tuple(room for of_one in ROOMS.values() for room in of_one)
-    ran = without(rooms, tmp_path, "play race --headless --minutes 0.05 --seats level3,level2,off,off", "doctor")
+    ran = without(rooms, tmp_path, "play pitanks --headless --minutes 0.05 --seats level3,level2,off,off", "doctor")
     assert (ran.returncode, ran.stderr) == (0, "")
     assert ran.stdout.splitlines()[-1] == "All is well."
     event, onnx = "event new cup.json", "play --seats a.onnx"
