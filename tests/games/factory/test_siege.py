@@ -92,7 +92,7 @@ def time_to_process(floor, m, pose=None, stick=None):
     return 60.0
 
 
-@pytest.mark.parametrize(("floor", "m"), one_in(5, EVERY))
+@pytest.mark.parametrize(("floor", "m"), one_in(12, EVERY))
 def test_a_robot_against_a_machine_costs_a_few_seconds_at_most(floor, m):
     """Its worker may have to walk around it, and does not wait for a robot that only spins its wheels."""
     undisturbed = time_to_process(floor, m)
@@ -115,7 +115,7 @@ def ended(floor, brains, pose=None):
     return match
 
 
-@pytest.mark.parametrize(("floor", "m"), one_in(5, EVERY))
+@pytest.mark.parametrize(("floor", "m"), one_in(12, EVERY))
 def test_hard_drivers_get_everything_out_while_one_robot_leans_on_a_machine(floor, m):
     """The longest of 4992 such matches took 117 s; 60 s without an obstacle."""
     poses = against(begun(floor, (PARK, None, None, None)).state, m)
@@ -124,7 +124,7 @@ def test_hard_drivers_get_everything_out_while_one_robot_leans_on_a_machine(floo
     assert match.seconds < 150.0
 
 
-@pytest.mark.parametrize(("floor", "m"), one_in(3, EVERY[::2]))
+@pytest.mark.parametrize(("floor", "m"), one_in(6, EVERY[::2]))
 def test_and_while_one_is_parked_in_a_slot_of_a_machine(floor, m):
     state = begun(floor, (PARK, None, None, None)).state
     slot = state.slots[MACHINE_SLOTS + 2 * m + m // 2]
@@ -200,7 +200,7 @@ def test_a_worker_who_cannot_fetch_leaves_that_to_another_too():
     assert state.workers[1].task == CARRYING
 
 
-@pytest.mark.parametrize(("floor", "m"), one_in(5, EVERY))
+@pytest.mark.parametrize(("floor", "m"), one_in(12, EVERY))
 def test_a_driver_takes_its_pallet_to_the_other_machine_if_nobody_comes_to_this_one(floor, m):
     """Its worker's spot is unreachable."""
     match = begun(floor, ("hand3", None, None, None))
