@@ -357,7 +357,7 @@ def grabbed(context: Context, screen: pygame.Surface) -> None:
 
 
 @pytest.mark.parametrize(
-    "damage", one_in(2, [clip, clip_twice_removed, locks, pixels, transparency, cached_picture, pinned, grabbed])
+    "damage", one_in(4, [clip, clip_twice_removed, locks, pixels, transparency, cached_picture, pinned, grabbed])
 )
 def test_the_title_is_intact_after_a_failure(damage: Damage) -> None:
     assert pictures(lambda context: Failing(context, damage)) == whole()

@@ -71,7 +71,7 @@ def test_texts_keep_off_each_other_and_off_frames(arcade: Arcade, monkeypatch: p
 
 @pytest.mark.usefixtures("_large")
 @pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("name", [name for name in SCREENS if name.startswith(READ_LARGE)])
+@pytest.mark.parametrize("name", one_in(2, [name for name in SCREENS if name.startswith(READ_LARGE)]))
 def test_larger_texts_keep_off_each_other(arcade: Arcade, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     assert list(drawn_in_all_states(arcade, monkeypatch, name))
 
