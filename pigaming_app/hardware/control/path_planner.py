@@ -18,7 +18,7 @@ MAX_POINTS = 40  # of a path
 Point = tuple[float, float]
 
 
-class Floor:
+class FreeFloor:
     """Walls and grid, the parts of a world in which paths are found."""
 
     shifts = 0
@@ -34,7 +34,7 @@ class Floor:
 
 def inflated_floor(world: Any, berth: float, margin: float = 0.0) -> Any:
     """A floor with the standing walls of the world, each `berth` + `margin` px thicker, for a robot of that margin."""
-    floor: Any = Floor()
+    floor: Any = FreeFloor()
     block_rim(floor)
     for i in range(world.wall_count):
         wall = world.walls[i]
@@ -49,7 +49,7 @@ def inflated_floor(world: Any, berth: float, margin: float = 0.0) -> Any:
 
 def with_obstacles(floor: Any, lines: Iterable[tuple[Sequence[Point], float]]) -> Any:
     """A copy of the floor with lines or single points as additional walls, each with its half width, px."""
-    copy = Floor(floor.walls, floor.grid)
+    copy = FreeFloor(floor.walls, floor.grid)
     for points, half in lines:
         for one, other in zip(points, points[1:] or points, strict=False):
             _add(copy, one, other, half)
