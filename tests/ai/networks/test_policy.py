@@ -69,6 +69,7 @@ def test_odds_are_nearly_exponential():
     assert odds(-1000.0 * UNIT * UNIT, 0.0, 1.0) == 0.0
 
 
+@pytest.mark.long
 def test_both_bodies_of_networks_play_the_same_match_to_the_last_bit():
     kinds = BRAINS["pitanks"]
     one = network_brain("one", ENCODING, Policy(random_layers(1)))
