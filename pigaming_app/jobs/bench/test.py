@@ -24,7 +24,7 @@ UNITS = tuple(f"tests/{room}" for room in (
     "sim", "games", "ai/brain", "ai/pitanks", "ai/factory", "ai/race", "ai/learning/test_q_learner.py", "storage",
     "test_layers.py",
 ))  # fmt: skip
-WORKERS = ("-n", str(os.cpu_count() or 1), "--dist", "worksteal")
+CORES = os.cpu_count() or 1
 # No window and no sound; bytecode is written even where the caller forbids it, because tests start many processes.
 ENVIRONMENT = {
     "SDL_VIDEODRIVER": "dummy",
@@ -71,7 +71,8 @@ def run(options: TestOptions) -> int:
         marked, units = (), paths_of(options.feature)
     with ThreadPoolExecutor(1) as executor:
         results = executor.map(_run, tools.items())
-        with _python(("pytest", *WORKERS, *marked, *for_pytest, *units)) as pytest:
+        workers = CORES + options.long  # long proofs often wait for another process
+        with _python(("pytest", "-n", str(workers), "--dist", "worksteal", *marked, *for_pytest, *units)) as pytest:
             code = pytest.wait()
         failed = [_report(result) for result in results]
     return code or int(any(failed))
