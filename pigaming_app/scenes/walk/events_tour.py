@@ -1,5 +1,7 @@
 """The part of the tour through the events: set-up, matches of AIs, table, corrections, poster, podium."""
 
+from time import sleep
+
 from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Result
 from pigaming_app.scenes.walk.steps import TourWalker, choose, home
@@ -55,7 +57,7 @@ def operate(walker: TourWalker) -> None:
     walker.set_screen("events: table")
     walker.press("w", pause=1.0)
     walker.press("d", "tab", pause=1.0)
-    walker.wait_until(lambda: walker.top.poster is None)
+    walker.wait_until(lambda: posted(walker))
     walker.set_screen("events: managed")
     walker.press("s", pause=0.5)
     walker.press("s", "d", "w", pause=0.3)
@@ -65,6 +67,12 @@ def operate(walker: TourWalker) -> None:
     walker.set_screen("events: next match")
     walker.wait_until(lambda: walker.shows("NextMatch"))
     walker.wait(0.5)
+
+
+def posted(walker: TourWalker) -> bool:
+    """True once the poster is on the disk. It is written in real time, which passes more slowly than a walk."""
+    sleep(0.02)
+    return walker.top.poster is None
 
 
 def match(walker: TourWalker) -> None:
