@@ -3,9 +3,10 @@
 from contextlib import suppress
 
 from pigaming_app.ai.registry import new_match
-from pigaming_app.games.arenas import arenas, load
+from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.flow.match_choice import load_cached
 from pigaming_app.sim.arena import ArenaError
 
 
@@ -15,9 +16,9 @@ def every_arena() -> list[tuple[str, str]]:
 
 
 def read(game: str, name: str) -> None:
-    """Load an arena into the games' caches. An invalid one is reported when it is selected."""
+    """Load an arena into the cache of the pages. An invalid one is reported when it is selected."""
     with suppress(ArenaError):
-        load(game, name)
+        load_cached(game, name)
 
 
 def prepare(game: str, name: str) -> None:

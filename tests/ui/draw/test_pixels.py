@@ -1,8 +1,10 @@
-"""Surfaces as arrays and back: the colours of single pixels, and no surface that stays locked."""
+"""Surfaces as arrays and back: the colours of single pixels, no surface that stays locked, and blurs in bands."""
 
 import numpy as np
 import pygame
 
+from pigaming_app.ui.draw.frame_budget import run_to_end
+from pigaming_app.ui.draw.glow import blur_steps
 from pigaming_app.ui.draw.pixels import bgra_surface, pixels_of
 
 
@@ -26,3 +28,12 @@ def test_kept_pixels_do_not_lock_a_surface() -> None:
     assert not surface.get_locked()
     surface.fill("white")
     assert not np.any(kept[:, :, :3])
+
+
+def test_a_blur_in_bands_is_that_of_pygame_at_once() -> None:
+    light = pygame.Surface((960, 541))
+    pygame.surfarray.blit_array(light, np.random.default_rng(5).integers(0, 256, (960, 541, 3)))
+    for radius in (1, 3, 6):
+        in_bands = run_to_end(blur_steps(light, radius))
+        at_once = pygame.transform.gaussian_blur(light, radius)
+        assert np.array_equal(pygame.surfarray.array3d(in_bands), pygame.surfarray.array3d(at_once)), radius
