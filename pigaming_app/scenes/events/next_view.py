@@ -11,7 +11,8 @@ from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.events.names import versus
 from pigaming_app.scenes.events.running import progress_line
-from pigaming_app.scenes.flow.match_choice import arena_title, load_cached
+from pigaming_app.scenes.flow.arena_cache import load_cached
+from pigaming_app.scenes.flow.match_choice import arena_title
 from pigaming_app.scenes.flow.match_words import game_title, match_length, sudden_death_key
 from pigaming_app.scenes.lobby import seat_card
 from pigaming_app.ui import draw as kit

@@ -6,7 +6,7 @@ from pigaming_app.ai.registry import new_match
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.match_choice import load_cached
+from pigaming_app.scenes.flow.arena_cache import load_cached
 from pigaming_app.sim.arena import ArenaError
 
 

@@ -4,9 +4,10 @@ import logging
 from collections.abc import Iterator
 from functools import lru_cache
 
-from pigaming_app.games.arenas import arenas, is_own_name, load, own_arenas, score_name, shipped_arenas
+from pigaming_app.games.arenas import arenas, own_arenas, score_name, shipped_arenas
 from pigaming_app.games.game import Game, Variant
 from pigaming_app.games.registry import games
+from pigaming_app.scenes.flow.arena_cache import load_cached
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
 from pigaming_app.sim.arena import Arena, ArenaError
@@ -15,17 +16,6 @@ from pigaming_app.storage.settings import Choice, Settings
 KIOSK_RULES = "party"  # rule set that a kiosk offers at first, in the games that have it
 
 log = logging.getLogger(__name__)
-
-
-def load_cached(game: str, name: str) -> Arena:
-    """An arena, cached; those of the user as long as their files are the same. Raises ArenaError."""
-    return load(game, name) if is_own_name(game, name) else load_shipped(game, name)
-
-
-@lru_cache(maxsize=32)
-def load_shipped(game: str, name: str) -> Arena:
-    """An arena that comes with a game, or is made from a seed, cached. Raises ArenaError."""
-    return load(game, name)
 
 
 def playable_arenas(game: str) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from pigaming_app import ASSETS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import PAIRS
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow import match_choice
+from pigaming_app.scenes.flow import arena_cache, match_choice
 from pigaming_app.scenes.flow.match_choice import change_rules, playable_arenas
 from pigaming_app.scenes.lobby import match_setup as setup
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage, row_sizes, rows
@@ -112,12 +112,12 @@ def test_a_broken_arena_file_is_left_out(tmp_path: Path, monkeypatch: pytest.Mon
     (folder / "broken.toml").write_text("title = 3")
     monkeypatch.setattr("pigaming_app.games.arenas.ASSETS", tmp_path)
     match_choice.shipped_playable.cache_clear()
-    match_choice.load_shipped.cache_clear()
+    arena_cache.load_shipped.cache_clear()
     try:
         assert playable_arenas("pitanks") == ("classic",)
     finally:
         match_choice.shipped_playable.cache_clear()
-        match_choice.load_shipped.cache_clear()
+        arena_cache.load_shipped.cache_clear()
 
 
 @pytest.mark.parametrize("game", [game for game in games() if games()[game].default.goals])

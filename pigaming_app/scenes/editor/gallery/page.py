@@ -16,8 +16,8 @@ from pigaming_app.scenes.editor.gallery.drawing_page import DrawingPage
 from pigaming_app.scenes.editor.gallery.view import COLUMNS, ROWS
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
+from pigaming_app.scenes.flow.arena_cache import load_cached
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_choice import load_cached
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.sim.arena import ArenaError

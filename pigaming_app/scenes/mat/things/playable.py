@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from pigaming_app.games.arenas import with_things
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.match_choice import load_cached, playable_arenas
+from pigaming_app.scenes.flow.arena_cache import load_cached
+from pigaming_app.scenes.flow.match_choice import playable_arenas
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.things.spec import ThingSpec
 
