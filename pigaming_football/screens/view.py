@@ -26,6 +26,7 @@ class FootballView(SimpleView):
 
     shocks = (STYLE.ice, *STYLE.teams, STYLE.focus)  # of the kick-off, of goals, of a golden ball
     glows = STYLE.teams
+    wears_teams = True
 
     def begin(self, state: Football) -> None:
         ball = state.ball

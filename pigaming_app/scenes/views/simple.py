@@ -10,9 +10,9 @@ from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud.parts import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.hud.parts import pulse
 from pigaming_app.scenes.views.hud.score import ScoreHud
+from pigaming_app.scenes.views.hud.team_score import TeamHud
 from pigaming_app.scenes.views.particles import reel
 from pigaming_app.scenes.views.rumble import GIVEN
-from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.sprites.effects import LIGHT_LEVELS, WAVE_STEPS, light, wave
 from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
 from pigaming_app.scenes.views.walled_background import Starts, WalledBackground, walled_floor
@@ -35,7 +35,8 @@ class SimpleView(MatchView):
     once; `events`, called after every tick; `clock_words`, `marks`, `draw_robot` and `above`, called for every picture.
 
     Of use to these: `pose`, `on_canvas`, `announce`, `rumble`, `word`; `particles` (`burst`, `shock`, `glow`, `shake`);
-    `seats`, those that play; `options`, the effects that people want to see.
+    `seats`, those that play; `options`, the effects that people want to see. `wears_teams = True`: rings and HUD
+    have the colours of the teams, whose points are the largest figures.
     """
 
     shocks: Sequence[Color] = ()  # colours of `particles.shock`
@@ -81,7 +82,7 @@ class SimpleView(MatchView):
 
     def make_hud(self, state: Any) -> ScoreHud:
         """The HUD, on `background` for `players`."""
-        return ScoreHud(self.background, state, self.players)
+        return (TeamHud if self.wears_teams else ScoreHud)(self.background, state, self.players)
 
     def show_names(self, names: Sequence[str]) -> None:
         self.hud.names = names
@@ -112,7 +113,7 @@ class SimpleView(MatchView):
     def draw_robot(self, under: Batch, over: Batch, light: Batch, state: Any, seat: int, pose: Pose) -> None:
         """Append a robot: its light on the floor, the robot itself, light above it."""
         self.light_up(under, seat, pose, bool(state.robots[seat].boosting))
-        put(over, tank.tank(seat, step(pose[2], HEADINGS)), pose[0], pose[1])
+        put(over, self.body(seat, step(pose[2], HEADINGS)), pose[0], pose[1])
 
     def above(self, light: Batch, top: Batch, state: Any, blend: float) -> None:
         """Append what lies above the robots, as light, or as opaque sprites on top of all."""
@@ -142,7 +143,7 @@ class SimpleView(MatchView):
         self.hud.clock_words = self.clock_words(state)
         for slot in self.hud.show(state):
             if self.options.flashes != "off":
-                self.particles.bloom(slot.x, TOP_OF_PANELS, 0.4, reel(pulse, PLAYERS[slot.seat], slot.w))
+                self.particles.bloom(slot.x, TOP_OF_PANELS, 0.4, reel(pulse, self.color(slot.seat), slot.w))
         under: Batch = []
         over: Batch = []
         light: Batch = []

@@ -4,7 +4,7 @@ A view is read-only: it detects events by comparing states, and has its own rand
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, Protocol
@@ -16,14 +16,15 @@ from pigaming_app.scenes.views.particles import Particles
 from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites import robot as tank
+from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.scenes.views.things.on_mat import ThingsOnMat
 from pigaming_app.scenes.views.things.styles import NEON
 from pigaming_app.scenes.views.tread_marks import TreadMarks
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.world import HEIGHT, WIDTH
-from pigaming_app.ui.draw import ADD, PRE
+from pigaming_app.ui.draw import ADD, PLAYERS, PRE, Color
 from pigaming_app.ui.draw.frame_budget import Job, PrewarmQueue
-from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
+from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, put, step
 from pigaming_app.ui.i18n import Words
 
 REAL_WIDER = 42  # px, extra radius around a real robot
@@ -71,11 +72,12 @@ class MatchView:
     """View of one match. `players`: for each seat "human" or the name of the AI; may change during the match.
 
     Subclasses take arena, state, players, options and words, and override `watch` and `draw`. `clock`: the part of the
-    HUD between the panels. `style`: of real things.
+    HUD between the panels. `style`: of real things. `wears_teams`: robots and HUD have the teams' colours.
     """
 
     clock = pygame.Rect(820, 0, 280, HUD_HEIGHT)
     style = NEON
+    wears_teams = False
 
     def __init__(
         self,
@@ -89,6 +91,7 @@ class MatchView:
         self.players, self.options, self.words, self.background = players, options, words, background
         self.real: frozenset[int] = frozenset()  # seats with real robots, which are lit instead of drawn
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
+        self.teams = [robot.team % len(TEAMS) for robot in state.robots]
         self.hints: dict[int, str] = {}  # text key of a hint about FIRE, by seat
         self.rumbles: dict[int, Rumble] = {}  # of the last tick, by seat
         self.particles = Particles(options.calm)
@@ -97,7 +100,7 @@ class MatchView:
         self.things = ThingsOnMat(self.style, things)
         self.jobs = PrewarmQueue([lambda: background.surface])
         self.jobs.append(self.things.jobs())
-        self.jobs.append(driving(self.seats))
+        self.jobs.append(driving(self.seats, self.body))
 
     def enable_persistence(self, folder: Path) -> None:
         """Called for matches with people: persistent data, such as a best lap, is saved in this data folder."""
@@ -126,6 +129,14 @@ class MatchView:
     def prewarm(self, milliseconds: float) -> bool:
         """Prewarm sprites for at most this many milliseconds; True when complete."""
         return self.jobs.work(milliseconds)
+
+    def color(self, seat: int) -> Color:
+        """The colour of a robot's ring and of its box: that of its player, or of its team."""
+        return TEAMS[self.teams[seat]] if self.wears_teams else PLAYERS[seat]
+
+    def body(self, seat: int, turn: int) -> Sprite:
+        """The robot of a seat at heading `turn` of HEADINGS."""
+        return tank.tank(seat, turn, self.color(seat)) if self.wears_teams else tank.tank(seat, turn)
 
     # ---- for subclasses
 
@@ -190,11 +201,11 @@ def _poses(state: Any) -> Sequence[Pose]:
     return [(LEFT + robot.x, TOP + robot.y, robot.heading) for robot in state.robots]
 
 
-def driving(seats: Sequence[int]) -> Iterator[Job]:
-    """Jobs for driving robots: headings, headlights, treads, flames."""
+def driving(seats: Sequence[int], body: Callable[[int, int], Sprite]) -> Iterator[Job]:
+    """Jobs for driving robots: headings, headlights, treads, flames. `body`: see `MatchView.body`."""
     for turn in range(HEADINGS):
         for seat in seats:
-            yield partial(tank.tank, seat, turn)
+            yield partial(body, seat, turn)
     for seat in seats:
         for turn in range(effects.BEAM_TURNS):
             yield partial(effects.beam, seat, turn)

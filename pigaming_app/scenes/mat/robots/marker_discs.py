@@ -50,11 +50,15 @@ class MarkerDiscs:
         return areas
 
     def draw(
-        self, screen: pygame.Surface, robots: set[int], cover: Callable[[pygame.Surface], None] | None = None
+        self,
+        screen: pygame.Surface,
+        robots: set[int],
+        cover: Callable[[pygame.Surface], None] | None = None,
+        ring_color: Callable[[int], Color] = PLAYERS.__getitem__,
     ) -> None:
         """Draw the discs of the visible robots: all surrounding light first, then the discs.
 
-        `cover`: called in between; keeps the surrounding light off real things.
+        `cover`: called in between; keeps the surrounding light off real things. `ring_color`: of a robot.
         """
         visible = self._visible(robots)
         for robot, at in visible:
@@ -62,7 +66,7 @@ class MarkerDiscs:
             for sprite, dx, dy in (
                 (pointer(robot, step(at.heading, HEADINGS)), 0.0, 0.0),
                 (tag(robot), *_tag_offset(at)),
-                (ring(robot), 0.0, 0.0),
+                (ring(ring_color(robot)), 0.0, 0.0),
             ):
                 place = round(x + dx + sprite.dx), round(y + dy + sprite.dy)
                 screen.blit(sprite.image, place, special_flags=pygame.BLEND_PREMULTIPLIED)
@@ -96,11 +100,11 @@ def disc(r: int, color: Color) -> pygame.Surface:
 
 
 @cached
-def ring(player: int) -> Sprite:
-    """Opaque ring in the player's colour."""
+def ring(color: Color) -> Sprite:
+    """Opaque ring of one colour."""
     half = RING + 24
     ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)
-    ink.solid(regular_polygon(64, RING + 3)).ring(0, 0, RING, PLAYERS[player], LINE)
+    ink.solid(regular_polygon(64, RING + 3)).ring(0, 0, RING, color, LINE)
     return trim(ink.sprite(0.9), half, half)
 
 

@@ -126,7 +126,7 @@ class RealRobots:
         """Draw corner markers and discs on top of everything; `cover`: draws what stands on the mat."""
         if self.real:
             draw_corners(screen)
-        self._discs.draw(screen, self.real, cover)
+        self._discs.draw(screen, self.real, cover, self.scene.runner.view.color)
 
     def report(self) -> None:
         """Log new faults; show the minor ones over the match."""

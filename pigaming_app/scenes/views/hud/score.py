@@ -40,39 +40,43 @@ class TeamPanel:
     mates: tuple[SeatPanel, ...]
 
 
-def layout(robots: Any) -> tuple[list[SeatPanel], list[TeamPanel]]:
-    """Positions of the panels and of the totals of two teams, the lower number on the left, as the teams may have sides
-    of the arena. Empty seats have no panel.
+def layout(robots: Any, sum_w: int = SUM_W, duels: bool = False) -> tuple[list[SeatPanel], list[TeamPanel]]:
+    """Positions of the panels and of the totals of two teams, `sum_w` px wide, the lower number on the left, as they
+    may have sides of the arena. Two single robots have totals only with `duels`. Empty seats have no panel.
     """
     seats = [i for i, robot in enumerate(robots) if robot.present]
     teams = sorted({robots[i].team for i in seats})
     if len(teams) == 2 == len(seats):
         seats.sort(key=lambda i: robots[i].team)
-    if len(teams) != 2 or len(seats) == 2:
+    if len(teams) != 2 or (len(seats) == 2 and not duels):
         places = parts.XS.get(len(seats), ())
         return [SeatPanel(seat, x, parts.PANEL_W) for seat, x in zip(seats, places, strict=False)], []
     slots: list[SeatPanel] = []
     sums: list[TeamPanel] = []
     for side, team in enumerate(teams):
         members = [i for i in seats if robots[i].team == team]
-        w = min(parts.PANEL_W, (648 - SUM_W - 12 - 8 * (len(members) - 1)) // len(members))
+        w = min(parts.PANEL_W, (648 - sum_w - 12 - 8 * (len(members) - 1)) // len(members))
         total = len(members) * w + 8 * (len(members) - 1)
-        first = 692 - 12 - total if side == 0 else 1112 + SUM_W + 12
+        first = 808 - sum_w - 12 - total if side == 0 else 1112 + sum_w + 12
         mates = tuple(SeatPanel(seat, first + i * (w + 8), w) for i, seat in enumerate(members))
         slots += mates
-        sums.append(TeamPanel(team, 692 if side == 0 else 1112, mates))
+        sums.append(TeamPanel(team, 808 - sum_w if side == 0 else 1112, mates))
     return slots, sums
 
 
 class ScoreHud:
     """Keeps the HUD up to date. `players`: driver of each seat; AIs are marked. `has_turbo`: with turbo bars.
 
-    Subclasses may override `leads`, `extras` and `extra_bits` (more in a panel), and `show_clock`.
+    Subclasses may override `color`, `leads`, `extras` and `extra_bits` (more in a panel), `sum_bits` and `show_clock`.
     """
+
+    sum_w = SUM_W  # px, width of a team's total
+    duels = False  # totals for two single robots as well
 
     def __init__(self, background: Background, state: Any, players: list[str], has_turbo: bool = True) -> None:
         self.background, self.players, self.has_turbo = background, players, has_turbo
-        self.slots, self.sums = layout(state.robots)
+        self.slots, self.sums = layout(state.robots, self.sum_w, self.duels)
+        self.teams = [robot.team for robot in state.robots]
         self.parts = parts.HudParts(background)
         self.points: dict[int, int] = {}
         self.clock_words = ""  # in place of the clock; | parts lines
@@ -100,13 +104,17 @@ class ScoreHud:
         """Prewarm jobs: samples of the panels and of the clock."""
         turbo = 32 if self.has_turbo else None
         for slot in self.slots:
-            yield partial(parts.pulse, kit.PLAYERS[slot.seat], slot.w)
+            yield partial(parts.pulse, self.color(slot.seat), slot.w)
             for score in (*range(10), -1):
                 leads = bool(score % 2) and not self.sums
                 yield parts.drawn(self._panel_bits, slot, score, leads, self._driver(slot.seat), turbo, ())
-        for i, _ in enumerate(self.sums):
-            yield from (partial(sum_frame, leads, bool(i)) for leads in (True, False))
+        for panel in self.sums:
+            yield from (parts.drawn(self.sum_bits, panel, 0, leads) for leads in (True, False))
         yield from parts.clock_jobs(CLOCK_Y)
+
+    def color(self, seat: int) -> kit.Color:
+        """The colour of a seat's panel."""
+        return kit.PLAYERS[seat]
 
     def leads(self, state: Any, seat: int, alone: bool) -> bool:
         """True for a seat that is marked as leading; `alone`: it, or its team, has the most points alone."""
@@ -137,30 +145,30 @@ class ScoreHud:
         self, slot: SeatPanel, score: int, leads: bool, driver: tuple[str, str], turbo: int | None, extras: Hashable
     ) -> list[Bit]:
         """Pieces of a panel."""
-        x, middle = slot.x, parts.Y + (38 if turbo is not None else parts.H // 2)
+        color, x, middle = self.color(slot.seat), slot.x, parts.Y + (38 if turbo is not None else parts.H // 2)
         text = numeral(score)
         size = parts.number_size(text, slot.w - 176, kit.readable(kit.SUB), kit.SUB, kit.LABEL)
-        bits: list[Bit] = [
-            (frame(slot.seat, slot.w, leads, *driver, turbo is not None), (x - parts.EDGE, parts.Y - parts.EDGE), None)
-        ]
-        bits += parts.number_bits(text, size, x + 84, middle, kit.mix(kit.PLAYERS[slot.seat], kit.WHITE, 0.8))
+        outline = frame(slot.seat, color, slot.w, leads, *driver, turbo is not None)
+        bits: list[Bit] = [(outline, (x - parts.EDGE, parts.Y - parts.EDGE), None)]
+        bits += parts.number_bits(text, size, x + 84, middle, kit.mix(color, kit.WHITE, 0.8))
         if turbo is not None:
-            full, empty = (parts.turbo_cells(kit.PLAYERS[slot.seat], slot.w - 32, 10, lit) for lit in (True, False))
+            full, empty = (parts.turbo_cells(color, slot.w - 32, 10, lit) for lit in (True, False))
             bits += parts.bar_bits(full, empty, (x + 16, parts.Y + 72), (slot.w - 32) * turbo / 64)
         room = int(slot.w - 116 - number_width(text, size))
         return bits + self.extra_bits(extras, x + slot.w, middle, room)
 
-    def _bake_sum(self, panel: TeamPanel, points: int, leads: bool) -> None:
-        text = numeral(points)
+    def sum_bits(self, panel: TeamPanel, points: int, leads: bool) -> list[Bit]:
+        """Pieces of a team's total."""
+        text, second = numeral(points), panel.x > 960
         size = parts.number_size(text, SUM_W - 16, kit.readable(kit.SUB), kit.SUB, kit.LABEL)
-        bits: list[Bit] = [
-            (sum_frame(leads, panel is self.sums[1]), (panel.x - parts.EDGE, parts.Y - parts.EDGE), None)
-        ]
-        bits += parts.number_bits(
-            text, size, panel.x + (SUM_W - number_width(text, size)) / 2, parts.Y + parts.H / 2 - 4, kit.ICE
-        )
-        self.background.bake(pygame.Rect(panel.x - 4, 0, SUM_W + 8, HUD_HEIGHT), bits)
-        inner = panel.x - 12 if panel.x < 960 else panel.x + SUM_W
+        x, y = panel.x + (SUM_W - number_width(text, size)) / 2, parts.Y + parts.H / 2 - 4
+        bits: list[Bit] = [(sum_frame(leads, second), (panel.x - parts.EDGE, parts.Y - parts.EDGE), None)]
+        return bits + parts.number_bits(text, size, x, y, kit.ICE)
+
+    def _bake_sum(self, panel: TeamPanel, points: int, leads: bool) -> None:
+        box = pygame.Rect(panel.x - 4, 0, self.sum_w + 8, HUD_HEIGHT)
+        self.background.bake(box, self.sum_bits(panel, points, leads))
+        inner = panel.x - 12 if panel.x < 960 else panel.x + self.sum_w
         gaps = [inner, *(slot.x + slot.w for slot in panel.mates[:-1])]
         for x, w in zip(gaps, [12] + [8] * len(gaps), strict=False):
             self.background.bake(
@@ -176,9 +184,9 @@ def sole_leader(points: dict[int, int]) -> int | None:
 
 
 @cached
-def frame(player: int, w: int, leads: bool, brain: str, name: str, turbo: bool) -> pygame.Surface:
+def frame(player: int, color: kit.Color, w: int, leads: bool, brain: str, name: str, turbo: bool) -> pygame.Surface:
     """Outline and badge of a panel, with the leader's crown and who drives."""
-    ink, color = parts.plate(w, parts.H), kit.PLAYERS[player]
+    ink = parts.plate(w, parts.H)
     outline = kit.cut_box(0, 0, w, parts.H)
     if leads:
         ink.fill(outline, kit.dim(color, 0.14))

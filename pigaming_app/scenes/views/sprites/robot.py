@@ -15,9 +15,11 @@ HALF, ARM = 80, 13  # px: half the extent of a rotated tank, and the offset of i
 TRIANGLE_BACK = 4  # px by which player 2's turret sits further back
 
 
-def draw_tank(ink: kit.GlowCanvas, player: int) -> kit.GlowCanvas:
-    """Draw a robot at the origin of `ink`, heading +x, radius 36 px, without its number."""
-    color = kit.PLAYERS[player]
+def draw_tank(ink: kit.GlowCanvas, player: int, rim: kit.Color | None = None) -> kit.GlowCanvas:
+    """Draw a robot at the origin of `ink`, heading +x, radius 36 px, without its number. `rim`: colour of hull, wheels
+    and barrel, if it is not the player's.
+    """
+    color = rim or kit.PLAYERS[player]
     ink.solid(kit.regular_polygon(64, 37))
     hull = [(34 * math.cos(a / 20), 34 * math.sin(a / 20)) for a in range(-20, 21)]
     ink.neon(hull, color, kit.LINE).neon([(-x, y) for x, y in hull], color, kit.LINE)
@@ -32,7 +34,7 @@ def draw_tank(ink: kit.GlowCanvas, player: int) -> kit.GlowCanvas:
         [(28, 0), (52, 0)], kit.THIN
     )
     turret = [(x - _back(player), y) for x, y in kit.shape_points(player, 23)]
-    return ink.solid([(x * 1.16, y * 1.16) for x, y in turret]).fill(turret, color)
+    return ink.solid([(x * 1.16, y * 1.16) for x, y in turret]).fill(turret, kit.PLAYERS[player])
 
 
 def robot(ink: kit.GlowCanvas, player: int, x: float, y: float, angle: float, scale: float = 1.0) -> kit.GlowCanvas:
@@ -45,9 +47,11 @@ def robot(ink: kit.GlowCanvas, player: int, x: float, y: float, angle: float, sc
 
 
 @cached
-def tank(player: int, turn: int) -> Sprite:
-    """Robot at heading `turn` of HEADINGS, number upright. Premultiplied alpha: opaque with a glow."""
-    image, dx, dy = turned(painted(_tank, (player,)), turn, HEADINGS, ARM)
+def tank(player: int, turn: int, rim: kit.Color | None = None) -> Sprite:
+    """Robot at heading `turn` of HEADINGS, number upright. Premultiplied alpha: opaque with a glow. `rim`: see
+    `draw_tank`.
+    """
+    image, dx, dy = turned(painted(_tank, (player, rim)), turn, HEADINGS, ARM)
     angle, back, face = turn * math.tau / HEADINGS, _back(player), kit.font("hero", _number_size(player))
     number = face.render(str(player + 1), True, kit.BLACK)
     x = -dx - back * math.cos(angle) - number.get_width() / 2
@@ -71,8 +75,8 @@ def team_mark(team: int, turn: int) -> Sprite:
     return turned(painted(_team_mark, (team,)), turn, 48, -46)
 
 
-def _tank(player: int) -> pygame.Surface:
-    return draw_tank(master(HALF, ARM), player).sprite(0.9)
+def _tank(player: int, rim: kit.Color | None) -> pygame.Surface:
+    return draw_tank(master(HALF, ARM), player, rim).sprite(0.9)
 
 
 def _team_mark(team: int) -> pygame.Surface:
