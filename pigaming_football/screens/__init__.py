@@ -99,4 +99,5 @@ SCREENS = GameScreens(
     team_colors=True,
     lessons=LESSONS,
     signs=SIGNS,
+    awards={"goals": "ball", "assists": "pass", "shots": "shoot"},
 )

@@ -126,6 +126,12 @@ class Ending:
         scene.age = 9.0
         return scene
 
+    def numbers(self, arcade: Arcade) -> Results:
+        """The second view."""
+        scene = self.results(arcade)
+        scene.page = scene.numbers
+        return scene
+
     def outcome(self) -> Outcome:
         sums = {team: sum(s for s, t in zip(self.scores, self.teams, strict=True) if t == team) for team in self.teams}
         order = sorted(range(4), key=lambda seat: (-sums[self.teams[seat]], self.teams[seat], -self.scores[seat]))
@@ -541,4 +547,5 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "lobby with one button": one_button,
     **{f"best {game}": partial(best, game=game) for game in games()},
     **{f"results {name}": ending.results for name, ending in ENDINGS.items()},
+    **{f"numbers {name}": ending.numbers for name, ending in ENDINGS.items()},
 }

@@ -6,7 +6,7 @@ from functools import partial
 
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.ui.draw import ICONS, Color, GlowCanvas, cut_box, dim
-from pigaming_app.ui.draw.icons import Icon, Pen, dot, line, together
+from pigaming_app.ui.draw.pen import Icon, Pen, dot, line, together
 
 CELLS = 5
 

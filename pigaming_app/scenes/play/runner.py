@@ -18,6 +18,7 @@ from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.play.caption_layout import caption_boxes, robot_boxes
 from pigaming_app.scenes.play.last_hit import LastHit
+from pigaming_app.scenes.results.awards.feats import FeatRecorder
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud.ai_sign import name_of
 from pigaming_app.scenes.views.registry import SCREENS
@@ -65,6 +66,7 @@ class MatchRunner:
         self.notice = Notice(NOTICE_AT)
         self.brain = match_overlay(match, self.view, context.words)
         self.timestep = FixedTimestep()
+        self.feats = FeatRecorder()
         self.things: Sequence[ThingSpec] = match.arena.things  # in the view
         self.undrawn = 0.0  # seconds of real time since the last picture
         self.second = TICK_SOUNDS + 1
@@ -91,6 +93,7 @@ class MatchRunner:
     def tick(self) -> list[SoundCue]:
         """Play one tick; returns its sounds."""
         self.match.tick()
+        self.feats.watch(self.match)
         if self.last_hit:
             self.last_hit.record(self.match.state)
         with self._tag_sprites():

@@ -169,6 +169,7 @@ class MatchScene:
         scene = self.sequel.next_round()
         if isinstance(scene, MatchScene):
             scene.drivers.idle.claims |= self.drivers.idle.claims
+            scene.runner.feats = self.runner.feats
         return Swap(scene)
 
 

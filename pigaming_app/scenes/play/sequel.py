@@ -121,6 +121,7 @@ class Sequel:
             self.scene.game_choice,
             replay_of(self.match),
             rounds,
+            {seat: self.scene.runner.feats.feats(seat) for seat in range(len(self.drivers.devices))},
         )
 
 

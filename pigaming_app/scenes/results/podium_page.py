@@ -8,8 +8,9 @@ from pigaming_app.games.game import Row
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
+from pigaming_app.scenes.results.page_head import line
 from pigaming_app.scenes.results.podium import FIRST, Podium, stands
-from pigaming_app.scenes.results.view import line
+from pigaming_app.scenes.results.view import score_cell
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import budget, finished_within
@@ -135,7 +136,7 @@ class PodiumPage:
                 layer.canvas.crisp.line(
                     [(right - kit.text_width(said, size), middle + 32), (right, middle + 32)], color, 4
                 )
-        said = numeral(row.score)
-        size = fit_size(said, kit.SUB, 150, "hero")
-        layer.canvas.text(said, size, x + w - 32, middle, kit.mix(kit.PLAYERS[row.seat], kit.WHITE, 0.3), "hero", "r")
+        said, size, face = score_cell(self.context.words, self.ended.setup, row)
+        size = fit_size(said, size, 150, face)
+        layer.canvas.text(said, size, x + w - 32, middle, kit.mix(kit.PLAYERS[row.seat], kit.WHITE, 0.3), face, "r")
         return layer.render()

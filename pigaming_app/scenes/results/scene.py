@@ -1,11 +1,11 @@
-"""Results scene: rows and plot, and one button for a rematch.
+"""Results scene: the ceremony, the numbers on a second view, and one button for a rematch.
 
 The rows are revealed from last to first, then the winner's name. Input is ignored until then, so that players who are
 still firing do not skip it; B, the turbo button, is accepted even later and has to be held. Every player votes with
 FIRE; START begins at once; a free device holds FIRE to replace an AI.
 """
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Protocol
 
 import pygame
@@ -18,6 +18,8 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.recordings.store import StoreError
+from pigaming_app.scenes.results.awards.ceremony import Ceremony
+from pigaming_app.scenes.results.awards.feats import Feats
 from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.high_scores import HighScores, contest
 from pigaming_app.scenes.results.initials import Initials, qualifying
@@ -35,6 +37,7 @@ INPUT_LOCKOUT = 2.5  # s during which input is ignored
 LATE, LEAVE = 5.0, 0.5  # s during which BACK is ignored; s it must be held afterwards
 MESSAGE_SECONDS = 3.0  # s, display time of a message
 CLAIMS = 2.6  # s before the initials entry
+PREWARM_MS = 4.0  # of the second view, per frame
 IDLE = 60.0  # s without input before the return to the title
 
 SceneFactory = Callable[
@@ -63,6 +66,7 @@ class Results:
     `rematch`: factory of the rematch; `game_choice`: factory of the game selection, if offered. `ai_assisted`: seats
     that changed drivers during the match; their scores do not count as records. `recording`: the replay, if it can be
     saved. `rounds`: those that led to this outcome; their records count even if the match was ended between them.
+    `feats`: of each seat, for the awards.
     """
 
     def __init__(
@@ -77,19 +81,22 @@ class Results:
         game_choice: SceneFactory | None = None,
         recording: Replay | None = None,
         rounds: Rounds | None = None,
+        feats: Mapping[int, Feats] | None = None,
     ) -> None:
         self.context, self.setup, self.rematch, self.game_choice = context, setup, rematch, game_choice
         self.recording = recording
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
         self.ended = EndedMatch(setup, outcome, tuple(devices))
         self.ballot = RematchVote(context, seats, self.ended.humans, devices)
-        self.page: RevealedPage = (
+        self.ceremony = Ceremony(context, self.ended, finished, feats or {}, rounds)
+        self.numbers: RevealedPage = (
             PodiumPage(context, self.ended, finished, rounds) if rounds else ResultsPage(context, self.ended, finished)
         )
+        self.page: RevealedPage = self.ceremony
         own = [None if seat in ai_assisted else device for seat, device in enumerate(devices)]
         self.claims = qualifying(context, outcome, setup, own) if finished or rounds else []
         self.initials = Initials(context, self.claims, self._tables)
-        self.sounds = self.page.sounds()
+        self.sounds = self.ceremony.sounds()
         self.age = self.idle = self.message_left = 0.0
         self.message: Caption | None = None
         self.access = Access(context, lambda: self.ballot.devices)
@@ -102,6 +109,7 @@ class Results:
             (Button.FIRE, "results.again"),
             *([(Button.X, "results.change")] if self.game_choice else []),
             (Button.Y, "results.scores"),
+            (Button.RIGHT, "results.numbers" if self.page is self.ceremony else "results.awards"),
             *([(Button.UP, "results.save")] if self.recording else []),
             (Button.BACK, "results.menu"),
         ]
@@ -109,14 +117,16 @@ class Results:
 
     def prewarm(self, milliseconds: float) -> bool:
         """Prewarm the page for at most this many milliseconds; True when complete."""
-        return self.page.prewarm(milliseconds)
+        return self.ceremony.prewarm(milliseconds)
 
     def on_enter(self) -> None:
         """First display, or return from initials or tables."""
         self.idle = 0.0
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """FIRE votes, START begins, X changes the game, UP saves the replay, BACK, held, returns to the title."""
+        """FIRE votes, START begins, X changes the game, Y shows tables, LEFT or RIGHT the other view, UP saves the
+        replay, BACK, held, returns to the title.
+        """
         event = self.prompts.as_button(event)
         admitted = self.access.admit(event)
         if admitted is None and event.button is not Button.FIRE:
@@ -135,6 +145,9 @@ class Results:
                 return Push(self.game_choice(self.context, self.setup, self.ballot.devices))
             case Button.UP if self.recording and not event.repeat:
                 self._save(self.recording)
+            case Button.LEFT | Button.RIGHT if not admitted.repeat:
+                self.page = self.ceremony if self.page is self.numbers else self.numbers
+                self.context.sounds.play("move")
             case Button.Y:
                 return Push(HighScores(self.context, contest(self.setup)))
             case Button.BACK if admitted.device.kind == "mouse":
@@ -153,6 +166,8 @@ class Results:
         while self.sounds and self.sounds[0][0] <= self.age:
             _, name, player = self.sounds.pop(0)
             self.context.sounds.play(name, player)
+        if self.age >= self.ceremony.ready_at:
+            self.numbers.prewarm(PREWARM_MS)
         if self.claims:
             self.initials.prewarm()
             if self.age >= CLAIMS:
@@ -168,8 +183,8 @@ class Results:
         return Home() if self.idle > IDLE else None
 
     def draw(self, screen: pygame.Surface) -> None:
-        self.page.draw(screen, self.age)
-        if self.age >= self.page.ready_at:
+        self.page.draw(screen, self.age + (self.numbers.ready_at if self.page is self.numbers else 0.0))
+        if self.age >= self.ceremony.ready_at:
             self.ballot.draw(screen, self.joining.shares.values())
             if self.message and self.message_left > 0.0:
                 self.message.draw(screen, 960, self.prompts.y)

@@ -1,43 +1,41 @@
 """Rendering of the results page as cached widgets: title, rows, plot, revealed one after the other."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import groupby
 
 import pygame
 
-from pigaming_app.games.arenas import load
-from pigaming_app.games.game import Row
+from pigaming_app.games.game import Row, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_words import match_length
-from pigaming_app.scenes.results.headline import EndedMatch, headline, is_allied, stars, winning_color
+from pigaming_app.scenes.results.awards.praise import places
+from pigaming_app.scenes.results.headline import EndedMatch, is_allied
 from pigaming_app.scenes.results.high_scores import clock, contest, format_score, high_score_tables
+from pigaming_app.scenes.results.page_head import (
+    FIRST,
+    PageHead,
+    RevealedPart,
+    row_sounds,
+    row_starts,
+    share_of,
+    title_starts,
+)
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.scenes.views.sprites.stars import HIGH, star_row
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import budget, finished_within
-from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Layer, LitImage, backdrop, span
+from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.numbers import numeral
 
 TOP, ROW, PITCH = 280, 120, 136
 TIMES = ("best", "total")  # columns in s
+KIND = "party"  # rules that show no score below zero
 PLACE_X, BADGE_X, AI_X = 68, 172, 236  # px from a row's left edge: centres of place, badge and AI icon
 FIGURES = (226, 828)  # px from a row's left edge: left and right limit of the columns
 APART_X = 22  # px, minimum gap between columns
-SHORT = 218  # px, line below a title without a winner
-FIRST, APART, WIPE = 0.25, 0.22, 0.3  # s: delay of the first row, delay from row to row, wipe of one row
-
-
-@dataclass(frozen=True)
-class RevealedPart:
-    """A widget with its reveal: wiped in from the left over `takes` seconds."""
-
-    lit: LitImage
-    starts: float
-    duration: float = WIPE
 
 
 class ResultsPage:
@@ -51,10 +49,10 @@ class ResultsPage:
         game = games()[setup.game]
         columns = game.variants[setup.variant].columns or game.columns
         self.columns = ("score", *columns) if game.scored else columns
-        self.stars = stars(outcome) if finished and is_allied(setup) else 0
-        self.winners = outcome.winners if finished else ()
-        self.title_at = FIRST + APART * len(self.teams) + 0.15
+        self.title_at = title_starts(len(self.teams))
         self.ready_at = self.title_at + 0.4
+        self.head = PageHead(context, ended, finished, self.title_at)
+        self.stars, self.winners = self.head.stars, self.head.winners
         self.parts: list[RevealedPart] = []
         self.plot: Plot
         self._rendering = self._render_parts()
@@ -65,16 +63,15 @@ class ResultsPage:
 
     def sounds(self) -> list[tuple[float, str, int | None]]:
         """Sounds of the reveal: (seconds, name, player)."""
-        return [(FIRST + APART * i, "move", team[0].seat) for i, team in enumerate(reversed(self.teams))]
+        return row_sounds([team[0].seat for team in self.teams])
 
     def draw(self, screen: pygame.Surface, age: float) -> None:
         """Draw the page `age` seconds after it was opened."""
         self._finish()
         screen.blit(backdrop(), (0, 0))
+        self.head.draw(screen, age)
         for part in self.parts:
-            share = (age - part.starts) / part.duration
-            if share > 0.0:
-                part.lit.draw(screen, share=1 - (1 - min(1.0, share)) ** 2)
+            part.draw(screen, age)
         drawn = (age - FIRST) / (self.ready_at - FIRST)
         if 0.0 < drawn < 1.0:
             for at, color in self.plot.heads(drawn):
@@ -84,12 +81,6 @@ class ResultsPage:
         elif drawn >= 1.0:
             self.lines.draw(screen)
             self.ends.draw(screen)
-        if age < self.title_at:
-            self.steel.draw(screen)
-        else:
-            reach = self._reach(age)
-            self.steel.draw(screen, begin=share_of(self.steel, LEFT + reach))
-            self.colored.draw(screen, share=share_of(self.colored, LEFT + reach))
 
     # ---- widgets
 
@@ -100,19 +91,12 @@ class ResultsPage:
 
     def _render_parts(self) -> Iterator[bool]:
         """Render one widget per step."""
-        self.colored = line(self._color(), RIGHT - LEFT if self.winners else SHORT)
-        self.steel = line(kit.STEEL, RIGHT - LEFT, kit.THIN)
-        yield True
-        self.parts.append(RevealedPart(self._where(), 0.1))
-        yield True
-        self.parts.append(RevealedPart(self._title(), self.title_at))
-        yield True
+        yield from self.head.render_parts()
         self.parts.append(RevealedPart(self._columns(), 0.1))
         yield True
         y = TOP
         for i, team in enumerate(self.teams):
-            begins = FIRST + APART * (len(self.teams) - 1 - i)
-            self.parts.append(RevealedPart(self._team(team, y), begins))
+            self.parts.append(RevealedPart(self._team(team, y), row_starts(i, len(self.teams))))
             y += PITCH * len(team)
             yield True
         if len(self.outcome.rows) < 4 and (records := self._records()):
@@ -129,39 +113,6 @@ class ResultsPage:
         yield True
         self.ends = self.plot.ends()
         yield True
-
-    def _color(self) -> kit.Color:
-        return winning_color(self.outcome, self.setup) if self.winners else kit.ICE
-
-    def _title(self) -> LitImage:
-        """Headline in the winner's colour, with a crown."""
-        words = self.context.words
-        layer = Layer(LEFT, 54, RIGHT - LEFT, 116)
-        x = LEFT
-        for seat in () if self.stars else self.winners:
-            kit.badge(layer.glow, seat, x + 52, 110, 50)
-            x += 128
-        x += 14 if self.winners and not self.stars else 0
-        ended = headline(words, self.ended)
-        text = ended if self.finished else words("results.ended")
-        size = fit_size(text, kit.TITLE, self.room - x - (130 if self.winners else 0))
-        layer.canvas.text(text, size, x, 112, self._color())
-        if self.winners and not self.stars:
-            at = x + kit.text_width(text, size) + 70
-            kit.icon(layer.glow, "crown", at, 108, 40, kit.FOCUS, kit.LINE)
-        return layer.render()
-
-    def _where(self) -> LitImage:
-        """Game, duration, arena."""
-        words, setup = self.context.words, self.setup
-        minutes = match_length(words, games()[setup.game], setup.minutes, setup.goal)
-        arena = load(setup.game, setup.arena).title.get(words.language, setup.arena)
-        line = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
-        size = fit_size(line, kit.BODY, 720, "body")
-        self.room = RIGHT - kit.text_width(line, size, "body") - 40  # px, right limit of the title
-        layer = Layer(self.room, 60, RIGHT - self.room, 100)
-        layer.canvas.body(line, RIGHT, 112, kit.MIST, "r", size)
-        return layer.render()
 
     def _columns(self) -> LitImage:
         """Column headings."""
@@ -196,7 +147,9 @@ class ResultsPage:
         wins = rows[0].seat in self.winners
         layer = Layer(x, y, w, h)
         kit.panel(layer.glow, x, y, w, h, self._team_color(rows) if wins else kit.STEEL, kit.LINE if wins else kit.THIN)
-        number = str(rows[0].place) if not self.by_team else numeral(sum(row.score for row in rows))
+        score = sum(row.score for row in rows)
+        by_place = not self.by_team or (score < 0 and self.setup.variant == KIND)
+        number = str(places(self.outcome)[rows[0].seat]) if by_place else numeral(score)
         color = kit.ICE if wins else kit.MIST
         layer.canvas.text(number, fit_size(number, kit.SUB, 104), x + PLACE_X, y + h / 2, color, "head", "c")
         for i, row in enumerate(rows):
@@ -214,19 +167,25 @@ class ResultsPage:
             ai_mark(layer.glow, brain, x + AI_X, y, kit.MIST)
         ends = self._ends()
         for name, before, right in zip(self.columns, (FIGURES[0] - APART_X, *ends), ends, strict=False):
-            text, room = self.context.words.decimal(cell(name, row)), right - before - APART_X
+            (text, size, face), room = self._cell(name, row), right - before - APART_X
             if name == self.columns[0]:
-                size = fit_size(text, kit.SUB, room - (50 if brain else 0), "hero")
-                layer.canvas.text(text, size, x + right, y, kit.mix(kit.PLAYERS[row.seat], kit.WHITE, 0.3), "hero", "r")
+                size = fit_size(text, size, room - (50 if brain else 0), face)
+                layer.canvas.text(text, size, x + right, y, kit.mix(kit.PLAYERS[row.seat], kit.WHITE, 0.3), face, "r")
             else:
-                layer.canvas.crisp.text(text, fit_size(text, kit.LABEL, room), x + right, y, color, "head", "r")
+                layer.canvas.crisp.text(text, fit_size(text, size, room), x + right, y, color, face, "r")
+
+    def _cell(self, name: str, row: Row) -> tuple[str, int, str]:
+        """Text of a row in a column, its size and face."""
+        if name == "score":
+            return score_cell(self.context.words, self.setup, row)
+        text = self.context.words.decimal(cell(name, row))
+        return (text, kit.SUB, "hero") if name == self.columns[0] else (text, kit.LABEL, "head")
 
     def _ends(self) -> list[float]:
         """Right edge of each column, px from a row's left edge, according to its content."""
         words, wanted = self.context.words, []
         for name in self.columns:
-            size, face = (kit.SUB, "hero") if name == self.columns[0] else (kit.LABEL, "head")
-            cells = [kit.text_width(cell(name, row), size, face) for row in self.outcome.rows]
+            cells = [kit.text_width(*self._cell(name, row)) for row in self.outcome.rows]
             wanted.append(max(*cells, kit.text_width(words(f"results.{name}"), kit.BODY, "body")))
         return ends(wanted, *FIGURES, APART_X)
 
@@ -267,11 +226,6 @@ class ResultsPage:
         seats = [sorted(row.seat for row in team) for team in self.teams]
         return [team_curve(team, [series[seat] for seat in team]) for team in seats]
 
-    def _reach(self, age: float) -> float:
-        """Coloured length of the line below the title, px."""
-        length = RIGHT - LEFT + MARGIN if self.winners else SHORT + MARGIN
-        return length * (1.0 - (1.0 - min(1.0, (age - self.title_at) / WIPE)) ** 2)
-
 
 def ends(wanted: Sequence[float], left: float, right: float, apart: float) -> list[float]:
     """Right edges of columns with the wanted widths; surplus or missing space is shared equally."""
@@ -281,22 +235,15 @@ def ends(wanted: Sequence[float], left: float, right: float, apart: float) -> li
     return [left + sum(widths[: i + 1]) + apart * i for i in range(len(widths))]
 
 
-def share_of(lit: LitImage, x: float) -> float:
-    """Share of a widget that lies left of canvas x."""
-    return (x - lit.at[0]) / lit.image.get_width()
-
-
-def line(color: kit.Color, length: float, width: int = kit.LINE) -> LitImage:
-    """The line below a title."""
-    layer = Layer(LEFT, 170, length, 12)
-    layer.glow.line([(LEFT, 176), (LEFT + length, 176)], color, width)
-    return layer.render()
+def score_cell(words: Words, setup: Setup, row: Row) -> tuple[str, int, str]:
+    """The score of a row, its size and face; below zero in the rules `party` the hits taken."""
+    if row.score >= 0 or setup.variant != KIND:
+        return numeral(row.score), kit.SUB, "hero"
+    return words("results.hits_taken", count=round(row.stats.get("taken", -row.score))), kit.BODY, "body"
 
 
 def cell(name: str, row: Row) -> str:
-    """Text of a row in a column."""
-    if name == "score":
-        return numeral(row.score)
+    """Text of a row in a column with a statistic."""
     value = row.stats[name]
     if name in TIMES:
         return clock(value)

@@ -1,58 +1,18 @@
 """Line icons on a 2 x 2 square, drawn as strokes."""
 
 import math
-from collections.abc import Callable
 from functools import partial
-from operator import methodcaller
 
+from pigaming_app.ui.draw.award_icons import AWARD_ICONS
 from pigaming_app.ui.draw.glow import GlowCanvas
-from pigaming_app.ui.draw.theme import Color, Point, Points, cut_box
+from pigaming_app.ui.draw.pen import Icon, Pen, dot, fill, line, ring, together
+from pigaming_app.ui.draw.theme import Color, cut_box
 
 
 def icon(ink: GlowCanvas, name: str, x: float, y: float, r: float, color: Color, w: float | None = None) -> GlowCanvas:
     """Draw the icon `name` (a key of ICONS) round (x, y), `r` px to each side, with lines `w` px wide."""
     ICONS[name](Pen(ink, x, y, r, color, w or max(3, r * 0.13)))
     return ink
-
-
-class Pen:
-    """Draws on the square from (-1, -1) to (1, 1), placed on a canvas."""
-
-    def __init__(self, ink: GlowCanvas, x: float, y: float, r: float, color: Color, w: float) -> None:
-        self.ink, self.x, self.y, self.r, self.color, self.w = ink, x, y, r, color, w
-
-    def at(self, points: Points) -> list[Point]:
-        """Points of the square in canvas px."""
-        return [(self.x + a * self.r, self.y + b * self.r) for a, b in points]
-
-    def line(self, *points: Point, closed: bool = False) -> None:
-        self.ink.line(self.at(points), self.color, self.w, closed)
-
-    def fill(self, *points: Point) -> None:
-        self.ink.fill(self.at(points), self.color)
-
-    def dot(self, x: float, y: float, r: float) -> None:
-        self.ink.disc(self.x + x * self.r, self.y + y * self.r, r * self.r, self.color)
-
-    def ring(self, r: float) -> None:
-        """A circle round the middle of the square."""
-        self.ink.ring(self.x, self.y, r * self.r, self.color, self.w)
-
-
-Icon = Callable[[Pen], None]
-line, fill, dot, ring = (
-    partial(methodcaller, shape) for shape in ("line", "fill", "dot", "ring")
-)  # icons of one shape
-
-
-def together(*shapes: Icon) -> Icon:
-    """The icon of several shapes."""
-
-    def draw(pen: Pen) -> None:
-        for shape in shapes:
-            shape(pen)
-
-    return draw
 
 
 def _shield(pen: Pen) -> None:
@@ -218,4 +178,5 @@ ICONS: dict[str, Icon] = {
         line((-0.9, 0.9), (-0.72, 0.26), (0.5, -0.96), (0.96, -0.5), (-0.26, 0.72), closed=True),
         line((0.2, -0.66), (0.66, -0.2)),
     ),
+    **AWARD_ICONS,
 }

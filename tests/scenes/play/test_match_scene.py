@@ -139,7 +139,7 @@ def test_the_pause_menu_restarts_shows_the_controls_and_ends(arcade: Arcade) -> 
     arcade.press(Button.START, Button.UP, Button.FIRE)
     arcade.shown(Pause)
     arcade.press(Button.FIRE)
-    assert not arcade.reach(Results).page.finished  # type: ignore[attr-defined]
+    assert not arcade.reach(Results).numbers.finished  # type: ignore[attr-defined]
     assert len(arcade.stack.scenes) == 3
 
 

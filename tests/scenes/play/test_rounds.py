@@ -60,8 +60,8 @@ def test_two_rounds_won_lead_to_the_podium_and_the_rematch_begins_anew(arcade: A
     assert second.setup.seed != first.setup.seed
     win(arcade)
     results = arcade.reach(Results, 5.0)
-    assert isinstance(results.page, PodiumPage)
-    assert results.page.winners == (0,)
+    assert isinstance(results.numbers, PodiumPage)
+    assert results.numbers.winners == (0,)
     arcade.wait(4.0, fps=10, draw=True)
     assert "fanfare" in arcade.sounds.heard
     arcade.press(Button.START)
@@ -97,9 +97,9 @@ def test_ending_the_match_in_a_break_shows_the_rounds_so_far(arcade: Arcade) -> 
     arcade.press(Button.START)
     menu(arcade, "end")
     results = arcade.reach(Results, 5.0)
-    assert isinstance(results.page, PodiumPage)
-    assert not results.page.finished
-    assert results.page.winners == ()
+    assert isinstance(results.numbers, PodiumPage)
+    assert not results.numbers.finished
+    assert results.numbers.winners == ()
 
 
 def test_ending_the_first_round_shows_that_round(arcade: Arcade) -> None:
@@ -108,7 +108,7 @@ def test_ending_the_first_round_shows_that_round(arcade: Arcade) -> None:
     arcade.until(lambda: not scene.opening.countdown.locked)
     arcade.press(Button.START)
     menu(arcade, "end")
-    assert isinstance(arcade.reach(Results, 5.0).page, ResultsPage)
+    assert isinstance(arcade.reach(Results, 5.0).numbers, ResultsPage)
 
 
 def test_restarting_in_a_break_begins_with_the_first_round(arcade: Arcade) -> None:

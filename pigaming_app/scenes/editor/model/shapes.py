@@ -18,7 +18,7 @@ from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.sim.arena import BUILT, Arena
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import GlowCanvas, Point, regular_polygon
-from pigaming_app.ui.draw.icons import Pen
+from pigaming_app.ui.draw.pen import Pen
 
 MOST = 60  # parts of a kind that are shown; no arena that can be played has more
 Outline = Sequence[Point]

@@ -68,4 +68,5 @@ SCREENS = GameScreens(
     fire="hint_fire",
     lessons=LESSONS,
     lesson_pages=("pickups", "party"),
+    awards={"hits": "shoot", "aim": "target"},
 )

@@ -11,7 +11,7 @@ STARS, HIGH = 3, 232  # number; px, height of a row
 def star(lit: bool, r: int) -> LitImage:
     """A star of radius `r` px, centred on (0, 0)."""
     half = r + 40
-    ink = _draw(GlowCanvas(2 * half, 2 * half), lit, r, half, half)
+    ink = draw_star(GlowCanvas(2 * half, 2 * half), lit, r, half, half)
     return LitImage(ink.lit(0.8), (-half, -half))
 
 
@@ -19,11 +19,12 @@ def star_row(won: int, x: int, y: int, w: int, r: int = 92) -> LitImage:
     """`won` of three stars, spread over `w` px from (x, y)."""
     layer = Layer(x, y, w, HIGH)
     for i in range(STARS):
-        _draw(layer.glow, i < won, r, x + w * (2 * i + 1) / (2 * STARS), y + HIGH / 2)
+        draw_star(layer.glow, i < won, r, x + w * (2 * i + 1) / (2 * STARS), y + HIGH / 2)
     return layer.render()
 
 
-def _draw(ink: GlowCanvas, lit: bool, r: int, x: float, y: float) -> GlowCanvas:
+def draw_star(ink: GlowCanvas, lit: bool, r: int, x: float, y: float) -> GlowCanvas:
+    """Draw a star of radius `r` px, or its outline."""
     corners = star_points(r, x, y)
     if lit:
         return ink.fill(corners, FOCUS).line(corners, FOCUS, LINE, True)

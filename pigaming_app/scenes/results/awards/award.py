@@ -1,0 +1,120 @@
+"""The awards, and who gets which: each player one, all different, that at which the player stands out most.
+
+An award says what is true: it goes to the player with the most of a figure, or the least. Who has the most of nothing
+gets one that compares nobody.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from random import Random
+from statistics import fmean, pstdev
+
+from pigaming_app.sim.world import ROBOTS
+
+SHARED = 0.3  # weight of an award that two players have earned alike
+LEAD = 0.1  # weight of the relative lead beside that of the standard score
+
+
+@dataclass(frozen=True)
+class Award:
+    """`key`: of its text, `awards.KEY`; `figure`: what it is read from, empty: nothing; `least`: the least counts;
+    `above`: what the figure must exceed; `weight`: a skill counts more than a habit.
+    """
+
+    key: str
+    icon: str
+    figure: str = ""
+    least: bool = False
+    above: float = -1.0
+    weight: float = 1.0
+
+
+@dataclass(frozen=True)
+class Player:
+    """One who gets an award. `place`: 1 is best; `figures`: statistics of the game and feats, by name."""
+
+    seat: int
+    person: bool
+    place: int
+    figures: Mapping[str, float]
+
+
+GENERAL = (
+    Award("first", "first", "first", least=True),
+    Award("escape", "shield", "escape", above=5.0),
+    Award("comeback", "rebound", "comeback", above=0.0),
+    Award("fastest", "clock", "fastest", least=True),
+    Award("even", "even", "spread", least=True),
+    Award("distance", "road", "distance", above=400.0, weight=0.9),
+    Award("turbo", "speed", "turbo", above=1.0, weight=0.8),
+    Award("explorer", "compass", "explored", above=6.0, weight=0.8),
+    Award("near", "heart", "near", least=True, weight=0.7),
+    Award("dancer", "spiral", "turning", above=6.3, weight=0.7),
+    Award("calm", "calm", "turning", least=True, weight=0.7),
+    Award("reverse", "behind", "reverse", above=300.0, weight=0.7),
+    Award("patient", "hourglass", "rest", above=3.0, weight=0.6),
+)
+"""Awards of every game, as far as it has the figures."""
+
+FREE = (Award("fair", "fair"), Award("sport", "medal"), Award("company", "smile"), Award("luck", "clover"))
+"""Awards that compare nobody; one for each seat."""
+
+
+def own_awards(icons: Mapping[str, str]) -> tuple[Award, ...]:
+    """The awards for statistics of a game. `icons`: by statistic; after a minus sign the least of it counts."""
+    return tuple(
+        Award(name.removeprefix("-"), icon, name.removeprefix("-"), least=name.startswith("-"), above=above)
+        for name, icon in icons.items()
+        for above in (-1.0 if name.startswith("-") else 0.0,)
+    )
+
+
+def awarded(players: Sequence[Player], own: Sequence[Award] = (), seed: int = 0) -> dict[int, Award]:
+    """The award of each seat. `own`: awards of the game; `seed`: decides between players who have earned the same.
+
+    People go before AIs if there is not one for everybody, and lower places choose first among equals.
+    """
+    lots = Random(seed).sample(range(ROBOTS), ROBOTS)
+    order = sorted(players, key=lambda player: (-player.place, lots[player.seat]))
+    earned = [_earned(player, players, (*own, *GENERAL)) for player in order]
+    best = max(_choices(earned), key=lambda choice: _worth(choice, order))
+    return {player.seat: award for player, (award, _) in zip(order, best, strict=True)}
+
+
+Earned = tuple[Award, float]  # an award, and how far its player stands out
+
+
+def _earned(player: Player, players: Sequence[Player], awards: Sequence[Award]) -> list[Earned]:
+    """The awards of a player, best first; more than there are seats are never needed."""
+    found = [(award, standout(award, player, players)) for award in awards]
+    real = sorted(((award, far) for award, far in found if far is not None), key=lambda pair: -pair[1])
+    return [*real[:ROBOTS], *((award, 0.0) for award in FREE)]
+
+
+def _choices(earned: Sequence[Sequence[Earned]]) -> Iterator[tuple[Earned, ...]]:
+    """All ways to give every player another award."""
+    return (pick for pick in product(*earned) if len({award.key for award, _ in pick}) == len(pick))
+
+
+def _worth(choice: Sequence[Earned], players: Sequence[Player]) -> tuple[int, int, float]:
+    """People with an award that they have earned, AIs with one, and how far all stand out."""
+    people = sum(bool(award.figure) and player.person for (award, _), player in zip(choice, players, strict=True))
+    return people, sum(bool(award.figure) for award, _ in choice) - people, sum(far for _, far in choice)
+
+
+def standout(award: Award, player: Player, players: Sequence[Player]) -> float | None:
+    """How far a player stands out by an award's figure, from 0; None: another one is better, or it is too little.
+
+    The standard score among those present, and a little of the relative lead over the next.
+    """
+    known = [other.figures[award.figure] for other in players if award.figure in other.figures]
+    if award.figure not in player.figures or player.figures[award.figure] <= award.above:
+        return None
+    value = player.figures[award.figure]
+    if value != (min(known) if award.least else max(known)):
+        return None
+    score = abs(value - fmean(known)) / pstdev(known) if max(known) > min(known) else 0.0
+    others = sorted(known, reverse=not award.least)[1:]
+    lead = abs(others[0] - value) / max(abs(others[0]), abs(value), 1e-9) if others else 1.0
+    return award.weight * (score + LEAD * lead) * (SHARED if others and others[0] == value else 1.0)
