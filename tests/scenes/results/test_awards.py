@@ -14,7 +14,7 @@ import pytest
 from pigaming_app.games.game import Outcome, Row
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.results.awards.award import FREE, GENERAL, Award, Player, awarded, own_awards
-from pigaming_app.scenes.results.awards.ceremony import ICON_X, LEFT, Ceremony, award_text
+from pigaming_app.scenes.results.awards.ceremony import ICON_X, Ceremony, award_text
 from pigaming_app.scenes.results.awards.feats import EVERY, FeatRecorder
 from pigaming_app.scenes.results.awards.praise import last_seats, places, praises
 from pigaming_app.scenes.results.headline import EndedMatch
@@ -23,6 +23,7 @@ from pigaming_app.scenes.results.view import score_cell
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.draw.icons import ICONS
+from pigaming_app.ui.draw.layers import LEFT
 from pigaming_app.ui.i18n import LANGUAGES, Words, texts
 from pigaming_app.ui.input.events import Button
 from tests.matches import match_of, setup_of
