@@ -108,7 +108,7 @@ def _parsed(table: TomlTable) -> tuple[Layout, Ways]:
     for entry in table.tables("drop"):
         entry.only("at")
         points.append(entry.point("at"))
-    layout = replace(layout, plan=Pitch(mouth, tuple(points)))
+    layout = replace(layout, plan=Pitch(mouth, tuple(points)), floor=layout.floor or "turf")
     return layout, Ways(layout)
 
 

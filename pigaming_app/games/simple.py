@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pigaming_app.games.starts import clear_starts
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.arena import Arena, Layout, build, read_starts, read_walls
+from pigaming_app.sim.arena import Arena, Layout, build, read_floor, read_starts, read_walls
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import seeded
@@ -89,13 +89,13 @@ def read(table: TomlTable) -> Layout:
 
 
 def read_layout(table: TomlTable, *own: str, solid: bool = False) -> Layout:
-    """Walls, starts and things of an arena file, without a plan. Raises FieldError, and for a table of another name.
+    """Walls, starts, things and floor of an arena file, no plan. Raises FieldError, and for a table of another name.
 
     `own`: names of the game's own tables. `solid`: no wall can be broken. Starts that things cover move beside them.
     """
-    table.only("title", "start", "wall", "thing", *own)
+    table.only("title", "floor", "start", "wall", "thing", *own)
     walls = tuple(replace(wall, health=SOLID) if solid else wall for wall in read_walls(table))
-    layout = Layout(walls, read_starts(table), things=read_things(table))
+    layout = Layout(walls, read_starts(table), things=read_things(table), floor=read_floor(table))
     return replace(layout, starts=clear_starts(layout))
 
 

@@ -8,6 +8,9 @@ en = "Courtyard"
 pt = "Pátio"
 es = "Patio"             # es, fr and de may be left out
 
+[floor]                  # may be left out
+pattern = "waves"        # one of FLOORS
+
 [[start]]                # four, in the order of the seats
 at = [110, 110]          # px, x right, y down, in an arena of 1600 x 900
 heading = 45             # degrees, 0 to the right, clockwise
@@ -38,6 +41,7 @@ from pigaming_app.sim.world import MUDS, ROBOTS, SOLID, WALLS, Wall, World
 LANGUAGES = ("en", "pt", "es", "fr", "de")
 NEEDED = ("en", "pt")  # of the languages; a title that lacks another is shown in English
 HEALTH = 5
+FLOORS = "grid", "paving", "waves", "hexagons", "strata", "circuit", "diamonds", "turf"  # patterns, for the eye only
 BUILT = 24  # walls in a file; things need the rest of WALLS
 MAX_TITLE = 40  # characters
 
@@ -69,12 +73,15 @@ class StartPose:
 
 @dataclass(frozen=True)
 class Layout:
-    """The parts of a file that the game parses: walls, four starts, the game's own plan, and things."""
+    """The parts of a file that the game parses: walls, four starts, the game's own plan, things, and the pattern of the
+    floor, one of FLOORS or empty.
+    """
 
     walls: tuple[WallSpec, ...]
     starts: tuple[StartPose, ...]
     plan: Any = None
     things: tuple[ThingSpec, ...] = ()
+    floor: str = ""
 
     def built_walls(self) -> list[Wall]:
         """The walls as a match has them, those of things included. Raises FieldError if they do not fit."""
@@ -94,6 +101,7 @@ class Arena:
     source: str
     plan: Any = None
     things: tuple[ThingSpec, ...] = ()
+    floor: str = ""
 
 
 def parse(source: str, file: str, read: Callable[[TomlTable], Layout]) -> Arena:
@@ -105,7 +113,8 @@ def parse(source: str, file: str, read: Callable[[TomlTable], Layout]) -> Arena:
         raise_first(start_faults(layout))
     except FieldError as error:
         raise ArenaError(f"{file}: {error}") from None
-    return Arena(file.removesuffix(".toml"), title, layout.walls, layout.starts, source, layout.plan, layout.things)
+    parts = layout.walls, layout.starts, source, layout.plan, layout.things, layout.floor
+    return Arena(file.removesuffix(".toml"), title, *parts)
 
 
 def raise_first(faults: Iterable[FieldError]) -> None:
@@ -174,6 +183,18 @@ def read_starts(table: TomlTable) -> tuple[StartPose, ...]:
     if len(starts) != ROBOTS:
         raise table.error("start", f"{len(starts)} starts, but there must be {ROBOTS}")
     return starts
+
+
+def read_floor(table: TomlTable) -> str:
+    """Parse the table [floor]; empty without one. Raises FieldError."""
+    if "floor" not in table:
+        return ""
+    floor = table.table("floor")
+    floor.only("pattern")
+    pattern = floor.entries.get("pattern")
+    if pattern not in FLOORS:
+        raise floor.error("pattern", f"{quote(pattern)}; possible are {', '.join(FLOORS)}")
+    return str(pattern)
 
 
 def read_title(table: TomlTable) -> Mapping[str, str]:

@@ -4,6 +4,7 @@ import math
 
 import pygame
 
+from pigaming_app.scenes.views.floors import FLOORS, pattern_of
 from pigaming_app.scenes.views.things.on_mat import draw_all
 from pigaming_app.scenes.views.things.styles import NEON
 from pigaming_app.sim.arena import Arena
@@ -17,10 +18,8 @@ MARGIN = 8  # px around the frame for its glow
 def walls(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:
     """Preview of an arena with walls and start positions."""
     left, top, k = fitted(w, h)
-    ink = kit.GlowCanvas(w, h, 3)
-    for column in range(200, int(WIDTH), 200):
-        for row in range(150, int(HEIGHT), 200):
-            ink.disc(left + k * column, top + k * row, 1.5, kit.dim(kit.STEEL, 0.6))
+    floor, ink = kit.GlowCanvas(w, h, 3), kit.GlowCanvas(w, h, 3)
+    FLOORS[pattern_of(arena)](floor.set_transform(left, top, 0.0, k))
     yield
     ink.line(kit.cut_box(left, top, k * WIDTH, k * HEIGHT, 28 * k + 4), kit.MIST, kit.THIN, True)
     for wall in arena.walls:
@@ -37,7 +36,9 @@ def walls(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:
             [(x + 1.5 * r * c, y + 1.5 * r * s), (x + 2.3 * r * c, y + 2.3 * r * s)], kit.PLAYERS[player], kit.HAIR + 1
         )
     yield
-    return (yield from ink.lit_steps(0.6))
+    out = yield from ink.lit_steps(0.6)
+    out.blit((yield from floor.downscale_steps()), (0, 0), special_flags=pygame.BLEND_RGB_MAX)
+    return out
 
 
 def fitted(w: int, h: int) -> tuple[float, float, float]:

@@ -7,6 +7,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.scenes.views.floors import pattern_of
 from pigaming_app.scenes.views.hud.parts import Y as TOP_OF_PANELS
 from pigaming_app.scenes.views.hud.parts import pulse
 from pigaming_app.scenes.views.hud.score import ScoreHud
@@ -46,7 +47,7 @@ class SimpleView(MatchView):
         self, arena: Arena, state: Any, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
         self.words = words
-        floor = partial(walled_floor, self.starts(arena, state), *self.floor_marks(state))
+        floor = partial(walled_floor, self.starts(arena, state), pattern_of(arena), *self.floor_marks(state))
         self.walls = WalledBackground(len(arena.walls), floor)
         super().__init__(state, players, options, words, self.walls, arena.things)
         self.hud = self.make_hud(state)

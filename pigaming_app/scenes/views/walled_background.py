@@ -7,6 +7,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.scenes.views.background import LEFT, TOP, Background
+from pigaming_app.scenes.views.floors import FLOORS
 from pigaming_app.scenes.views.sprites.wall import wall
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, LINE, PLAYERS, PRE, WALL, GlowCanvas, LayeredCanvas, cut_box, dim, shape_points
@@ -65,11 +66,12 @@ def _box(part: Any, sprite: Sprite) -> pygame.Rect:
 
 @cached
 @resumable
-def walled_floor(starts: Starts, *marks: Any) -> Steps[pygame.Surface]:
-    """Grid, frame and start position markers. `marks`: see `SimpleView.floor_marks`."""
+def walled_floor(starts: Starts, pattern: str, *marks: Any) -> Steps[pygame.Surface]:
+    """Floor, frame and start position markers. `pattern`: one of FLOORS; `marks`: see `SimpleView.floor_marks`."""
     canvas = LayeredCanvas()
     glow, crisp = canvas.glow, canvas.crisp
-    _grid(canvas)
+    FLOORS[pattern](crisp.set_transform(LEFT, TOP))
+    crisp.set_transform(0, 0)
     yield
     for seat, x, y in starts:
         pad = [(LEFT + x + py, TOP + y - px) for px, py in shape_points(seat, 40)]
@@ -85,21 +87,3 @@ def walled_floor(starts: Starts, *marks: Any) -> Steps[pygame.Surface]:
         yield
         out.blit((yield from ink.lit_steps(0.7)), (LEFT - MARGIN, TOP), special_flags=ADD)
     return out
-
-
-def _grid(canvas: LayeredCanvas) -> None:
-    crisp = canvas.crisp
-    for x in range(50, int(WIDTH), 50):
-        for y in range(50, int(HEIGHT), 50):
-            px, py = LEFT + x, TOP + y
-            if x % 200 == 0 and (y - 50) % 200 == 0:
-                crisp.line([(px - 7, py), (px + 7, py)], (34, 48, 70), 2).line(
-                    [(px, py - 7), (px, py + 7)], (34, 48, 70), 2
-                )
-            else:
-                crisp.disc(px, py, 1.6, (26, 37, 54))
-    cx, cy = LEFT + WIDTH / 2, TOP + HEIGHT / 2
-    crisp.ring(cx, cy, 150, (20, 29, 43), 3).ring(cx, cy, 164, (20, 29, 43), 2)
-    for i in range(24):
-        c, s = math.cos(i * math.tau / 24), math.sin(i * math.tau / 24)
-        crisp.line([(cx + 172 * c, cy + 172 * s), (cx + 180 * c, cy + 180 * s)], (24, 35, 52), 3)
