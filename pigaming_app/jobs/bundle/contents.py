@@ -46,7 +46,8 @@ def _sources() -> list[Path]:
 
 def files() -> list[tuple[str, str]]:
     """Files to copy, each with its folder in the bundle; modules are not among them."""
-    chosen = [path for folder in ASSET_FOLDERS for path in (ASSETS / folder).rglob("*") if path.name != "render.py"]
+    chosen = [path for folder in ASSET_FOLDERS for path in (ASSETS / folder).rglob("*")]
+    chosen = [path for path in chosen if path.parent != ASSETS / "sounds" or path.suffix == ".ogg"]  # not their script
     inside = (path for package in PACKAGES for path in package.rglob("*"))
     chosen += [path for path in inside if path.suffix != ".py" or SHARED in path.parts]
     chosen += [ASSETS / "rude.toml", ROOT / "pyproject.toml", ROOT / "LICENSE"]
