@@ -1,4 +1,4 @@
-"""Sound. A thread opens the device, so that the first picture does not wait for it.
+"""Sounds, and the music (`music.py`). A thread opens the device, so that the first picture does not wait for it.
 
 Without a device or a sound file the arcade stays silent and never fails.
 """
@@ -14,6 +14,7 @@ import pygame
 
 from pigaming_app import ASSETS
 from pigaming_app.storage.plugins.parts import data_folders
+from pigaming_app.ui.music import CHANNELS, RATE, Music
 
 FOLDER = ASSETS / "sounds"
 _MAX_VOICES = 24  # simultaneous sounds; more are dropped
@@ -29,8 +30,8 @@ class Sounds:
         self._folder = folder
         self._sounds: dict[str, pygame.mixer.Sound] = {}
         self._started: dict[str, float] = {}
-        self._music_on = False
-        self._music_playing = False
+        self._music = Music()
+        self._voices: list[pygame.mixer.Channel] = []
         self._volumes = (6, 8)
         self._ready = False
         self._opener: Thread | None = None
@@ -42,17 +43,19 @@ class Sounds:
             self._opener.start()
 
     def wait(self) -> bool:
-        """Wait until opening has finished; true if sound is available."""
+        """Wait until opening has finished, and the music plays; true if sound is available."""
         self.open()
         if self._opener:
             self._opener.join()
+        self._music.wait()
         return self._ready
 
     def close(self) -> None:
         """Stop all sound and close the device."""
         if self._opener:
             self._opener.join()
-        self._ready, self._music_playing, self._sounds = False, False, {}
+        self._ready, self._sounds = False, {}
+        self._music.close()
         pygame.mixer.quit()
 
     def play(self, name: str, player: int | None = None, pan: float = 0.0) -> None:
@@ -64,22 +67,29 @@ class Sounds:
         sound, now = self._sounds.get(key), time.monotonic()
         if sound is None or now - self._started.get(key, 0.0) < _MIN_REPEAT:
             return
-        channel = pygame.mixer.find_channel()
+        channel = next((voice for voice in self._voices if not voice.get_busy()), None)
         if channel is None:
             return
         self._started[key] = now
         channel.play(sound)
         channel.set_volume(*stereo(pan))
 
-    def music(self, on: bool) -> None:
-        """Start the music from its beginning, or fade it out."""
-        self._music_on = on
-        if self._ready:
-            self._follow_music()
+    def music(self, theme: str | None) -> None:
+        """Fade to a theme, that of a game or of the menus, "title"; go on if it plays or is held. None: fade out."""
+        self._music.play(theme)
+
+    def hold_music(self) -> None:
+        """Pause the music until it is wanted again."""
+        self._music.hold()
+
+    def finale(self) -> None:
+        """The last seconds of a match: add the finale to its theme."""
+        self._music.finale()
 
     def volume(self, music: int, sounds: int) -> None:
         """Set both volumes, 0 (off) to 10."""
         self._volumes = (music, sounds)
+        self._music.volume(_amplitude(music))
         if self._ready:
             self._set_volumes()
 
@@ -87,20 +97,21 @@ class Sounds:
         try:
             if _no_sound_device():
                 raise pygame.error("no sound device was found")
-            pygame.mixer.init(44100, -16, 2, 512, allowedchanges=0)
-            pygame.mixer.set_num_channels(_MAX_VOICES)
+            pygame.mixer.init(RATE, -16, 2, 512, allowedchanges=0)
+            pygame.mixer.set_num_channels(CHANNELS + _MAX_VOICES)
         except (pygame.error, NotImplementedError) as error:
             self.trouble = f"There is no sound: {error}."
             _log.info(self.trouble)
             return
-        added = [folder for _, folder in data_folders("sounds")]
-        for folder in (*reversed(added), self._folder):  # the later ones replace others of their name
+        self._voices = [pygame.mixer.Channel(CHANNELS + number) for number in range(_MAX_VOICES)]
+        folders = [self._folder, *(folder for _, folder in data_folders("sounds"))]  # the first ones take precedence
+        self._music.open(folders)
+        for folder in reversed(folders):
             for path in sorted(folder.glob("*.ogg")):
-                if path.stem != "music":
+                if not path.stem.startswith(("theme_", "finale_")):
                     self._load(path)
-        self._set_volumes()
         self._ready = True
-        self._follow_music()
+        self._set_volumes()
 
     def _load(self, path: Path) -> None:
         try:
@@ -110,22 +121,9 @@ class Sounds:
 
     def _set_volumes(self) -> None:
         music, sounds = (_amplitude(volume) for volume in self._volumes)
-        pygame.mixer.music.set_volume(music)
+        self._music.volume(music)
         for sound in self._sounds.values():
             sound.set_volume(sounds)
-
-    def _follow_music(self) -> None:
-        path = self._folder / "music.ogg"
-        try:
-            if self._music_on and not self._music_playing:
-                pygame.mixer.music.load(str(path))
-                pygame.mixer.music.play(-1, fade_ms=800)
-                self._music_playing = True
-            elif self._music_playing and not self._music_on:
-                pygame.mixer.music.fadeout(800)
-                self._music_playing = False
-        except (pygame.error, OSError) as error:
-            _log.warning("%s: %s", path, error)
 
 
 def stereo(pan: float) -> tuple[float, float]:

@@ -32,9 +32,23 @@ class Noted(Sounds):
     def __init__(self) -> None:
         super().__init__()
         self.heard: list[str] = []
+        self.themes: list[str | None] = []  # also "held" and "finale", each once in a row
 
     def play(self, name: str, player: int | None = None, pan: float = 0.0) -> None:
         self.heard.append(name)
+
+    def music(self, theme: str | None) -> None:
+        self._note(theme)
+
+    def hold_music(self) -> None:
+        self._note("held")
+
+    def finale(self) -> None:
+        self._note("finale")
+
+    def _note(self, theme: str | None) -> None:
+        if self.themes[-1:] != [theme]:
+            self.themes.append(theme)
 
 
 class Floor:

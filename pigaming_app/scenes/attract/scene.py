@@ -58,7 +58,7 @@ class Attract:
 
     def on_enter(self) -> None:
         """Stop the music."""
-        self.context.sounds.music(False)
+        self.context.sounds.music(None)
 
     def handle(self, event: InputEvent) -> StackOperation:
         """Any input returns to the title without further effect; F4 shows the thoughts of the AIs."""

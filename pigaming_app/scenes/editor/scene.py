@@ -60,7 +60,7 @@ class Editor(Page):
 
     def on_enter(self) -> None:
         """First display, or return from a match or from the name."""
-        self.context.sounds.music(False)
+        self.context.sounds.music(None)
         self.context.controls.forget_taps()
         self.waiting, self.bar.open = None, False
 

@@ -50,7 +50,7 @@ class EventsPage(Page):
 
     def on_enter(self) -> None:
         """Read the list of events."""
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
         self.saved = event_files.saved_events(folders().data / event_files.FOLDER, ROWS - 1)
         self.focus.set_spots(
             [FocusSpot(name, row_box(i)) for i, name in enumerate((NEW, *map(str, range(len(self.saved)))))]

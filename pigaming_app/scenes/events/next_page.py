@@ -75,7 +75,7 @@ class NextMatch:
         return self.queue.work(milliseconds)
 
     def on_enter(self) -> None:
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
         self.running.refresh()
         self._reset_if_changed()
         self.ready = 0.0

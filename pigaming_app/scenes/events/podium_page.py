@@ -55,7 +55,7 @@ class EventPodiumPage(Page):
         return self.queue.work(milliseconds)
 
     def on_enter(self) -> None:
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
 
     def press(self, event: InputEvent) -> StackOperation:
         """FIRE shows the whole table."""

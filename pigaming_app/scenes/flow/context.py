@@ -82,8 +82,8 @@ class Context:
         return self.settings.quiet(now().time())
 
     def hush(self) -> None:
-        """Stop music and rumbling, for a page over a match."""
-        self.sounds.music(False)
+        """Hold the music and stop rumbling, for a page over a match."""
+        self.sounds.hold_music()
         self.controls.stop_rumble()
 
     def stop_all_robots(self) -> None:

@@ -82,7 +82,7 @@ class Lab(Page):
 
     def on_enter(self) -> None:
         self.age, self.held = 0.0, ""
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
         if self.page and self.page.language != self.context.words.language:
             self.page = None
             self.focus.set_spots(self._spots(self.context.words))

@@ -47,7 +47,7 @@ class LadderChoice(Page):
 
     def on_enter(self) -> None:
         """Read the climbs that were left."""
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
         self.saved, damaged = resumable_climbs()
         if damaged:
             self.show_message(self.context.words("ladder.damaged"), wrong=True)

@@ -67,7 +67,7 @@ class LadderPage(Page):
 
     def on_enter(self) -> None:
         """Start the music, and the way up."""
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
         if self.said == "up":
             self.context.sounds.play("win")
 

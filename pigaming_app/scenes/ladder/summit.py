@@ -55,7 +55,7 @@ class Summit(Page):
         return self.queue.work(milliseconds)
 
     def on_enter(self) -> None:
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
         self.context.sounds.play("fanfare" if self.climb.at_top else "win")
 
     def leave(self) -> StackOperation:

@@ -74,7 +74,7 @@ class MatchSetupPage(Page):
     def on_enter(self) -> None:
         """Reset on first display and on return from the results."""
         self.age, self.going = 0.0, False
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
         self._find_arenas()
         if self._on_mat and self.context.mat:
             self.things = self.context.mat.things

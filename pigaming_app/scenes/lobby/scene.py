@@ -77,7 +77,7 @@ class Lobby:
         if self.code_open:
             self.code_open = False
             return
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
         self.now.starting = None
         self.seats.reset_ready()
         for seat in self.seats.of_kind(HUMAN):

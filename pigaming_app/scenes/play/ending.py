@@ -44,8 +44,12 @@ class Ending:
             runner.last_hit = LastHit()
 
     def begin(self, assisted: Collection[int]) -> None:
-        """Keep the match for attract mode, and count the round. `assisted`: seats whose results are no records."""
+        """Fade the music out, keep the match for attract mode, and count the round.
+
+        `assisted`: seats whose results are no records.
+        """
         self.begun = True
+        self.context.sounds.music(None)
         if replay := replay_of(self.match):
             self.context.shared(highlights).add(replay)
         self.context.sounds.play("go")

@@ -35,6 +35,7 @@ from pigaming_app.ui.widgets.caption import Caption, Notice, caption
 
 PAUSED_BRIGHTNESS = 72  # of 255: brightness of a match behind a page
 TICK_SOUNDS = 10  # seconds at the end with a tick sound each
+FINALE = 20.0  # seconds at the end with the finale of the theme
 NOTICE_AT = (960, 206)  # centre of a notice, on the canvas
 NAME_ROOM = 300  # px, of a name in a caption
 CAPTION_GAP = 104  # px from a robot to its caption
@@ -70,6 +71,7 @@ class MatchRunner:
         self.things: Sequence[ThingSpec] = match.arena.things  # in the view
         self.undrawn = 0.0  # seconds of real time since the last picture
         self.second = TICK_SOUNDS + 1
+        self.last_lap = False  # of the first in a race, whose end no clock tells
         self.last_hit: LastHit | None = None  # recorder, if the scene repeats the last hit
 
     def prewarm(self, milliseconds: float) -> bool:
@@ -86,6 +88,7 @@ class MatchRunner:
             for name, player, x in self.tick():
                 if self.loud:
                     self.context.sounds.play(name, player, max(-1.0, min(1.0, 2.0 * x / WIDTH - 1.0)))
+                    self.last_lap = self.last_lap or (name == "last_lap" and self.match.game.timed)
             for seat, rumble in self.view.rumbles.items():
                 self.rumble(seat, rumble)
         self._count_down()
@@ -205,6 +208,8 @@ class MatchRunner:
         return surfaces.made_for(self.match.setup.game)
 
     def _count_down(self) -> None:
+        if self.loud and (self.last_lap or self.match.seconds_left <= FINALE):
+            self.context.sounds.finale()
         second = int(self.match.seconds_left) + 1
         if second < self.second and second <= TICK_SOUNDS and not self.match.over and self.loud:
             self.context.sounds.play("tick")

@@ -72,7 +72,7 @@ class MatchScene:
 
     def on_enter(self) -> None:
         """Start, or resume after an interruption."""
-        self.context.sounds.music(True)
+        self.context.sounds.music(self.setup.game)
         self.drivers.resume()
         if self.begun and not self.match.over:
             self.opening.restart()
@@ -150,7 +150,8 @@ class MatchScene:
         self.stop_requested = True
 
     def restart(self) -> None:
-        """Restart with another seed."""
+        """Restart with another seed, and the music from its beginning."""
+        self.context.sounds.music(None)
         self.restart_requested = True
 
     def again(self, setup: Setup, devices: Sequence[Device | None], rounds: Rounds | None) -> Scene:

@@ -39,7 +39,7 @@ class ReplaysPage(Page):
     def on_enter(self) -> None:
         """First display, or return from a replay."""
         self.age = 0.0
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
 
     def press(self, event: InputEvent) -> StackOperation:
         """FIRE plays, X deletes, LEFT and RIGHT turn the page."""

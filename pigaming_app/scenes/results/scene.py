@@ -121,6 +121,7 @@ class Results:
 
     def on_enter(self) -> None:
         """First display, or return from initials or tables."""
+        self.context.sounds.music("title")
         self.idle = 0.0
 
     def handle(self, event: InputEvent) -> StackOperation:

@@ -70,8 +70,7 @@ class Title:
         if self.context.kiosk:
             self.context.driving.forget_one_button()
         self.context.idle = 0.0
-        self.music = not self.context.quiet
-        self.context.sounds.music(self.music)
+        self._begin_music(not self.context.quiet)
         self.focus.set_spots(self._spots())
 
     def handle(self, event: InputEvent) -> StackOperation:
@@ -155,8 +154,11 @@ class Title:
     def _keep_quiet(self) -> None:
         """Stop the music when the quiet hours begin, and start it when they end."""
         if self.music == self.context.quiet:
-            self.music = not self.music
-            self.context.sounds.music(self.music)
+            self._begin_music(not self.music)
+
+    def _begin_music(self, on: bool) -> None:
+        self.music = on
+        self.context.sounds.music("title" if on else None)
 
     def _rest(self, seconds: float) -> None:
         """Once after each return, do the chores, one a frame."""

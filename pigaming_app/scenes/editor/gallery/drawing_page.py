@@ -46,7 +46,7 @@ class DrawingPage(Page):
 
     def on_enter(self) -> None:
         """Read the drawing again, as it may have been changed and renamed."""
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
         self.drawing = store.opened(self.game, self.name)
 
     def press(self, event: InputEvent) -> StackOperation:

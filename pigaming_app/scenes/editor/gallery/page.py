@@ -71,7 +71,7 @@ class Gallery(Page):
 
     def on_enter(self) -> None:
         """First display, or return from a drawing."""
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
         self.surprise = None
         self._read()
         self._scroll()

@@ -65,7 +65,7 @@ class ResultsList(Page):
 
     def on_enter(self) -> None:
         """First display, or return from a correction or a match."""
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
         self._show()
 
     def press(self, event: InputEvent) -> StackOperation:

@@ -34,7 +34,7 @@ class SetupPage(SettingsPage):
         super().__init__(context, self._rows)
 
     def on_enter(self) -> None:
-        self.context.sounds.music(True)
+        self.context.sounds.music("title")
 
     def press(self, event: InputEvent) -> StackOperation:
         """START goes on to the entrants, as does the last row."""

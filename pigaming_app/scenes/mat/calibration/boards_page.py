@@ -36,7 +36,7 @@ class BoardsPage(Page):
         self.work.begin()
 
     def on_enter(self) -> None:
-        self.context.sounds.music(False)
+        self.context.sounds.music(None)
 
     def on_leave(self) -> None:
         """Release the camera."""

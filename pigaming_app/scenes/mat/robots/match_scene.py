@@ -92,7 +92,7 @@ class RealMatch(MatchScene):
             super().on_enter()
             self.watch.resume()
         else:
-            self.context.sounds.music(True)
+            self.context.sounds.music(self.setup.game)
             self.begun = True
 
     def on_leave(self) -> None:

@@ -59,7 +59,7 @@ class ArenaPage(Page):
         """Open the camera; also after a scan."""
         if self.rig is not None:
             return
-        self.context.sounds.music(False)
+        self.context.sounds.music(None)
         try:
             self.rig = self.session.open()
             self.session.furnish()

@@ -146,7 +146,7 @@ def test_the_desk_returns_a_group_to_the_title_only_if_there_is_one(arcade: Arca
 
 
 def test_title_music_stops_in_the_quiet_hours(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
-    turned: list[bool] = []
+    turned: list[str | None] = []
     monkeypatch.setattr(arcade.sounds, "music", turned.append)
     settings = arcade.context.settings
     title = Title(arcade.context)
@@ -157,7 +157,7 @@ def test_title_music_stops_in_the_quiet_hours(arcade: Arcade, monkeypatch: pytes
     title.update(0.1)
     settings.quiet_until = "11:00"
     title.update(0.1)
-    assert turned == [True, False, True]
+    assert turned == ["title", None, "title"]
 
 
 # ---- figures
