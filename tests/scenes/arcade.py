@@ -10,6 +10,7 @@ from pigaming_app.scenes.app import App
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, Stack, StackOperation
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.results.awards.moment import AwardsMoment
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
@@ -138,6 +139,12 @@ class Arcade:
         scene.match.state.rules.ticks = scene.match.state.tick + 1
         self.until(lambda: isinstance(self.stack.top, WinnersMoment))
         return scene
+
+    def skip_moments(self, device: Device = KEYS[0]) -> None:
+        """Skip the winner's moment, and that of the awards."""
+        while isinstance(self.stack.top, WinnersMoment | AwardsMoment):
+            self.wait(1.8)
+            self.press(Button.FIRE, device=device)
 
     def key(self, name: str, seconds: float = 0.0, letter: str = "") -> None:
         """Hold a key, through the real controls, for `seconds` or one frame."""

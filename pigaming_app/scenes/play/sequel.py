@@ -13,6 +13,9 @@ from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.drivers import Drivers, new_seed
 from pigaming_app.scenes.play.pause import Robots
 from pigaming_app.scenes.play.runner import MatchRunner
+from pigaming_app.scenes.results.awards.ceremony import Ceremony
+from pigaming_app.scenes.results.awards.feats import Feats
+from pigaming_app.scenes.results.awards.moment import AwardsMoment
 from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.scene import Results, SceneFactory
 from pigaming_app.scenes.results.winner import AfterMatch
@@ -100,13 +103,24 @@ class Sequel:
         return self.scene.again(with_people(self.match.setup, devices), devices, self.rounds)
 
     def scenes(self) -> tuple[EndedMatch, AfterMatch]:
-        """The match, or the rounds played, and the scene that follows."""
+        """The match, or the rounds played, and the scene that follows: the results, or the awards of people and what
+        `after` makes.
+        """
         if self.scene.after is None:
             results = self._results()
             return results.ended, results
         following = self.scene.after(self.scene)
-        devices = tuple(self.drivers.devices)
-        return EndedMatch(self.match.setup, self.match.outcome(), devices, self.scene.names, self.stood_in), following
+        devices, outcome = tuple(self.drivers.devices), self.match.outcome()
+        ended = EndedMatch(self.match.setup, outcome, devices, self.scene.names, self.stood_in)
+        if not (self.match.over and ended.humans):
+            return ended, following
+        page = Ceremony(self.scene.context, ended, True, self.feats)
+        return ended, AwardsMoment(self.scene.context, page, following)
+
+    @property
+    def feats(self) -> dict[int, Feats]:
+        """What each robot did."""
+        return {seat: self.scene.runner.feats.feats(seat) for seat in range(len(self.drivers.devices))}
 
     def _results(self) -> Results:
         rounds = self.rounds if self.rounds and self.rounds.outcomes else None
@@ -121,7 +135,7 @@ class Sequel:
             self.scene.game_choice,
             replay_of(self.match),
             rounds,
-            {seat: self.scene.runner.feats.feats(seat) for seat in range(len(self.drivers.devices))},
+            self.feats,
         )
 
 

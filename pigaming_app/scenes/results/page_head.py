@@ -1,6 +1,6 @@
 """What the views of the results share: the reveal of rows, and the head with headline, match and line below."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import pygame
@@ -11,6 +11,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
 from pigaming_app.scenes.results.headline import EndedMatch, headline, is_allied, stars, winning_color
 from pigaming_app.ui import draw as kit
+from pigaming_app.ui.draw.frame_budget import Steps
 from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.text import fit_size
 
@@ -44,15 +45,15 @@ class PageHead:
         self.length = RIGHT - LEFT if self.winners else SHORT
         self.parts: list[RevealedPart] = []
 
-    def render_parts(self) -> Iterator[bool]:
+    def render_parts(self) -> Steps[None]:
         """Render one widget per step."""
         self.colored = line(self._color(), self.length)
         self.steel = line(kit.STEEL, RIGHT - LEFT, kit.THIN)
-        yield True
+        yield
         self.parts.append(RevealedPart(self._where(), 0.1))
-        yield True
+        yield
         self.parts.append(RevealedPart(self._title(), self.title_at))
-        yield True
+        yield
 
     def draw(self, screen: pygame.Surface, age: float) -> None:
         """Draw the head `age` seconds after the page was opened."""

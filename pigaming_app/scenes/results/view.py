@@ -1,6 +1,6 @@
 """Rendering of the results page as cached widgets: title, rows, plot, revealed one after the other."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import groupby
 
 import pygame
@@ -24,7 +24,7 @@ from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_cur
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.scenes.views.sprites.stars import HIGH, star_row
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.frame_budget import budget, finished_within
+from pigaming_app.ui.draw.frame_budget import Steps, budget, finished_within
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, span
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import Words
@@ -89,30 +89,30 @@ class ResultsPage:
         for _ in self._rendering:
             budget.pause()
 
-    def _render_parts(self) -> Iterator[bool]:
+    def _render_parts(self) -> Steps[None]:
         """Render one widget per step."""
         yield from self.head.render_parts()
         self.parts.append(RevealedPart(self._columns(), 0.1))
-        yield True
+        yield
         y = TOP
         for i, team in enumerate(self.teams):
             self.parts.append(RevealedPart(self._team(team, y), row_starts(i, len(self.teams))))
             y += PITCH * len(team)
-            yield True
+            yield
         if len(self.outcome.rows) < 4 and (records := self._records()):
             self.parts.append(RevealedPart(records, self.ready_at))
-            yield True
+            yield
         x, w = span(6, 6)
         self.plot = self._plot(x, w)
         if is_allied(self.setup) and self.finished:
             self.parts.append(RevealedPart(star_row(self.stars, x, TOP, w), self.title_at))
-            yield True
+            yield
         self.parts.append(RevealedPart(self.plot.grid(), 0.1))
-        yield True
+        yield
         self.lines = self.plot.lines()
-        yield True
+        yield
         self.ends = self.plot.ends()
-        yield True
+        yield
 
     def _columns(self) -> LitImage:
         """Column headings."""

@@ -98,6 +98,7 @@ AWARD_ICONS: dict[str, Icon] = {
         line((-0.6, -0.92), (0.6, -0.92), (-0.6, 0.92), (0.6, 0.92), closed=True),
         fill((-0.34, 0.78), (0.34, 0.78), (0, 0.3)),
     ),
+    "amid": together(dot(0, 0, 0.3), *(circle(0.68 * x, 0.68 * y, 0.24) for x in (-1, 1) for y in (-1, 1))),
     "heart": _heart,
     "gear": _gear,
     "crate": together(

@@ -33,6 +33,7 @@ def main(folder: Path) -> int:
     from pigaming_app.scenes.events.next_page import NextMatch
     from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.play.scene import MatchScene
+    from pigaming_app.scenes.results.awards.moment import AwardsMoment
     from pigaming_app.scenes.results.initials import Initials
     from pigaming_app.scenes.results.scene import Results
     from pigaming_app.scenes.results.winner import WinnersMoment
@@ -58,7 +59,10 @@ def main(folder: Path) -> int:
             if top.match.over:
                 return "ending" if top.after else "results"
             return "other" if not top.match.state.tick else "event" if top.after else "match"
-        if isinstance(top, WinnersMoment) and isinstance(top.then, NextMatch):
+        following = top
+        while isinstance(following, WinnersMoment | AwardsMoment):
+            following = following.then
+        if following is not top and isinstance(following, NextMatch):
             return "ending"
         return "results" if isinstance(top, Initials | Results) else "title" if isinstance(top, Title) else "other"
 

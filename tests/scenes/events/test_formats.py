@@ -49,7 +49,7 @@ def play(arcade: Arcade, scores: tuple[int, ...]) -> MatchScene:
     arcade.press(Button.START)
     arcade.until(lambda: isinstance(arcade.stack.top, MatchScene))
     scene = arcade.finish(*scores)
-    arcade.until(lambda: not isinstance(arcade.stack.top, WinnersMoment))
+    arcade.skip_moments()
     return scene
 
 
@@ -121,10 +121,9 @@ def begun(arcade: Arcade, run: RunningEvent) -> None:
 
 
 def end_level(arcade: Arcade) -> None:
-    """End the match on top without any point; the winner's moment is skipped."""
+    """End the match on top without any point; the moments after it are skipped."""
     arcade.finish()
-    arcade.wait(1.2)
-    arcade.press(Button.FIRE)
+    arcade.skip_moments()
 
 
 def test_a_tie_leads_to_an_extra_match_of_the_same_people_that_the_next_point_ends(arcade: Arcade) -> None:
@@ -144,8 +143,7 @@ def test_a_tie_leads_to_an_extra_match_of_the_same_people_that_the_next_point_en
     extra.match.state.robots[1].score = 1
     assert arcade.reach(WinnersMoment).name == words("results.name_wins", name=names[1])
     assert saved(run).outcomes[1].places == ((names[1],), (names[0],))
-    arcade.wait(1.2)
-    arcade.press(Button.FIRE)
+    arcade.skip_moments()
     assert arcade.shown(NextMatch).fixture == run.event.fixtures[1]
 
 

@@ -45,11 +45,10 @@ def begin(arcade: Arcade, device: Device = KEYS[0]) -> MatchScene:
 
 
 def play(arcade: Arcade, own: int, other: int, device: Device = KEYS[0]) -> None:
-    """A match of PiTanks with this score, and the winner's moment."""
+    """A match of PiTanks with this score, and the moments after it."""
     begin(arcade, device)
     arcade.finish(own, other)
-    arcade.wait(1.2)
-    arcade.press(Button.FIRE, device=device)
+    arcade.skip_moments(device)
 
 
 def play_unseen(arcade: Arcade, own: int, other: int) -> None:

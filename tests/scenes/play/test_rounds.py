@@ -56,6 +56,7 @@ def test_two_rounds_won_lead_to_the_podium_and_the_rematch_begins_anew(arcade: A
     arcade.until(lambda: arcade.stack.top is not first, 10.0)
     second = arcade.shown(MatchScene)
     assert second.rounds is rounds
+    assert second.runner.feats is first.runner.feats, "awards are for all rounds"
     assert second.devices[0] == KEYS[0]
     assert second.setup.seed != first.setup.seed
     win(arcade)

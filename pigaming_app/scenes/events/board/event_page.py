@@ -24,6 +24,7 @@ from pigaming_app.scenes.features.board_page import BoardPart, Box
 from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.results.awards.moment import AwardsMoment
 from pigaming_app.scenes.results.podium import FIRST, Podium, Stand
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.ui.draw import ARROWS, FOCUS, ICE, LABEL, MIST, TITLE
@@ -76,9 +77,11 @@ def event_match(scene: Scene | object) -> EventMatch | None:
 
 
 def event_now(context: Context, scenes: Sequence[Scene]) -> EventNow | None:
-    """The event on the stack, if any: a page of it, a match of it, or the moment after one."""
+    """The event on the stack, if any: a page of it, a match of it, or the moments after one."""
     for scene in reversed(scenes):
-        page = scene.then if isinstance(scene, WinnersMoment) else scene
+        page = scene
+        while isinstance(page, WinnersMoment | AwardsMoment):
+            page = page.then
         match = event_match(page)
         running = match.running if match else getattr(page, "running", None)
         if isinstance(running, RunningEvent):

@@ -49,7 +49,7 @@ GENERAL = (
     Award("distance", "road", "distance", above=400.0, weight=0.9),
     Award("turbo", "speed", "turbo", above=1.0, weight=0.8),
     Award("explorer", "compass", "explored", above=6.0, weight=0.8),
-    Award("near", "heart", "near", least=True, weight=0.7),
+    Award("near", "amid", "near", least=True, weight=0.7),
     Award("dancer", "spiral", "turning", above=6.3, weight=0.7),
     Award("calm", "calm", "turning", least=True, weight=0.7),
     Award("reverse", "behind", "reverse", above=300.0, weight=0.7),

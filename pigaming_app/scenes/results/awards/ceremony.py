@@ -1,6 +1,6 @@
 """The ceremony, first view of the results: places, names, and an award for everybody."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import groupby
 
 import pygame
@@ -17,7 +17,7 @@ from pigaming_app.scenes.results.page_head import PageHead, RevealedPart, row_so
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.sprites.stars import STARS, draw_star
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.frame_budget import budget, finished_within
+from pigaming_app.ui.draw.frame_budget import Steps, budget, finished_within
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import Words
@@ -71,18 +71,19 @@ class Ceremony:
         for _ in self._rendering:
             budget.pause()
 
-    def _render_parts(self) -> Iterator[bool]:
+    def _render_parts(self) -> Steps[None]:
         """Render one widget per step."""
         yield from self.head.render_parts()
         count = len(self.ended.outcome.rows)
         high = min(MOST, (HEIGHT - GAP * (count - 1)) // count)
         y = TOP + (HEIGHT - high * count - GAP * (count - 1)) // 2
         for i, team in enumerate(self.teams):
-            self.parts.append(RevealedPart(self._team(team, y, high), row_starts(i, len(self.teams))))
+            panel = yield from self._team(team, y, high)
+            self.parts.append(RevealedPart(panel, row_starts(i, len(self.teams))))
             y += (high + GAP) * len(team)
-            yield True
+            yield
 
-    def _team(self, rows: Sequence[Row], y: int, high: int) -> LitImage:
+    def _team(self, rows: Sequence[Row], y: int, high: int) -> Steps[LitImage]:
         """Panel with the place and the row of one robot, or of all robots of a team."""
         whole = (high + GAP) * len(rows) - GAP
         wins = rows[0].seat in self.head.winners
@@ -92,7 +93,8 @@ class Ceremony:
         self._place(layer, rows[0].seat, y + whole / 2, min(STAR_PITCH, whole // 3 - 4))
         for i, row in enumerate(rows):
             self._row(layer, row, y + high / 2 + (high + GAP) * i)
-        return layer.render()
+            yield
+        return (yield from layer.render_steps())
 
     def _place(self, layer: Layer, seat: int, y: float, pitch: int) -> None:
         """The place of a robot or a team; of allies their stars, `pitch` px apart."""

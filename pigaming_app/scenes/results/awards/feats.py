@@ -29,10 +29,11 @@ class Tally:
         self.sums = dict.fromkeys(SUMS, 0.0)
         self.regions: set[tuple[int, int]] = set()
         self.taken = 0.0  # hits
-        self.unhit = self.escape = 0  # samples since the last hit, and the most
+        self.samples = self.unhit = self.escape = 0  # all; those since the last hit, and the most of these
 
     def add(self, robot: Any, near: float) -> None:
         """One sample; `near`: px to the nearest robot."""
+        self.samples += 1
         sums, linear = self.sums, robot.linear
         sums["distance"] += abs(linear)
         sums["reverse"] += max(0.0, -linear)
@@ -56,7 +57,6 @@ class FeatRecorder:
         self.match: Match | None = None
         self.series: Sequence[Sequence[tuple[float, int]]] = ()  # of the first round
         self.standings: list[list[float]] = []  # ranking keys of all seats, once a second of the present round
-        self.samples = 0
         self.counts_hits = False
 
     def watch(self, match: Match) -> None:
@@ -65,11 +65,11 @@ class FeatRecorder:
             return
         if match is not self.match:
             self._begin(match)
-        self.samples += 1
         seats = [seat for seat in range(ROBOTS) if match.state.robots[seat].present]
         near = nearest(match.state, seats)
         for seat in seats:
-            self.tallies[seat].add(match.state.robots[seat], near[seat])
+            if not finished(match, seat):
+                self.tallies[seat].add(match.state.robots[seat], near[seat])
             if self.counts_hits:
                 self.tallies[seat].count_hits(match.game.stats(match.state, seat)["taken"])
         if match.state.tick % HZ == 0:
@@ -81,7 +81,7 @@ class FeatRecorder:
             return {}
         tally = self.tallies[seat]
         found = {name: total * SAMPLE for name, total in tally.sums.items()}
-        found |= {"near": tally.sums["near"] / self.samples, "explored": float(len(tally.regions))}
+        found |= {"near": tally.sums["near"] / max(1, tally.samples), "explored": float(len(tally.regions))}
         if self.counts_hits:
             found["escape"] = tally.escape * SAMPLE
         if points := [seconds for seconds, score in self.series[seat] if score > 0]:
@@ -109,6 +109,12 @@ def nearest(state: MatchState, seats: Sequence[int]) -> list[float]:
         apart = dist((one.x, one.y), (other.x, other.y))
         best[a], best[b] = min(best[a], apart), min(best[b], apart)
     return best if len(seats) > 1 else [0.0] * ROBOTS
+
+
+def finished(match: Match, seat: int) -> bool:
+    """True if a robot has reached the goal of a race, and waits for the others."""
+    goal = match.setup.goal
+    return bool(match.game.timed and goal and match.state.robots[seat].score >= goal)
 
 
 def standing(match: Match) -> list[float]:

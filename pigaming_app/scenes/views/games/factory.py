@@ -165,5 +165,5 @@ SCREENS = GameScreens(
     team_colors=True,
     lessons=LESSONS,
     lesson_pages=("standard", "party", "together"),
-    awards={"delivered": "crate", "steps": "gear", "-bumps": "shield"},
+    awards={"delivered": "crate", "steps": "gear", "-bumps": "heart"},
 )

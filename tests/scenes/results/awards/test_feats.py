@@ -1,0 +1,89 @@
+"""What robots did, measured against their poses and against matches with a known course."""
+
+from math import hypot, tau
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from pigaming_app.scenes.results.awards.feats import EVERY, FeatRecorder
+from pigaming_app.sim.world import DT, HZ
+from tests.matches import match_of
+
+
+def recorded(game: str, brains: str, ticks: int, seed: int = 1) -> tuple[Any, FeatRecorder, dict[str, float]]:
+    """A match with its feats, and those of seat 0 measured tick by tick from its poses."""
+    match, recorder = match_of(game, brains, minutes=1.0, seed=seed), FeatRecorder()
+    me, way, turns = match.state.robots[0], 0.0, 0.0
+    for _ in range(ticks):
+        x, y, heading = me.x, me.y, me.heading
+        match.tick()
+        recorder.watch(match)
+        way += hypot(me.x - x, me.y - y)
+        turns += abs((me.heading - heading + tau / 2) % tau - tau / 2)
+    return match, recorder, {"distance": way, "turning": turns}
+
+
+@pytest.mark.parametrize("game", ["pitanks", "factory"])
+def test_ways_and_turns_are_those_of_the_poses(game: str) -> None:
+    """Sampled ten times a second, and by what the wheels do: a robot that pushes against a wall goes nowhere."""
+    _, recorder, truth = recorded(game, "level3 level3", 20 * HZ)
+    found = recorder.feats(0)
+    assert found["distance"] == pytest.approx(truth["distance"], rel=0.2)
+    assert found["turning"] == pytest.approx(truth["turning"], rel=0.2)
+
+
+def scripted(scores: list[list[int]], taken: list[list[int]] | None = None, goal: int = 0) -> FeatRecorder:
+    """The feats of a match in which these are scores and hits taken of each seat after each second."""
+    robots = [SimpleNamespace(**dict.fromkeys(("x", "y", "linear", "angular", "boosting"), 0.0)) for _ in range(4)]
+    for seat, robot in enumerate(robots):
+        robot.present, robot.team, robot.score = seat < len(scores[0]), seat, 0
+    state = SimpleNamespace(tick=0, robots=robots, taken=[0, 0, 0, 0])
+    game = SimpleNamespace(
+        timed=goal > 0,
+        stats=lambda state, seat: {"taken": state.taken[seat]} if taken else {},
+        ranking_key=lambda state, seat: float(state.robots[seat].score),
+    )
+    series, setup, recorder = [[(0.0, 0)] for _ in range(4)], SimpleNamespace(goal=goal), FeatRecorder()
+    match = SimpleNamespace(state=state, game=game, setup=setup, series=series)
+    for second, line in enumerate(scores):
+        for _ in range(HZ):
+            state.tick += 1
+            recorder.watch(match)  # type: ignore[arg-type]
+        for seat, score in enumerate(line):
+            robots[seat].score = score
+            match.series[seat].append((second + 1.0, score))
+        if taken:
+            state.taken[: len(line)] = taken[second]
+    return recorder
+
+
+def test_a_comeback_is_the_gap_at_half_time_of_one_who_has_gained_a_place() -> None:
+    recorder = scripted([[0, 0, 0], [6, 1, 2], [6, 1, 2], [6, 1, 2], [6, 7, 2], [6, 9, 2]])
+    found = [recorder.feats(seat) for seat in range(3)]
+    assert [feats["comeback"] for feats in found] == [0.0, 5.0, 0.0]
+    assert [feats["half"] for feats in found] == [1.0, 3.0, 2.0]
+    assert [feats["first"] for feats in found] == [2.0, 2.0, 2.0]
+
+
+def test_the_longest_escape_lies_between_two_hits() -> None:
+    taken = [[1, 0], [1, 0], [1, 0], [2, 0], [2, 1], [2, 1]]
+    recorder = scripted([[0, 0]] * 6, taken)
+    assert recorder.feats(0)["escape"] == pytest.approx(3.0, abs=EVERY * DT)
+    assert recorder.feats(1)["escape"] == pytest.approx(5.0, abs=EVERY * DT)
+    assert "escape" not in scripted([[0, 0]] * 6).feats(0), "a game without hits"
+
+
+def test_a_driver_who_waits_at_the_finish_is_not_called_patient() -> None:
+    """The first seat has both laps after two seconds, the second after five."""
+    recorder = scripted([[1, 0], [2, 1], [2, 1], [2, 1], [2, 2], [2, 2]], goal=2)
+    assert [recorder.feats(seat)["rest"] for seat in (0, 1)] == pytest.approx([2.0, 5.0], abs=0.11)
+
+
+def test_the_recorder_changes_nothing_and_works_once_in_five_ticks() -> None:
+    match, recorder, _ = recorded("pitanks", "level3 level1", 4 * HZ)
+    assert [tally.samples for tally in recorder.tallies] == [4 * HZ // EVERY, 4 * HZ // EVERY, 0, 0]
+    other = match_of("pitanks", "level3 level1", minutes=1.0)
+    for _ in range(4 * HZ):
+        other.tick()
+    assert [(r.x, r.y, r.score) for r in match.state.robots] == [(r.x, r.y, r.score) for r in other.state.robots]
