@@ -104,12 +104,13 @@ class Results:
 
     @property
     def prompts(self) -> ButtonPrompts:
-        """The current button prompts."""
+        """The current button prompts; five at most, to be large: two of them on one view only."""
+        awards = self.page is self.ceremony
         hints = [
             (Button.FIRE, "results.again"),
-            *([(Button.X, "results.change")] if self.game_choice else []),
-            (Button.Y, "results.scores"),
-            (Button.RIGHT, "results.numbers" if self.page is self.ceremony else "results.awards"),
+            *([(Button.X, "results.change")] if self.game_choice and awards else []),
+            *([] if awards else [(Button.Y, "results.scores")]),
+            (Button.RIGHT, "results.numbers" if awards else "results.awards"),
             *([(Button.UP, "results.save")] if self.recording else []),
             (Button.BACK, "results.menu"),
         ]

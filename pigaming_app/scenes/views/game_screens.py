@@ -40,8 +40,8 @@ class GameScreens:
     - `team_colors`: winners have the colour of their team, not their own.
     - `lessons`: by text key of their captions (table `howto.lessons`), in pages of four.
     - `lesson_pages`: rule set of each page, if there is more than one.
-    - `awards`: icons (keys of ICONS) of the awards for the most of a statistic, by its name; after a minus sign, for
-      the least. Their texts are `awards.NAME`, and for the last place `awards.NAME_praise`.
+    - `awards`: icons (keys of ICONS) of the awards for the most of a statistic, by its name, after a minus sign for the
+      least; else a medal. Their texts are `awards.NAME`, and for the last place `awards.NAME_praise`.
     - `signs`: icons (keys of ICONS) that stand for wishes and topics of its AIs in F4, by name; else a circle.
     """
 

@@ -25,7 +25,8 @@ def text_keys(name: str, screens: GameScreens) -> Iterator[str]:
     yield from (f"setup.rounds_{count}" for count in game.rounds if len(game.rounds) > 1)
     yield from (f"setup.count_{game.goal}", f"setup.{game.goal}") if game.goal else ()
     yield from (f"howto.{lesson}" for lesson in screens.lessons)
-    yield from (f"awards.{name.removeprefix('-')}" for name in screens.awards)
+    awards = [f"awards.{figure.removeprefix('-')}" for figure in screens.awards]
+    yield from (*awards, *(key for key in (f"{award}_praise" for award in awards) if key in texts("en")))
     yield from (f"howto.{screens.fire}",) if screens.fire else ()
     yield from (f"{page}.{rival}" for rival in AIS[name].rivals if rival not in LEVELS for page in ("lobby", "match"))
 

@@ -226,6 +226,8 @@ def results(walker: TourWalker, game: str) -> None:
         if walker.shows("HighScores"):
             walker.press("escape", pause=0.5)
     walker.press("w", pause=1.0)  # saves the replay
+    walker.set_screen(f"{game}: numbers")
+    walker.press("d", pause=1.0)
     walker.set_screen(f"{game}: best scores")
     walker.app.stack.apply(Push(HighScores(walker.context, contest(walker.top.setup))))
     walker.wait(3.0)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import groupby
+from math import isfinite
 
 import pygame
 
@@ -18,6 +19,7 @@ from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.sprites.stars import STARS, draw_star
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, budget, finished_within
+from pigaming_app.ui.draw.icons import ICONS
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import Words
@@ -28,6 +30,7 @@ STAR_PITCH, STAR_R = 96, 0.42  # px between two stars at most, and their radius 
 AI_X = 64  # px, icon of an AI before its name
 ICON_X, AWARD_X = 836, 912  # px from the left edge: middle of the award's icon, left edge of its name
 W = RIGHT - LEFT
+OTHER = "medal"  # icon in place of an unknown one
 
 
 class Ceremony:
@@ -111,7 +114,7 @@ class Ceremony:
         words, award = self.context.words, self.awards[row.seat]
         said = self.praises.get(row.seat, "")
         title, room, x = award_text(words, self.ended.setup.game, award), W - AWARD_X - 40, LEFT + AWARD_X
-        kit.icon(layer.glow, award.icon, LEFT + ICON_X, y, 42, kit.FOCUS, kit.LINE)
+        kit.icon(layer.glow, award.icon if award.icon in ICONS else OTHER, LEFT + ICON_X, y, 42, kit.FOCUS, kit.LINE)
         color = kit.mix(kit.PLAYERS[row.seat], kit.WHITE, 0.3)
         layer.canvas.text(title, fit_size(title, kit.SUB, room), x, y - (28 if said else 0), color)
         if said:
@@ -145,7 +148,8 @@ def figures(rows: Sequence[Row]) -> dict[str, float]:
     found: dict[str, float] = {}
     for row in rows:
         for name, value in row.stats.items():
-            found[name] = found.get(name, 0.0) + value
+            if isfinite(value):
+                found[name] = found.get(name, 0.0) + value
     times = [time for row in rows for time in row.times]
     found |= {"fastest": min(times)} if times else {}
     return found | ({"spread": max(times) - min(times)} if len(times) > 1 else {})

@@ -3,13 +3,15 @@
 import re
 from collections.abc import Mapping
 from dataclasses import replace
+from math import inf, nan
 from random import Random, random
 
 import pytest
 
+from pigaming_app.games.game import Row
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.results.awards.award import FREE, GENERAL, Award, Player, awarded, own_awards
-from pigaming_app.scenes.results.awards.ceremony import award_text
+from pigaming_app.scenes.results.awards.ceremony import award_text, figures
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.ui.draw.icons import ICONS
 from pigaming_app.ui.i18n import LANGUAGES, Words, texts
@@ -66,6 +68,12 @@ def test_the_least_counts_where_less_is_better() -> None:
 def test_the_most_of_nothing_is_no_award() -> None:
     found = awarded(players({"hits": 0.0, "aim": 0.0}, {"hits": 0.0, "aim": 0.0}), PITANKS)
     assert not {"hits", "aim"} & {award.key for award in found.values()}
+
+
+@pytest.mark.parametrize("wrong", [nan, inf])
+def test_a_statistic_of_a_plug_in_that_is_no_number_counts_for_nothing(wrong: float) -> None:
+    rows = [Row(0, 0, 1, 3, {"passed": wrong, "caught": 2}, {}, ())]
+    assert figures(rows) == {"caught": 2}
 
 
 def test_people_go_first_where_one_has_earned_what_is_short() -> None:

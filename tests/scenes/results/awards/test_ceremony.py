@@ -6,14 +6,18 @@ import pygame
 import pytest
 
 from pigaming_app.games.game import Row
-from pigaming_app.scenes.results.awards.ceremony import ICON_X, Ceremony
+from pigaming_app.scenes.results.awards.ceremony import AWARD_X, ICON_X, Ceremony, award_text
 from pigaming_app.scenes.results.scene import IDLE, Results
 from pigaming_app.scenes.results.view import score_cell
-from pigaming_app.ui.draw.layers import LEFT
+from pigaming_app.scenes.views.registry import SCREENS
+from pigaming_app.ui.draw import BODY, LABEL, SUB
+from pigaming_app.ui.draw.layers import LEFT, RIGHT
+from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import LANGUAGES, Words, texts
 from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.widgets.button_prompts import places, type_size
 from tests.matches import setup_of
-from tests.scenes.arcade import KEYS, Arcade
+from tests.scenes.arcade import Arcade
 from tests.scenes.results.awards.test_award import every_award
 from tests.scenes.results.awards.test_praise import ended_match
 from tests.scenes.screens import ENDINGS, Ending
@@ -46,6 +50,32 @@ def test_names_and_awards_leave_a_gap(monkeypatch: pytest.MonkeyPatch, arcade: A
     assert pygame.mask.from_threshold(right, (255, 255, 255), (150, 150, 150)).count() < 200
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_awards_and_kind_words_are_read_from_three_metres(language: str) -> None:
+    words, room = Words(language), RIGHT - LEFT - AWARD_X - 40
+    awards = {award_text(words, game, award) for game, award in every_award()}
+    assert {text for text in awards if fit_size(text, SUB, room) < LABEL} == set()
+    said = [key for key in texts(language) if key.startswith("awards.") and key.endswith(("_praise", "praise", "led"))]
+    said = [words(key) for key in said] + [words("awards.close", count=3), words("awards.close_time", seconds="4.9")]
+    assert {text for text in said if fit_size(text, BODY, room, "body") < BODY} == set()
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_prompts_of_both_views_are_of_full_size(arcade: Arcade) -> None:
+    results = opened(arcade, ENDINGS["alone"])
+    for page in (results.ceremony, results.numbers):
+        results.page = page
+        assert type_size(results.prompts.labels, results.prompts.room) >= 36
+
+
+def test_a_plug_in_may_name_an_icon_that_is_none(monkeypatch: pytest.MonkeyPatch, arcade: Arcade) -> None:
+    named = replace(SCREENS["pitanks"], awards={"hits": "no such icon"})
+    monkeypatch.setitem(SCREENS, "pitanks", named)
+    results = opened(arcade, ENDINGS["alone"])
+    assert "no such icon" in {award.icon for award in results.ceremony.awards.values()}
+    results.ceremony.draw(arcade.screen, 9.0)
+
+
 def test_left_and_right_change_between_awards_and_numbers(arcade: Arcade) -> None:
     results = opened(arcade, ENDINGS["alone"])
     arcade.frame(draw=True)
@@ -63,8 +93,11 @@ def test_the_prompt_of_the_other_view_can_be_clicked(arcade: Arcade) -> None:
     results = opened(arcade, ENDINGS["alone"])
     for page, key in ((results.ceremony, "results.numbers"), (results.numbers, "results.awards")):
         assert results.page is page
-        assert (Button.RIGHT, key) in results.prompts.items
-        arcade.press(Button.RIGHT, device=KEYS[0])
+        prompts = results.prompts
+        assert (Button.RIGHT, key) in prompts.items
+        left, right = places(prompts.labels, prompts.room)[prompts.buttons.index(Button.RIGHT)]
+        arcade.click((left + right) / 2, prompts.y)
+    assert results.page is results.ceremony
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
