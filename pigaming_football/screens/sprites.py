@@ -11,6 +11,7 @@ from pigaming_app.api.rules import HEIGHT, WIDTH
 Color = tuple[int, int, int]
 RADIUS = 22  # px, of the ball
 DIRECTIONS, PHASES = 24, 20  # of the rolling ball
+DROPS = 8  # sizes of the falling ball
 TRAIL = 7  # brightnesses of the trail
 DEEP = 62.0  # px, of a goal
 CIRCLE, SPOT = 150.0, 9.0  # px, radii
@@ -82,6 +83,30 @@ def shadow() -> Sprite:
 def aim(ink: GlowCanvas, level: int, seat: int) -> None:
     """A dot of the line along which a held ball will be shot; `level` 1..4."""
     ink.disc(0, 0, 5, dim(STYLE.players[seat], 0.2 + 0.2 * level))
+
+
+@light_sprite(320, 0.7)
+def team_name(ink: GlowCanvas, word: str, team: int) -> None:
+    """The name of a team in its colour."""
+    ink.text(word, 120, 0, 0, STYLE.teams[team], "hero", "c")
+
+
+@cache
+def falling(drop: int) -> Sprite:
+    """The ball as it falls from above; the last of DROPS lies on the ground."""
+    size = 1.0 + 2.0 * (1.0 - drop / (DROPS - 1))
+    half = round(size * (RADIUS + 22))
+    image = draw_ball(GlowCanvas(2 * half, 2 * half).set_transform(half, half, 0.3 * drop, size), 0.0, False).sprite(
+        0.8
+    )
+    return Sprite(image, -half, -half)
+
+
+@light_sprite(100)
+def bracket(ink: GlowCanvas, corner: int) -> None:
+    """A corner of the picture of a replay: 0 and 1 above, 0 and 2 on the left."""
+    right, down = (1 if corner % 2 == 0 else -1), (1 if corner < 2 else -1)
+    ink.line([(70 * right, 0), (0, 0), (0, 70 * down)], STYLE.focus, STYLE.line)
 
 
 @light_sprite(56)

@@ -1,4 +1,4 @@
-"""View of Robot Football: pitch, goals, the rolling ball, its trail and charge, and the celebration of a goal."""
+"""View of Robot Football: pitch, goals, the rolling ball, its trail and charge, kick-off and goals."""
 
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -10,12 +10,11 @@ from pigaming_app.api.look import STYLE, Batch, SimpleView, put
 from ..rules import side_of
 from ..start import start_indices
 from ..state import Football
-from . import sprites
+from . import ceremony, sprites
+from .ball_track import FADES, BallTrack
 
-FAST, TAIL = 260.0, 0.016  # px/s from which the ball has a trail; s between its spots
-JUMP = 120.0  # px in a tick: the ball was placed, not rolled
 KICK = 140.0  # px/s: a change of velocity that is heard
-CHEER, NETTED = 1.7, 0.5  # s for which a goal is cheered, and in which the ball comes to rest in the net
+CHEER, NETTED = 1.7, 0.5  # s for which the ball of a goal lies in the net, and in which it comes to rest there
 CHARGES = 16  # steps of the ring of the charge
 JINGLES = ("delivered_ice", "delivered_fire")
 Cue = tuple[str, int | None, float]  # sound, player for the pitch, x in the arena, px
@@ -27,15 +26,19 @@ class FootballView(SimpleView):
     shocks = (STYLE.ice, *STYLE.teams, STYLE.focus)  # of the kick-off, of goals, of a golden ball
     glows = STYLE.teams
     wears_teams = True
+    opening = ceremony.SECONDS
+    memory = ceremony.TICKS + 2  # and the goal itself
 
     def begin(self, state: Football) -> None:
         ball = state.ball
-        self.was = self.now = (ball.x, ball.y)
-        self.velocity = (ball.vx, ball.vy)
-        self.rolled, self.direction = 0.0, 0.0
-        self.tail: list[tuple[float, float, float]] = []  # x, y, time
+        self.track, self.velocity = BallTrack(ball), (ball.vx, ball.vy)
         self.goals, self.holder, self.out = state.goals, ball.holder, ball.out
         self.goal_at, self.goal_from, self.scorer = -9.0, (0.0, 0.0), 0
+        self.replay: ceremony.GoalReplay | None = None  # of the last goal, until its ceremony is over
+
+    def open(self) -> None:
+        self.present(ceremony.SECONDS)
+        self.announce(self.word("football.kick_off"), STYLE.ice)
 
     def start_order(self, state: Football) -> Sequence[int]:
         return start_indices([robot.team for robot in state.robots], [bool(robot.present) for robot in state.robots])
@@ -44,11 +47,14 @@ class FootballView(SimpleView):
         return sprites.draw_pitch, state.mouth
 
     def clock_words(self, state: Football) -> str:
+        if self.replays:
+            return self.word("football.replay")
         return self.word("football.golden_goal") if state.golden_goal else ""
 
     def samples(self) -> Iterator[Callable[[], object]]:
         for color in STYLE.teams:
             yield partial(self.announcement, self.word("football.goal"), color)
+        yield from ceremony.samples(self)
         yield sprites.shadow
         for level in range(1, sprites.TRAIL + 1):
             yield partial(sprites.trail, level, False)
@@ -67,14 +73,35 @@ class FootballView(SimpleView):
 
     # ---- the ball
 
+    @property
+    def replays(self) -> bool:
+        """True while the last goal is shown once more."""
+        return self.replay is not None and self.replay.place(self.since)[0] >= 0
+
+    @property
+    def shown_track(self) -> BallTrack:
+        """The ball that is shown: of the match, or of the replay."""
+        return self.replay.track if self.replay and self.replays else self.track
+
+    def moment(self, state: Football, blend: float) -> tuple[Football, float]:
+        if self.replay and not self.presenting:
+            self.replay = None
+            self.show_between(state, state)
+        if not self.replay or not self.replays:
+            return state, blend
+        i, blend = self.replay.place(self.since)
+        self.replay.follow(i, self.particles.clock)
+        self.show_between(self.replay.clip[i], self.replay.clip[i + 1])
+        return self.replay.clip[i + 1], blend
+
     def marks(self, under: Batch, over: Batch, state: Football, blend: float) -> None:
-        ball, now, gold = state.ball, self.particles.clock, state.ball.worth > 1
+        ball, now, gold, track = state.ball, self.particles.clock, state.ball.worth > 1, self.shown_track
         if ball.out:
             self.draw_waiting(under, state, gold)
             return
-        x, y = self.ball_at(blend)
-        for tx, ty, at in self.tail:
-            level = math.ceil(sprites.TRAIL * (1.0 - (now - at) / 0.22))
+        x, y = track.at(blend)
+        for tx, ty, at in track.tail:
+            level = math.ceil(sprites.TRAIL * (1.0 - (now - at) / FADES))
             if level > 0:
                 put(under, sprites.trail(min(level, sprites.TRAIL), gold), *self.on_canvas(tx, ty))
         put(under, sprites.shadow(), *self.on_canvas(x, y))
@@ -82,20 +109,19 @@ class FootballView(SimpleView):
             self.draw_charge(under, state, ball.holder - 1, x, y)
 
     def above(self, light: Batch, top: Batch, state: Football, blend: float) -> None:
-        """The ball, which lies over the robots' barrels."""
-        ball, since = state.ball, self.particles.clock - self.goal_at
-        if since < CHEER:
+        """The ball, which lies over the robots' barrels; ceremonies."""
+        ball, track, since = state.ball, self.shown_track, self.particles.clock - self.goal_at
+        if state.tick == 0 and self.presenting:
+            ceremony.draw_teams(self, light, top)
+            return
+        if self.replays:
+            ceremony.draw_brackets(self, light)
+        elif since < CHEER or self.replay:
             self.draw_netted(top, since)
         if not ball.out:
-            phase = sprites.phase_of(self.rolled)
-            put(top, sprites.ball(self.direction, phase, ball.worth > 1), *self.on_canvas(*self.ball_at(blend)))
+            put(top, sprites.ball(track.direction, track.phase(), ball.worth > 1), *self.on_canvas(*track.at(blend)))
         elif ball.out < waiting(state) - 25:
             put(top, sprites.ball(0, 0, ball.worth > 1), *self.on_canvas(ball.x, ball.y))
-
-    def ball_at(self, blend: float) -> tuple[float, float]:
-        """Where the ball is between the last two ticks, px in the arena."""
-        (x, y), (to_x, to_y) = self.was, self.now
-        return x + (to_x - x) * blend, y + (to_y - y) * blend
 
     def draw_charge(self, under: Batch, state: Football, seat: int, x: float, y: float) -> None:
         """The ring that fills with the charge, and the line of the shot."""
@@ -131,11 +157,11 @@ class FootballView(SimpleView):
     # ---- events
 
     def events(self, state: Football) -> list[Cue]:
-        ball, cues = state.ball, super().events(state)
+        before, ball, cues = self.scores.copy(), state.ball, super().events(state)
         cues = [cue for cue in cues if cue[0] != "pickup"]
-        self.follow_ball(state)
+        self.track.follow(ball, self.particles.clock)
         if state.goals > self.goals:
-            cues += self.cheer(state)
+            cues += self.cheer(state, before)
         elif self.out and not ball.out:
             cues.append(("drop", None, ball.x))
             self.particles.shock(*self.on_canvas(ball.x, ball.y), STYLE.focus if ball.worth > 1 else STYLE.ice)
@@ -164,28 +190,14 @@ class FootballView(SimpleView):
             return "fire", seat, ball.x
         return "hit", None, ball.x
 
-    def follow_ball(self, state: Football) -> None:
-        """Record where the ball is, how far it has rolled, and its trail."""
-        ball = state.ball
-        self.was, self.now = self.now, (ball.x, ball.y)
-        dx, dy = self.now[0] - self.was[0], self.now[1] - self.was[1]
-        way = math.hypot(dx, dy)
-        if way > JUMP or ball.out or self.out:
-            self.was, self.tail = self.now, []
-            return
-        if way > 0.3:
-            self.direction = math.atan2(dy, dx)
-            self.rolled += way / sprites.RADIUS
-        now = self.particles.clock
-        if way > FAST * 0.02 and not ball.holder and (not self.tail or now - self.tail[-1][2] >= TAIL):
-            self.tail.append((ball.x, ball.y, now))
-        self.tail = [spot for spot in self.tail if now - spot[2] < 0.22]
-
-    def cheer(self, state: Football) -> list[Cue]:
-        """Light, sparks and sounds of a goal."""
-        self.scorer = 1 - state.goal_side
-        self.goal_at = self.particles.clock
-        self.announce(self.word("football.goal"), STYLE.teams[self.scorer])
+    def cheer(self, state: Football, before: Sequence[int]) -> list[Cue]:
+        """Light, sparks and sounds of a goal, and its replay. `before`: the points of the seats before it."""
+        self.scorer, self.goal_at = 1 - state.goal_side, self.particles.clock
+        self.present(ceremony.SECONDS)
+        if self.presenting and len(clip := self.film.before(state)) > 1:
+            self.replay = ceremony.GoalReplay(clip)
+        names = [self.name(seat) for seat in self.seats if state.robots[seat].score > before[seat]]
+        self.announce(self.word("football.goal"), STYLE.teams[self.scorer], "".join(names[:1]))
         self.goal_from = (0.0 if state.goal_side == 0 else 1600.0, state.goal_y)
         x, y = self.on_canvas(*self.goal_from)
         color, inwards = STYLE.teams[self.scorer], 0.0 if state.goal_side == 0 else math.pi

@@ -78,11 +78,11 @@ def test_the_rolling_ball_turns_and_a_dropped_one_does_not(screen):
     state.ball.out = 0
     put_ball(state, 300.0, 300.0, 400.0)
     cues(football, view, 20)
-    assert view.rolled > 3.0
-    rolled = view.rolled
+    assert view.track.rolled > 3.0
+    rolled = view.track.rolled
     put_ball(state, 1200.0, 600.0)
     cues(football, view, 2)
-    assert view.rolled == rolled
+    assert view.track.rolled == rolled
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -35,6 +35,10 @@ class Countdown:
         self.step, self.seconds_left, self.since = step, 3 * step + lead, 0.0
         self.number = 4
 
+    def skip_lead(self) -> None:
+        """Begin with the first number now."""
+        self.seconds_left = min(self.seconds_left, 3 * self.step)
+
     @property
     def locked(self) -> bool:
         """True while robots may not move."""

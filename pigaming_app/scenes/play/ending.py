@@ -65,9 +65,10 @@ class Ending:
             self.again.handle(event)
 
     def hold(self, seconds: float) -> bool:
-        """Hold the last picture for `seconds`; true when it has been shown long enough."""
-        self.age += seconds
+        """Hold the last picture for `seconds`, after a ceremony; true when it has been shown long enough."""
         self.runner.wait(seconds)
+        if not self.runner.view.presenting:
+            self.age += seconds
         return self.age >= FREEZE_SECONDS
 
     def update(self, seconds: float) -> StackOperation:
@@ -111,5 +112,7 @@ class Ending:
 
     def draw_sign(self, screen: pygame.Surface) -> None:
         """Draw over the last picture that the time is up, or that the goal is reached."""
+        if self.runner.view.presenting:
+            return
         name = "time" if self.match.seconds_left <= 0.0 else "finish"
         show(screen, popped(self.context.words(f"match.{name}"), ALARM, min(4, int(self.age / 0.04))))

@@ -41,10 +41,18 @@ class Opening:
     def __init__(self, context: Context, runner: MatchRunner, devices: Sequence[Device | None]) -> None:
         self.context, self.runner, self.devices = context, runner, devices
         self.match = runner.match
-        self.countdown, self.at = Countdown(lead=LEAD_SECONDS), CENTRE
+        self.countdown, self.at = Countdown(), CENTRE
+        self.begin()
         self.signs = PrewarmQueue(signs(*(context.words(f"match.{name}") for name in ("go", "time", "finish"))))
         self.prewarmed = False
         self.card: tuple[Caption, tuple[int, int]] | None = None
+
+    def begin(self) -> None:
+        """Count down from three after a look round, or after the ceremony with which the view opens the match."""
+        view, first = self.runner.view, self.match.state.tick == 0
+        self.countdown.restart(1.0, max(LEAD_SECONDS, view.opening if first else 0.0))
+        if first:
+            view.open()
 
     def restart(self) -> None:
         """Count down from three once more: faster if the robots have already driven."""
@@ -70,7 +78,7 @@ class Opening:
         if self.countdown.locked:
             self.runner.draw_captions(screen, self.devices)
             self.at = clear_of(self.runner.robots())
-            if self.match.state.tick == 0:
+            if self.match.state.tick == 0 and not self.runner.view.presenting:
                 self._draw_rules(screen)
         self.countdown.draw(screen, self.context.words("match.go"), self.at)
 

@@ -69,7 +69,6 @@ class MatchRunner:
         self.timestep = FixedTimestep()
         self.feats = FeatRecorder()
         self.things: Sequence[ThingSpec] = match.arena.things  # in the view
-        self.undrawn = 0.0  # seconds of real time since the last picture
         self.second = TICK_SOUNDS + 1
         self.last_lap = False  # of the first in a race, whose end no clock tells
         self.last_hit: LastHit | None = None  # recorder, if the scene repeats the last hit
@@ -81,7 +80,7 @@ class MatchRunner:
 
     def advance(self, seconds: float, speed: float = 1.0) -> None:
         """Advance the match by `seconds` of real time."""
-        self.undrawn += seconds
+        self.view.undrawn += seconds
         for _ in range(self.timestep.due(seconds, speed)):
             if self.match.over:
                 break
@@ -104,7 +103,7 @@ class MatchRunner:
 
     def wait(self, seconds: float) -> None:
         """Advance only the effects of the view: the match is halted."""
-        self.undrawn += seconds
+        self.view.undrawn += seconds
 
     def draw(self, screen: pygame.Surface) -> None:
         """Draw the match, interpolated between its last two ticks."""
@@ -113,7 +112,7 @@ class MatchRunner:
             self.things = things
             self.view.show_things(things)
         blend = 1.0 if self.match.over else self.timestep.blend
-        undrawn, self.undrawn = self.undrawn, 0.0
+        undrawn, self.view.undrawn = self.view.undrawn, 0.0
         with self._tag_sprites():
             self.view.draw(screen, self.match.state, blend, undrawn)
             if self.brain:

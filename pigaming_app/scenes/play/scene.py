@@ -61,6 +61,7 @@ class MatchScene:
         self.runner = MatchRunner(
             context, self.match, rumble=lambda seat, felt: self.drivers.rumble(seat, felt), names=self.names
         )
+        self.runner.view.ceremonies = True
         self.drivers = Drivers(context, self.runner, devices, may_join=after is None)
         self.devices, self.access = self.drivers.devices, self.drivers.access
         self.robots: Robots = SimulatedRobots()
@@ -83,7 +84,8 @@ class MatchScene:
         self.sequel.note()
 
     def handle(self, event: InputEvent) -> StackOperation:
-        """START or Escape of a seated device pauses; a free one takes a seat driven by an AI."""
+        """START or Escape of a seated device pauses, FIRE ends a ceremony; a free one takes a seat driven by an AI."""
+        self._skip(event)
         if self.match.over:
             self.ending.handle(event)
             if self.ending.round_break is None:
@@ -131,7 +133,7 @@ class MatchScene:
             self.ending.draw_sign(screen)
         else:
             self.opening.draw(screen)
-        if not self.preparing and not self.match.over:
+        if not (self.preparing or self.held or self.match.over):
             self.runner.draw_hints(screen, self.devices)
         self.drivers.draw(screen)
         self.runner.notice.draw(screen)
@@ -140,6 +142,11 @@ class MatchScene:
     def preparing(self) -> bool:
         """True until the robots may drive."""
         return self.opening.countdown.locked
+
+    @property
+    def held(self) -> bool:
+        """True while a ceremony holds the match."""
+        return self.match.state.tick > 0 and self.runner.view.presenting
 
     def picture(self) -> pygame.Surface:
         """The match as drawn behind a page."""
@@ -159,8 +166,19 @@ class MatchScene:
         known = self.context, setup, devices, self.speed, self.game_choice, rounds
         return MatchScene(*known, make=self.make, records=self.records)
 
+    def _skip(self, event: InputEvent) -> None:
+        """End a ceremony on FIRE of a seated device."""
+        view = self.runner.view
+        if event.button is Button.FIRE and view.skippable and self.access.admit(event):
+            view.skip()
+            self.opening.countdown.skip_lead()
+
     def _play(self, seconds: float) -> StackOperation:
-        """Advance the match; halt it if nobody is there."""
+        """Advance the match, which a ceremony holds; halt it if nobody is there."""
+        if self.held:
+            self.context.controls.forget_taps()
+            self.runner.wait(seconds)
+            return None
         self.drivers.replace_idle(seconds)
         self.sequel.begin()
         self.runner.advance(seconds, self.speed)

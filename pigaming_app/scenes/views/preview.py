@@ -4,8 +4,8 @@ import math
 
 import pygame
 
-from pigaming_app.scenes.views.floors import FLOORS, pattern_of
-from pigaming_app.scenes.views.things.on_mat import draw_all
+from pigaming_app.scenes.views.sprites.floors import FLOORS, pattern_of
+from pigaming_app.scenes.views.things.on_mat import black_out, draw_all
 from pigaming_app.scenes.views.things.styles import NEON
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
@@ -20,6 +20,7 @@ def walls(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:
     left, top, k = fitted(w, h)
     floor, ink = kit.GlowCanvas(w, h, 3), kit.GlowCanvas(w, h, 3)
     FLOORS[pattern_of(arena)](floor.set_transform(left, top, 0.0, k))
+    black_out(floor, arena.things)
     yield
     ink.line(kit.cut_box(left, top, k * WIDTH, k * HEIGHT, 28 * k + 4), kit.MIST, kit.THIN, True)
     for wall in arena.walls:

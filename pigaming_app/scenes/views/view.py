@@ -72,12 +72,15 @@ class MatchView:
     """View of one match. `players`: for each seat "human" or the name of the AI; may change during the match.
 
     Subclasses take arena, state, players, options and words, and override `watch` and `draw`. `clock`: the part of the
-    HUD between the panels. `style`: of real things. `wears_teams`: robots and HUD have the teams' colours.
+    HUD between the panels. `style`: of real things. `wears_teams`: robots and HUD have the teams' colours. `opening`: s
+    that `open` takes. `ceremonies`: they are shown, since the scene holds the match meanwhile.
     """
 
     clock = pygame.Rect(820, 0, 280, HUD_HEIGHT)
     style = NEON
     wears_teams = False
+    opening = 0.0
+    ceremonies = False
 
     def __init__(
         self,
@@ -91,6 +94,7 @@ class MatchView:
         self.players, self.options, self.words, self.background = players, options, words, background
         self.real: frozenset[int] = frozenset()  # seats with real robots, which are lit instead of drawn
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
+        self.undrawn = 0.0  # s since the last picture
         self.teams = [robot.team % len(TEAMS) for robot in state.robots]
         self.hints: dict[int, str] = {}  # text key of a hint about FIRE, by seat
         self.rumbles: dict[int, Rumble] = {}  # of the last tick, by seat
@@ -130,6 +134,22 @@ class MatchView:
         """Prewarm sprites for at most this many milliseconds; True when complete."""
         return self.jobs.work(milliseconds)
 
+    def open(self) -> None:
+        """Begin the ceremony before the countdown."""
+
+    @property
+    def presenting(self) -> bool:
+        """True during a ceremony, such as that of a goal."""
+        return False
+
+    @property
+    def skippable(self) -> bool:
+        """True if `skip` ends the ceremony."""
+        return False
+
+    def skip(self) -> None:
+        """End the ceremony: somebody pressed FIRE."""
+
     def color(self, seat: int) -> Color:
         """The colour of a robot's ring and of its box: that of its player, or of its team."""
         return TEAMS[self.teams[seat]] if self.wears_teams else PLAYERS[seat]
@@ -150,6 +170,10 @@ class MatchView:
         for i, (new, old) in enumerate(zip(self.current_poses, self.previous_poses, strict=True)):
             if abs(new[0] - old[0]) + abs(new[1] - old[1]) > JUMP:
                 self.previous_poses = [*self.previous_poses[:i], new, *self.previous_poses[i + 1 :]]
+
+    def show_between(self, one: Any, other: Any) -> None:
+        """Show the robots between their poses in two states of the past, until the next tick."""
+        self.previous_poses, self.current_poses = _poses(one), _poses(other)
 
     def reach(self, seat: int, usual: int) -> int:
         """Radius in px of a ring around a robot, enlarged for a real one, which stands in a wide disc."""

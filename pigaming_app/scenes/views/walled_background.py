@@ -7,7 +7,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.scenes.views.background import LEFT, TOP, Background
-from pigaming_app.scenes.views.floors import FLOORS
+from pigaming_app.scenes.views.sprites.floors import FLOORS
 from pigaming_app.scenes.views.sprites.wall import wall
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, LINE, PLAYERS, PRE, WALL, GlowCanvas, LayeredCanvas, cut_box, dim, shape_points

@@ -157,7 +157,7 @@ def test_the_overlay_is_visible_and_disappears_again(arcade: Arcade, game: str) 
     places = around.clip(arcade.screen.get_rect()), pygame.Rect(160, 0, 600, 130), clock.inflate(-60, -20)
     before = [pygame.image.tobytes(arcade.screen.subsurface(place), "RGB") for place in places]
     overlay_of(stage).next()
-    stage.undrawn = 0.0
+    stage.view.undrawn = 0.0
     stage.draw(arcade.screen)
     now = [pygame.image.tobytes(arcade.screen.subsurface(place), "RGB") for place in places]
     assert [old != new for old, new in zip(before, now, strict=True)] == [True, True, False]

@@ -9,8 +9,8 @@ import pytest
 from pigaming_app.games.arenas import load, parse, shipped_arenas
 from pigaming_app.games.drawing.values import drawing_of
 from pigaming_app.scenes.bench.frame_times import AllEffects
-from pigaming_app.scenes.views.floors import BRIGHTEST, FLOORS, pattern_of
 from pigaming_app.scenes.views.pitanks.view import PiTanksView
+from pigaming_app.scenes.views.sprites.floors import BRIGHTEST, FLOORS, pattern_of
 from pigaming_app.sim import arena as arenas
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.ui.draw import GlowCanvas

@@ -27,7 +27,6 @@ from pigaming_app.scenes.mat.robots.swap_page import SwapPage
 from pigaming_app.scenes.mat.robots.take_places import TakePlaces
 from pigaming_app.scenes.mat.things.moved_page import MovedPage
 from pigaming_app.scenes.mat.things.outlines import draw_things
-from pigaming_app.scenes.play.opening import LEAD_SECONDS
 from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import SceneFactory
@@ -139,7 +138,7 @@ class RealMatch(MatchScene):
             return Push(FaultPage(self))
         if places := self.watch.places if not self.match.over else []:
             return Push(MovedPage(self, places))
-        if self.preparing or self.match.over:
+        if self.preparing or self.held or self.match.over:
             self.robots.stand_still(seconds)
         turn = super().update(seconds)
         self.robots.report()
@@ -222,7 +221,7 @@ class RealMatch(MatchScene):
         """Start the match from the robots' current positions."""
         self.gathering, self.robots.gathering = None, False
         self.watch.resume()
-        self.opening.countdown.restart(1.0, LEAD_SECONDS)
+        self.opening.begin()
         self.drivers.quiet = 0.0
         self.context.sounds.play("ready", 0)
         self.robots.mark()

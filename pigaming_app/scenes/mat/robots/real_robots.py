@@ -146,7 +146,9 @@ class RealRobots:
     def _publish(self) -> None:
         """Hand the state of the match to those who watch it."""
         if self.watchers:
-            state = match_state(self.scene.match, self.plant.faults, self.blocked or self.scene.preparing)
+            state = match_state(
+                self.scene.match, self.plant.faults, self.blocked or self.scene.preparing or self.scene.held
+            )
             for watch in self.watchers:
                 watch(state)
 

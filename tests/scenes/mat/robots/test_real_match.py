@@ -118,7 +118,7 @@ def started(arcade: Arcade, match: RealMatch, seconds: float = 0.5) -> None:
     """Start from the current positions and wait until the robots drive."""
     play(arcade, 1.0)
     arcade.press(Button.START)
-    until(arcade, lambda: match.match.seconds > seconds, 5.0)
+    until(arcade, lambda: match.match.seconds > seconds, 7.0)
 
 
 def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Arcade, mat: EmulatedSession) -> None:
@@ -397,3 +397,26 @@ def test_the_day_log_has_the_match_and_the_batteries_and_the_operators_page_ends
     (played,) = (record for record in records if isinstance(record, PlayedMatch))
     assert (played.robots, played.complete, played.ais) == ("emulated", False, 2)
     assert [record.robot for record in records if isinstance(record, Battery)] == [1, 2]
+
+
+@pytest.mark.long
+def test_real_robots_stand_still_during_the_ceremony_of_a_goal(arcade: Arcade) -> None:
+    match = opened(arcade, "football", "level5 level5 off off", 1.0)
+    started(arcade, match)
+    until(arcade, lambda: not match.preparing)
+    goes_on(arcade, match)
+    state = match.match.state
+    ball = state.ball
+    ball.out, ball.holder, ball.x, ball.y, ball.vx, ball.vy, ball.touched = 0, 0, 1560.0, 450.0, 900.0, 0.0, 1
+    until(arcade, lambda: match.held, 1.0)
+    play(arcade, 0.6)
+    assert match.held
+    body = match.plant.rig
+    before = [(seen.x, seen.y) for seen in body.sense()[:2]]
+    play(arcade, 1.0)
+    assert match.held
+    after = [(seen.x, seen.y) for seen in body.sense()[:2]]
+    assert all(hypot(a - c, b - d) < 8.0 for (a, b), (c, d) in zip(before, after, strict=True)), (before, after)
+    goes_on(arcade, match)
+    match.stop()
+    until(arcade, Results)
