@@ -7,7 +7,7 @@ from typing import Any
 from pigaming_app.sim.record import from_bytes, to_bytes
 
 
-class Clip:
+class Footage:
     """Recorded states, tick by tick; one is unpacked when it is first shown."""
 
     def __init__(self, kind: type, frames: Sequence[bytes]) -> None:
@@ -35,6 +35,6 @@ class Film:
         if self.frames.maxlen:
             self.frames.append(to_bytes(state))
 
-    def before(self, state: Any) -> Clip:
+    def before(self, state: Any) -> Footage:
         """All that was kept before the last tick, which led to `state`."""
-        return Clip(type(state), [*self.frames][:-1])
+        return Footage(type(state), [*self.frames][:-1])
