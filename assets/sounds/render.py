@@ -21,14 +21,16 @@ SCORES = (FOLDER, FOLDER.parents[1] / "pigaming_football" / "sounds")  # folders
 PEAK = 0.85  # at most, which leaves room for the encoder
 
 GROUPS = {  # LUFS
-    "theme": -27.0,
-    "finale": -30.0,  # what it adds to the theme
-    "sting": -23.0,  # the end of a match
-    "call": -25.0,  # what everybody has to notice
-    "blow": -26.0,  # what hits a robot or speeds it up
-    "small": -31.0,  # what is heard all the time
-    "menu": -28.0,
+    "theme": -28.0,
+    "finale": -31.0,  # what it adds to the theme
+    "sting": -24.0,  # the end of a match, alone
+    "call": -26.5,  # what everybody has to notice
+    "blow": -27.5,  # what hits a robot or speeds it up
+    "small": -32.5,  # what is heard all the time
+    "menu": -29.0,
 }
+CROWD = 0.19  # the peak of a sound, of which four players make many at once, unless it would be
+QUIETER = 2.2  # LU quieter than its group for it
 Effect = Callable[[], Samples]
 SOUNDS: dict[str, dict[str, Effect]] = {  # by group
     "sting": {
@@ -99,8 +101,8 @@ SOUNDS: dict[str, dict[str, Effect]] = {  # by group
 def effect(name: str) -> Samples:
     """The samples of an effect, as loud as its group."""
     group = next(group for group, sounds in SOUNDS.items() if name in sounds)
-    sound = finished(SOUNDS[group][name]())
-    return as_loud_as(sound, GROUPS[group])
+    sound = as_loud_as(finished(SOUNDS[group][name]()), GROUPS[group])
+    return sound if group == "sting" else sound * max(10.0 ** (-QUIETER / 20.0), min(1.0, CROWD / np.abs(sound).max()))
 
 
 def theme(path: Path) -> dict[str, Samples]:

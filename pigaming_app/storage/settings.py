@@ -105,8 +105,8 @@ class Settings:
     """The operator's settings, and the last choices before a match."""
 
     language: Annotated[str, one_of("en", "pt", "es", "fr", "de")] = "en"
-    music: Volume = 6
-    sounds: Volume = 8
+    music: Volume = 8
+    sounds: Volume = 10
     flashes: Annotated[str, one_of("off", "soft", "full")] = "full"
     shake: bool = True
     calm: bool = False  # nothing flashes more than three times a second, nothing shakes

@@ -18,7 +18,7 @@ from pigaming_app.ui.music import CHANNELS, RATE, Music
 
 FOLDER = ASSETS / "sounds"
 _MAX_VOICES = 24  # simultaneous sounds; more are dropped
-_MIN_REPEAT = 0.05  # seconds before the same sound may restart: four players mash their buttons
+MIN_REPEAT = 0.05  # seconds before the same sound may restart: four players mash their buttons
 _log = logging.getLogger(__name__)
 
 
@@ -32,7 +32,7 @@ class Sounds:
         self._started: dict[str, float] = {}
         self._music = Music()
         self._voices: list[pygame.mixer.Channel] = []
-        self._volumes = (6, 8)
+        self._volumes = (10, 10)
         self._ready = False
         self._opener: Thread | None = None
 
@@ -65,7 +65,7 @@ class Sounds:
         variant = f"{name}{(player or 0) + 1}"  # sounds with a variant per player have no other
         key = variant if variant in self._sounds else name
         sound, now = self._sounds.get(key), time.monotonic()
-        if sound is None or now - self._started.get(key, 0.0) < _MIN_REPEAT:
+        if sound is None or now - self._started.get(key, 0.0) < MIN_REPEAT:
             return
         channel = next((voice for voice in self._voices if not voice.get_busy()), None)
         if channel is None:

@@ -66,7 +66,7 @@ def test_the_files_hold_what_the_script_renders(name: str) -> None:
     made = render.theme(SCORES[name])
     assert [*made] == (["theme"] if name == "title" else ["theme", "finale"])
     for group, samples in made.items():
-        assert np.corrcoef(heard(group, name).ravel(), samples.ravel())[0, 1] > 0.98
+        assert np.corrcoef(heard(group, name).ravel(), samples.ravel())[0, 1] > 0.96
 
 
 # ---- the notation

@@ -24,9 +24,9 @@ def test_saved_settings_are_loaded_again(tmp_path):
 @pytest.mark.parametrize(
     ("line", "reason"),
     [
-        ("music = 11", "music = 11: expected a whole number <= 10; 6 is used"),
-        ("music = 3.5", "music = 3.5: expected a whole number, got a number; 6 is used"),
-        ("music = true", "music = True: expected a whole number, got true or false; 6 is used"),
+        ("music = 11", "music = 11: expected a whole number <= 10; 8 is used"),
+        ("music = 3.5", "music = 3.5: expected a whole number, got a number; 8 is used"),
+        ("music = true", "music = True: expected a whole number, got true or false; 8 is used"),
         ('language = "it"', "language = 'it': expected one of en, pt, es, fr, de; 'en' is used"),
         ("language = []", "language = []: expected a text, got a list; 'en' is used"),
         ("shake = 1", "shake = 1: expected true or false, got a whole number; True is used"),
@@ -36,7 +36,7 @@ def test_saved_settings_are_loaded_again(tmp_path):
         ("[games.race]\narena = 3", "games.race.arena = 3: expected a text, got a whole number; '' is used"),
         ("[games.race]\nwheels = 3", "games.race.wheels is not a setting; it is ignored"),
         ("[games]\nrace = 3", "race is not a table; it is ignored"),
-        ("[music]", "music = {}: expected a whole number, got a table; 6 is used"),
+        ("[music]", "music = {}: expected a whole number, got a table; 8 is used"),
         ("loudness = 3", "loudness is not a setting; it is ignored"),
         ("real = [1, 5]", "real = [1, 5]: [1]: expected a whole number <= 4; [] is used"),
         ("real = [2, 2]", "real = [2, 2]: not different numbers; [] is used"),
