@@ -1,11 +1,12 @@
 """The AIs of one game, and the ways in which people drive in it."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 from pigaming_app.ai.brain import kind
 from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_drive
 from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain.traits import Traits
 
 LEVELS = ("level1", "level2", "level3", "level4", "level5")  # in every game; one to five stars on the screen
 
@@ -24,6 +25,7 @@ class GameAI:
     rivals: tuple[str, ...] = LEVELS  # offered in the lobby, in the order in which it steps through them
     driving: Mapping[str, Driving] = field(default_factory=lambda: USUAL_DRIVING)  # styles, in the lobby's order
     boosts: bool = False  # the one button is the turbo too, where there may be nothing to fire
+    person: Callable[[Traits], BrainKind] | None = None  # what a person sees and wants; `ai/people` adds the hands
 
     def __post_init__(self) -> None:
         missing = [name for name in LEVELS if name not in self.kinds]

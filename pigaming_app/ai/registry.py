@@ -1,6 +1,7 @@
 """Registry of all brains by game and name, and the players that a match seats."""
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from typing import Any
 
 from pigaming_app.ai.brain.archive import BrainFileError
@@ -26,14 +27,21 @@ AIS: Mapping[str, GameAI] = {
 BRAINS: Mapping[str, Mapping[str, BrainKind]] = {game: ai.brains for game, ai in AIS.items()}
 
 
+@cache
+def every_brain(game: str) -> Mapping[str, BrainKind]:
+    """The brains of a game by name, those that stand for people among them; none of an unknown game."""
+    models = optional("ai.people.models")
+    return {**BRAINS.get(game, {}), **(models.people(AIS[game]) if models and game in AIS else {})}
+
+
 def is_brain(game: str, name: str) -> bool:
     """True for a registered name and for the path of a file."""
-    return name in BRAINS.get(game, {}) or is_path(name)
+    return name in every_brain(game) or is_path(name)
 
 
 def find_brain(game: str, name: str) -> BrainKind:
     """The brain of a registered name, or of the path of a file. Raises ChoiceError."""
-    kinds = BRAINS.get(game, {})
+    kinds = every_brain(game)
     if name in kinds or not is_path(name):
         require_one_of("brain", name, list(kinds))
         return kinds[name]
@@ -45,7 +53,7 @@ def find_brain(game: str, name: str) -> BrainKind:
 
 def known_brains(game: str, wanted: Sequence[str]) -> list[str]:
     """The registered names of a game, and the paths among the `wanted` names. Raises ChoiceError for unusable files."""
-    kinds = BRAINS.get(game, {})
+    kinds = every_brain(game)
     paths = [name for name in dict.fromkeys(wanted) if kinds and name not in kinds and is_path(name)]
     for path in paths:
         find_brain(game, path)

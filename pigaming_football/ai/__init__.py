@@ -2,10 +2,11 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from pigaming_app.api.brains import BrainKind, GameAI, levels
 from pigaming_app.api.networks import shipped_brain
-from pigaming_app.api.rules import uniform
+from pigaming_app.api.rules import HZ, uniform
 
 from .footballer import think
 from .mind import PERIOD, Mind
@@ -30,11 +31,11 @@ HANDS = (
     Strength(0.90, 6, 0.05, turbo=True, passes=True),
 )
 STRENGTHS = (
-    Strength(0.74, 36, 0.23, turbo=False, passes=False, form=0.48),
-    Strength(0.80, 28, 0.18, turbo=False, passes=True, form=0.45),
-    Strength(0.87, 22, 0.14, turbo=False, passes=True, form=0.4),
-    Strength(0.85, 17, 0.11, turbo=True, passes=True, form=0.36),
-    Strength(0.88, 12, 0.09, turbo=True, passes=True, form=0.28),
+    Strength(0.255, 55, 0.45, turbo=False, passes=False, form=0.4),
+    Strength(0.39, 50, 0.40, turbo=False, passes=False, form=0.5),
+    Strength(0.485, 45, 0.35, turbo=False, passes=False, form=0.5),
+    Strength(0.58, 38, 0.28, turbo=False, passes=True, form=0.5),
+    Strength(0.64, 34, 0.22, turbo=False, passes=True, form=0.45),
 )
 
 
@@ -50,6 +51,12 @@ def _footballer(name: str, strength: Strength) -> BrainKind:
     return BrainKind(name, Mind, think, reset, explain=explain)
 
 
+def person(traits: Any) -> BrainKind:
+    """What a person of certain `Traits` sees and wants."""
+    reaction, pace = round(traits.reaction * HZ), 0.36 + 0.21 * traits.tactics
+    return _footballer("person", Strength(pace, reaction, 2.0 * traits.aim, traits.turbo, traits.tactics > 0.5))
+
+
 NET = shipped_brain("net", "football", "football", Path(__file__).parents[1] / "brains", {"sharpness": 2.0})
 
 AI = GameAI(
@@ -59,4 +66,5 @@ AI = GameAI(
         "net": NET,
     },
     rivals=("level1", "level2", "level3", "level4", "level5", "net"),
+    person=person,
 )

@@ -10,6 +10,7 @@ from typing import Any, Protocol
 
 from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.kernel import kernel
 
 TURN_GAIN = 6.0  # rad/s for each rad between heading and stick
 FORESIGHT = 0.1  # s by which the heading is predicted: motor lag, and the age of a camera picture
@@ -46,6 +47,7 @@ def point_where_to_go(state: MatchState, seat: int, stick: Controller) -> tuple[
     return pointed(stick.angular, -stick.linear, robot.heading, robot.angular, state.rules.turn_rate)
 
 
+@kernel
 def pointed(x: float, y: float, heading: float, angular: float, turn_rate: float) -> tuple[float, float]:
     """Linear and angular values that drive in the direction (x, y), y down, each in [-1, 1].
 

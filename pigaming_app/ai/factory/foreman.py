@@ -13,6 +13,7 @@ In party it prefers rush orders and the fast machine, and takes whatever pallet 
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind, NoWeights
+from pigaming_app.ai.brain.traits import Traits
 from pigaming_app.ai.factory.driving import draw_back, drive_to, make_detour, update_patience
 from pigaming_app.ai.factory.mind import PERIOD, PLAN, back_out, detect_stuck, perhaps_slip
 from pigaming_app.ai.factory.task_allocation import ForemanMind, choose_job
@@ -82,6 +83,21 @@ def make_reset(speed: float, pause: float, noise: float, delay: float, dash: int
         mind.slip, mind.joint, mind.senses.delay = slip, joint, delay
 
     return fill
+
+
+def person(traits: Traits) -> BrainKind:
+    """What a person sees and wants: who knows the game thinks less after a job and considers its mate."""
+    novice = 1.0 - traits.tactics
+    reset = make_reset(
+        speed=1.0,
+        pause=2.0 * novice,
+        noise=0.5 * novice,
+        delay=traits.reaction,
+        dash=int(traits.turbo),
+        slip=0.3 * novice,
+        joint=int(traits.tactics > 0.5),
+    )
+    return BrainKind("person", ForemanMind, think, reset)
 
 
 HAND1 = BrainKind(

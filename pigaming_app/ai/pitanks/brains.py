@@ -1,8 +1,8 @@
 """The AIs of PiTanks by name: by hand, from tables, from a network. The five levels: one network with handicaps.
 
-All levels see others late and beside where they are, as people do. Weaker levels drive more slowly and save more shots,
-as beginners do. The two weakest go for one opponent after the other, so that they hunt nobody. No level skips
-decisions, which would look like a machine that hangs. The network alone is `net`: no person beats it.
+The levels are set against models of people (`ai/people`). All see others late and beside where they are, drive more
+slowly than people, and go for one opponent after the other, so that they hunt nobody; weaker ones save more shots. No
+level skips decisions, which would look like a machine that hangs. The network alone is `net`: no person beats it.
 """
 
 from pigaming_app.ai.game_ai import LEVELS as NAMES
@@ -13,12 +13,9 @@ from pigaming_app.ai.qlearning import table_files
 
 NETWORK = "pitanks"  # file in assets/brains
 TURNS = 6.0  # s
-HANDICAPS = (
-    {"delay": 0.4, "error": 0.3, "thrift": 0.586, "speed": 0.4, "turns": TURNS},
-    {"delay": 0.4, "error": 0.3, "thrift": 0.535, "speed": 0.528, "turns": TURNS},
-    {"delay": 0.4, "error": 0.3, "thrift": 0.508, "speed": 0.668},
-    {"delay": 0.39, "error": 0.3, "thrift": 0.489, "speed": 0.832},
-    {"delay": 0.38, "error": 0.3, "thrift": 0.476, "speed": 0.995},
+HANDICAPS = tuple(
+    {"delay": 0.4, "error": 0.3, "thrift": thrift, "speed": speed, "turns": TURNS}
+    for thrift, speed in ((1.0, 0.4), (0.89, 0.45), (0.81, 0.5), (0.68, 0.52), (0.58, 0.62))
 )
 LEVELS = tuple(
     shipped_brain(f"level{number}", "pitanks", NETWORK, handicap=handicap)
@@ -35,4 +32,5 @@ AI = GameAI(
         **{level.name: level for level in LEVELS},
     },
     rivals=(*NAMES, "q1", "q2", "fsm", "classic"),
+    person=gunner.person,
 )

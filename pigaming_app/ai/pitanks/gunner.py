@@ -14,6 +14,7 @@ from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind, NoWeights
 from pigaming_app.ai.brain.steering import approach, turn_stick
+from pigaming_app.ai.brain.traits import Traits
 from pigaming_app.ai.brain.unstick import escape
 from pigaming_app.ai.pitanks.fsm import BREAK_FREE, TankMind, detect_stuck, dodge, draw_error, go_to
 from pigaming_app.games.pitanks.observation import (
@@ -64,6 +65,7 @@ class GunnerMind(TankMind):
     watch: int  # ticks for which it watches a shot before it aims again
     swing: int  # ticks for which it swings aside after a shot
     loyalty: float  # px by which its target counts as nearer than other opponents
+    mines: int  # 1: lays them
     wait: int  # ticks until the next decision; at random at first, so that no seat is always ahead of another
     shot: int  # ticks since the last shot
 
@@ -265,7 +267,7 @@ def aim(mind: GunnerMind, other: PiTanksOther) -> float:
 def pull_trigger(obs: PiTanksObservation, mind: GunnerMind) -> int:
     """1 if the gun points at a target that can be hit, or if a mine can be laid at a distance."""
     other = obs.others[mind.target]
-    if obs.mine and other.distance > 150.0:
+    if obs.mine and mind.mines and other.distance > 150.0:
         return 1
     if not can_hit(obs, mind) or abs(aim(mind, other)) > 0.7 * RADIUS / (other.distance + 1.0) + 0.02:
         return 0
@@ -318,17 +320,35 @@ def has_room(match: PiTanks, obs: PiTanksObservation, direction: float) -> int:
     return is_clear(match, obs.x, obs.y, x, y, RADIUS)
 
 
-def make_reset(delay: float, spread: float, lead: float, watch: float, swing: float, loyalty: float) -> Any:
+def make_reset(
+    delay: float, spread: float, lead: float, watch: float, swing: float, loyalty: float, mines: int = 1
+) -> Any:
     """A `reset` for a strength: times in s, the rest as in the mind."""
 
     def fill(mind: GunnerMind, seed: int) -> None:
         mind.senses.delay, mind.spread, mind.lead, mind.loyalty = delay, spread, lead, loyalty
+        mind.mines = mines
         mind.senses.cover = 0
         mind.watch, mind.swing = round(watch * HZ), round(swing * HZ)
         mind.random, mind.target, mind.shot, mind.weave = seeded(seed), -1, 10 * HZ, 1.0
         mind.wait = 1 + int(uniform(mind) * PERIOD)
 
     return fill
+
+
+def person(traits: Traits) -> BrainKind:
+    """What a person sees and wants: who knows the game watches its shots less and changes the target sooner."""
+    novice = 1.0 - traits.tactics
+    reset = make_reset(
+        delay=traits.reaction,
+        spread=traits.aim,
+        lead=traits.prediction,
+        watch=0.8 * novice,
+        swing=1.2,
+        loyalty=100.0 + 250.0 * novice,
+        mines=int(traits.turbo),
+    )
+    return BrainKind("person", GunnerMind, think, reset)
 
 
 HAND1 = BrainKind("hand1", GunnerMind, think, make_reset(0.40, 0.14, 0.2, 0.8, 1.1, 350.0))

@@ -1,75 +1,35 @@
 """The AIs of Robot Race by name, and the driving styles with steering help.
 
-The five levels are four drivers by hand and a network. Neighbours win about a quarter and three quarters of their
-duels. Over a whole race the better driver would win nearly always, since robots do not slip. What makes it open is the
-form of the day, which varies more the lower the level. The lower levels also drive wider lines, start later, miss
-braking points, and see pads, boxes and oil later.
+The five levels are one driver by hand, set against models of people (`ai/people`), who are much slower than it could
+be. Over a whole race the better driver would win nearly always, since robots do not slip. What makes it open is the
+form of the day. The lower levels also drive wider lines, start later, miss braking points, and see pads, boxes and oil
+later. The network alone is `net`.
 """
+
+from functools import partial
 
 from pigaming_app.ai.brain.driving import point_where_to_go, turn_and_drive
 from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT, TURN, GameAI
+from pigaming_app.ai.game_ai import LEVELS as NAMES
 from pigaming_app.ai.networks.files import shipped_brain
-from pigaming_app.ai.race.racer import HAND1, HAND2, HAND3, Driver, racer
+from pigaming_app.ai.race.racer import HAND1, HAND2, HAND3, Driver, person, racer
 from pigaming_app.ai.race.steering_help import with_help
 
 NETWORK = "race"  # in assets/brains
-HAND_WRITTEN = (
-    Driver(
-        form=0.166,
-        line=0.95,
-        spread=13.0,
-        boost=0.15,
-        delay=0.3,
-        reaction=(5, 35),
-        care=0.03,
-        mistakes=0.01,
-        foresight=190.0,
-        alert=0.08,
-    ),
-    Driver(
-        form=0.133,
-        line=1.0,
-        spread=7.0,
-        boost=0.15,
-        delay=0.2,
-        reaction=(5, 25),
-        care=0.02,
-        mistakes=0.01,
-        foresight=240.0,
-        alert=0.18,
-    ),
-    Driver(
-        form=0.095,
-        line=1.0,
-        spread=4.0,
-        boost=0.15,
-        delay=0.1,
-        reaction=(2, 20),
-        care=0.02,
-        mistakes=0.0,
-        foresight=290.0,
-        alert=0.35,
-    ),
-    Driver(
-        form=0.058,
-        line=1.0,
-        spread=3.5,
-        boost=0.12,
-        delay=0.05,
-        reaction=(2, 20),
-        care=0.02,
-        mistakes=0.0,
-        foresight=380.0,
-        alert=1.0,
-    ),
+driver = partial(Driver, form=0.4, boost=0.15, reaction=(5, 30), care=0.03)
+DRIVERS = (
+    driver(speed=0.54, line=0.9, spread=12.0, delay=0.3, mistakes=0.01, foresight=190.0, alert=0.08),
+    driver(speed=0.62, line=0.95, spread=10.0, delay=0.3, mistakes=0.01, foresight=210.0, alert=0.1),
+    driver(speed=0.69, line=0.95, spread=8.0, delay=0.2, mistakes=0.01, foresight=240.0, alert=0.18),
+    driver(speed=0.77, line=1.0, spread=6.0, delay=0.1, mistakes=0.0, foresight=290.0, alert=0.35),
+    driver(speed=0.87, line=1.0, spread=4.0, delay=0.05, mistakes=0.0, foresight=380.0, alert=1.0),
 )
-LEVELS = (
-    *(racer(f"level{n}", driver) for n, driver in enumerate(HAND_WRITTEN, start=1)),
-    shipped_brain("level5", "race", NETWORK, handicap={"sharpness": 4.0, "form": 0.052, "delay": 0.35, "error": 0.2}),
-)
+LEVELS = tuple(racer(f"level{number}", driver) for number, driver in enumerate(DRIVERS, start=1))
+NET = shipped_brain("net", "race", NETWORK)
 
 AI = GameAI(
-    {kind.name: kind for kind in (HAND1, HAND2, HAND3, *LEVELS)},
+    {kind.name: kind for kind in (HAND1, HAND2, HAND3, NET, *LEVELS)},
+    rivals=(*NAMES, "net"),
     driving={
         TURN: turn_and_drive,
         POINT: point_where_to_go,
@@ -78,4 +38,5 @@ AI = GameAI(
         ONE_BUTTON: turn_and_drive,
     },
     boosts=True,
+    person=person,
 )

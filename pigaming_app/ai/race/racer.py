@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from math import atan2, cos, pi, sin, sqrt
 
 from pigaming_app.ai.brain.kind import BrainKind, NoWeights
+from pigaming_app.ai.brain.traits import Traits
 from pigaming_app.ai.brain.unstick import STUCK_DISTANCE, choose_escape, escape, ticks_stuck
 from pigaming_app.ai.race.overtaking import CLEAR, EDGE, LEEWAY, choose_lane, leader_speed
 from pigaming_app.games.race.observation import OTHERS, RaceObservation, RaceSenses, observe
@@ -24,7 +25,7 @@ from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import bell, seeded, uniform
-from pigaming_app.sim.world import Action
+from pigaming_app.sim.world import HZ, Action
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 LOOK = 115.0  # lookahead along the course, px
@@ -291,6 +292,24 @@ class Driver:
 def racer(name: str, driver: Driver) -> BrainKind:
     """The brain of a driver."""
     return BrainKind(name, RacerMind, think, driver.reset)
+
+
+def person(traits: Traits) -> BrainKind:
+    """What a person sees and wants: who knows the game keeps to the fastest line and looks farther ahead."""
+    novice, reaction = 1.0 - traits.tactics, round(traits.reaction * HZ)
+    driver = Driver(
+        form=0.0,
+        line=traits.tactics,
+        spread=100.0 * traits.aim,
+        boost=0.15 if traits.turbo else 2.0,
+        delay=traits.reaction,
+        reaction=(reaction // 2, reaction),
+        care=0.2 * novice,
+        mistakes=0.15 * novice,
+        foresight=160.0 + 220.0 * traits.tactics,
+        alert=0.03 + 0.97 * traits.tactics**2,
+    )
+    return racer("person", driver)
 
 
 HAND1 = racer(

@@ -1,0 +1,98 @@
+"""People by name, for every game whose AIs say what a person wants: `beginner`, `player`, `expert`, and `masher`.
+
+`masher` presses keys at random. The others are a brain of the game, which sees and wants, and hands between its wish
+and the robot.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from math import exp
+from typing import Any
+
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain.traits import Traits
+from pigaming_app.ai.game_ai import POINT, TURN, GameAI
+from pigaming_app.ai.people.hands import Hands, move
+from pigaming_app.ai.people.masher import MASHER
+from pigaming_app.games.simple import MatchState
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
+from pigaming_app.sim.rng import bell, seeded
+from pigaming_app.sim.world import HZ
+
+BEGINNER = Traits(  # a child of 8 on a keyboard
+    reaction=0.6, spread=0.3, decisions=2.5, timing=0.11, aim=0.26, prediction=0.0, lapses=6.0, lapse=1.5,
+    stick=0.0, tactics=0.1, turbo=False,
+)  # fmt: skip
+PLAYER = Traits(  # a teenager who knows the game, on a pad
+    reaction=0.42, spread=0.25, decisions=3.5, timing=0.07, aim=0.2, prediction=0.3, lapses=3.0, lapse=0.7,
+    stick=0.2, tactics=0.4, turbo=True,
+)  # fmt: skip
+EXPERT = Traits(  # an adult who plays often, on a pad
+    reaction=0.34, spread=0.15, decisions=4.0, timing=0.055, aim=0.17, prediction=0.6, lapses=1.5, lapse=0.5,
+    stick=0.17, tactics=0.7, turbo=True,
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Person:
+    """Traits, and the driving style of their device."""
+
+    traits: Traits
+    driving: str
+
+
+PEOPLE: Mapping[str, Person] = {
+    "beginner": Person(BEGINNER, TURN),
+    "player": Person(PLAYER, POINT),
+    "expert": Person(EXPERT, POINT),
+}
+
+
+def people(ai: GameAI) -> dict[str, BrainKind]:
+    """The people of a game by name; `masher` alone if its AIs do not say what a person wants."""
+    found = {MASHER.name: MASHER}
+    if ai.person:
+        found |= {name: person_brain(name, ai.person, person) for name, person in PEOPLE.items()}
+    return found
+
+
+def person_brain(name: str, wishes: Callable[[Traits], BrainKind], person: Person) -> BrainKind:
+    """The brain of a person in a game whose wishes are a brain by traits."""
+    inner = wishes(person.traits)
+
+    def reset(mind: Any, seed: int) -> None:
+        hands = mind.hands
+        hands.random = seeded(seed + 1)
+        traits = person.traits.slower(exp(2.0 * person.traits.spread * bell(hands)))
+        wishes(traits).begin(mind.inner, seed)
+        hands.stick, hands.point = traits.stick, int(person.driving == POINT)
+        hands.period, hands.timing = HZ / traits.decisions, HZ * traits.timing
+        hands.odds, hands.lapse = traits.lapses / (60.0 * HZ), HZ * traits.lapse
+        hands.turbo = int(traits.turbo)
+
+    return BrainKind(name, _mind_record(inner.mind), _make_think(inner.think), reset, inner.weights)
+
+
+@cache
+def _mind_record(inner: type) -> type:
+    """The record of the mind of a person whose wishes have the record `inner`."""
+    hints = {"hands": Hands, "inner": inner}
+    return record(type("PersonMind", (), {"__annotations__": hints, "__module__": __name__}))
+
+
+@cache
+def _make_think(wish: Callable[[Any, int, Any, Any], None]) -> Callable[[Any, int, Any, Any], None]:
+    """The decision function of people with these wishes."""
+
+    def think(match: MatchState, seat: int, mind: Any, weights: Any) -> None:
+        action, wished = match.actions[seat], mind.hands.wish
+        action.linear, action.angular = wished.linear, wished.angular
+        action.fire, action.turbo, action.aim = wished.fire, wished.turbo, wished.aim
+        wish(match, seat, mind.inner, weights)
+        wished.linear, wished.angular = action.linear, action.angular
+        wished.fire, wished.turbo, wished.aim = action.fire, action.turbo, action.aim
+        move(match, seat, mind.hands)
+
+    return kernel(think)
