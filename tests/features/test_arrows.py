@@ -16,6 +16,7 @@ ALLOWED = {
     ("editor", "factory"): "its tools for this game",
     ("brain", "factory"): "its explanations of this game, and the signs of its crates",
     ("gym", "factory"): "its rewards of this game",
+    ("balance", "learning"): "its compiled loops",
     ("events", "learning"): "its compiled loops, for `event run --headless`",
 }
 

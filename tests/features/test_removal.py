@@ -38,7 +38,7 @@ def without(rooms: Sequence[str], home: Path, *words: str) -> "subprocess.Comple
 
 def test_every_feature_is_there() -> None:
     assert tuple(feature.name for feature in features()) == NAMES
-    assert {*ROOMS} - {*NAMES} == {"learning", "gym", "bench", "bundle", "onnx", "factory"}
+    assert {*ROOMS} - {*NAMES} == {"learning", "gym", "bench", "bundle", "onnx", "factory", "balance"}
     for feature in every_feature():
         places = [ROOT / "pigaming_app" / room.replace(".", "/") for room in feature.rooms]
         assert all(place.is_dir() or place.with_suffix(".py").is_file() for place in places), feature.name

@@ -1,8 +1,9 @@
 """Whole matches of one game, each with brains of its own on the seats, in one loop, plain or compiled."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from types import MappingProxyType
 from typing import Any
 
 from pigaming_app.ai.brain.kind import IDLE, BrainKind
@@ -23,10 +24,15 @@ OFF = "off"  # an empty seat
 class LineUps:
     """Plays matches among some brains. The loop is compiled once for all of them."""
 
-    def __init__(self, game: str, brains: Sequence[str], fast: bool) -> None:
-        """`fast`: compiled; needs numba, and no brain that is `plain`. Raises ChoiceError for unknown brains."""
+    def __init__(
+        self, game: str, brains: Sequence[str], fast: bool, instead: Mapping[str, BrainKind] = MappingProxyType({})
+    ) -> None:
+        """`fast`: compiled; needs numba, and no brain that is `plain`. Raises ChoiceError for unknown brains.
+
+        `instead`: brains in place of those of these names.
+        """
         self.game, self.fast = game, fast
-        self.kinds: dict[str, BrainKind] = {OFF: IDLE} | {name: find_brain(game, name) for name in brains}
+        self.kinds: dict[str, BrainKind] = {OFF: IDLE} | {name: find_brain(game, name) for name in brains} | {**instead}
         self._cast = cast_with_baselines(self.kinds.values(), fast)
 
     def played(self, setups: Sequence[Setup]) -> list[Any]:

@@ -1,88 +1,116 @@
 """Matches of people against AIs: how often a person wins against three AIs, or with a mate against two."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain.traits import NUMBERS
 from pigaming_app.ai.learning.league import wilson
 from pigaming_app.ai.learning.line_ups import LineUps
-from pigaming_app.ai.registry import known_brains
+from pigaming_app.ai.people.models import PEOPLE, people, person_brain
+from pigaming_app.ai.registry import AIS, known_brains
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Setup
+from pigaming_app.games.game import Game, Setup, Variant
 from pigaming_app.games.match import standings
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import make_setup
+from pigaming_app.games.setup import ChoiceError, make_setup, require_one_of
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import ROBOTS
 
 
 @dataclass(frozen=True)
+class Trial:
+    """Matches of a game: over all its arenas and the four seats of the person in turn, with one seed each."""
+
+    game: str
+    matches: int
+    seed: int = 0
+    variant: str | None = None
+
+    @property
+    def rules(self) -> Variant:
+        """The set of rules, the game's first by default."""
+        return games()[self.game].variants[self.variant] if self.variant else games()[self.game].default
+
+    def setups(self, person: str, level: str) -> Iterator[tuple[Setup, int]]:
+        """Each setup, and the person's seat. Mates are of the person's kind. Raises ChoiceError."""
+        names, teams = arenas(self.game), self.rules.teams
+        known = known_brains(self.game, [person, level])
+        for i in range(self.matches):
+            seat = i % ROBOTS
+            brains = [person if team == teams[seat] else level for team in teams]
+            chosen = names[i // ROBOTS % len(names)], None, self.seed + i, self.rules.name, None
+            yield make_setup(self.game, brains, *chosen, known), seat
+
+
+@dataclass(frozen=True)
 class Place:
-    """Result of a person's matches. `wins`: matches that they or their team won; a tie of n winners counts 1/n."""
+    """Result of a person. `wins`: matches that their team won, of n level teams at the top 1/n each."""
 
     person: str
     level: str
     matches: int
     wins: float
-    median_score: float
+    mean_score: float  # of the person alone
 
     @property
     def share(self) -> float:
+        """Share of the matches that they won."""
         return self.wins / self.matches
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Wilson's interval, 95 %."""
+        """Wilson's interval of that share, 95 %."""
         return wilson(round(self.wins), self.matches)
 
 
-def setups(
-    game: str, person: str, level: str, matches: int, seed: int, variant: str | None = None, goal: int | None = None
-) -> Iterator[tuple[Setup, int]]:
-    """Setups over all arenas and seats in turn, and the person's seat. A mate is of the same kind as the person."""
-    rules, names = games()[game], arenas(game)
-    teams = (rules.variants[variant] if variant else rules.default).teams
-    known = known_brains(game, [person, level])
-    for i in range(matches):
-        seat = i % ROBOTS
-        brains = [person if teams[j] == teams[seat] else level for j in range(ROBOTS)]
-        arena = names[i // ROBOTS % len(names)]
-        yield make_setup(game, brains, arena, None, seed + i, variant, None, known, goal), seat
+def places(trial: Trial, persons: Sequence[str], levels: Sequence[str], scale: str | None = None) -> list[Place]:
+    """The place of each of these people against each of these AIs. Raises ChoiceError or ArenaError.
+
+    `scale`: a trait of the people and a factor, such as "reaction=1.3".
+    """
+    if wrong := [name for name in persons if not is_person(trial.game, name)]:
+        raise ChoiceError(f"no model of people '{wrong[0]}' in {trial.game}")
+    line_ups = LineUps(trial.game, [*persons, *levels], can_compile(), scaled(trial.game, scale))
+    return [_place(trial, person, level, line_ups) for person in persons for level in levels]
 
 
-def places(
-    game: str,
-    people: Sequence[str],
-    levels: Sequence[str],
-    matches: int,
-    seed: int = 0,
-    variant: str | None = None,
-    fast: bool | None = None,
-) -> list[Place]:
-    """The place of each of these people against each of these levels. Raises ChoiceError or ArenaError."""
-    line_ups = LineUps(game, [*people, *levels], can_compile() if fast is None else fast)
-    return [
-        _place(person, level, [*setups(game, person, level, matches, seed, variant)], line_ups)
-        for person in people
-        for level in levels
-    ]
+def is_person(game: str, name: str) -> bool:
+    """True for the name of somebody whom a game has a model of."""
+    return name in people(AIS[game])
 
 
-def _place(person: str, level: str, trial: Sequence[tuple[Setup, int]], line_ups: LineUps) -> Place:
-    ends = line_ups.played([setup for setup, _ in trial])
-    game, wins, scores = games()[line_ups.game], 0.0, []
-    for (_, seat), end in zip(trial, ends, strict=True):
-        wins += win(game, end, seat)
-        scores.append(end.robots[seat].score)
-    return Place(person, level, len(trial), wins, sorted(scores)[len(scores) // 2])
+def scaled(game: str, scale: str | None) -> dict[str, BrainKind]:
+    """The people of a game with one trait scaled, as in "reaction=1.3". Raises ChoiceError."""
+    if not scale:
+        return {}
+    trait, _, factor = scale.partition("=")
+    require_one_of("trait", trait, NUMBERS)
+    try:
+        share = float(factor)
+    except ValueError:
+        raise ChoiceError(f"{scale}: not a trait and a factor, such as reaction=1.3") from None
+    if not 0.0 < share <= 10.0:
+        raise ChoiceError(f"{scale}: the factor is not between 0 and 10")
+    wishes = AIS[game].person
+    changed = {name: replace(person, traits=person.traits.scaled(trait, share)) for name, person in PEOPLE.items()}
+    return {name: person_brain(name, wishes, person) for name, person in changed.items()} if wishes else {}
 
 
-def win(game: Any, end: Any, seat: int) -> float:
-    """The seat's share of the victory: 1 / n among n winners' teams, 0 for others."""
-    _, winners = standings(game, end)
-    if seat in winners:
-        return 1.0
-    keys = [game.ranking_key(end, i) for i in range(ROBOTS) if end.robots[i].present]
-    best = [i for i in range(ROBOTS) if end.robots[i].present and game.ranking_key(end, i) == max(keys)]
-    teams = {end.robots[i].team for i in best}
-    return 1.0 / len(teams) if not winners and end.robots[seat].team in teams else 0.0
+def _place(trial: Trial, person: str, level: str, line_ups: LineUps) -> Place:
+    game, setups = games()[trial.game], [*trial.setups(person, level)]
+    ends = line_ups.played([setup for setup, _ in setups])
+    seats = [seat for _, seat in setups]
+    wins = sum(victory(game, end, seat) for end, seat in zip(ends, seats, strict=True))
+    score = sum(end.robots[seat].score for end, seat in zip(ends, seats, strict=True)) / len(ends)
+    return Place(person, level, len(ends), wins, score)
+
+
+def victory(game: Game, end: Any, seat: int) -> float:
+    """The share of a seat's team in the victory: 1, of n level teams at the top 1/n, else 0."""
+    keys, winners = standings(game, end)
+    if winners:
+        return float(seat in winners)
+    best = {end.robots[i].team for i, key in keys.items() if key == max(keys.values())}
+    return 1.0 / len(best) if end.robots[seat].team in best and len(best) > 1 else 0.0
