@@ -114,7 +114,8 @@ def standout(award: Award, player: Player, players: Sequence[Player]) -> float |
     value = player.figures[award.figure]
     if value != (min(known) if award.least else max(known)):
         return None
-    score = abs(value - fmean(known)) / pstdev(known) if max(known) > min(known) else 0.0
     others = sorted(known, reverse=not award.least)[1:]
+    alone = 0.0 if others else 1.0  # nobody else has the figure
+    score = abs(value - fmean(known)) / pstdev(known) if max(known) > min(known) else alone
     lead = abs(others[0] - value) / max(abs(others[0]), abs(value), 1e-9) if others else 1.0
     return award.weight * (score + LEAD * lead) * (SHARED if others and others[0] == value else 1.0)

@@ -65,6 +65,11 @@ def test_the_least_counts_where_less_is_better() -> None:
     assert keys(found) == ["delivered", "bumps"]
 
 
+def test_the_only_one_who_scored_was_the_first() -> None:
+    found = awarded(players({"first": 9.0, "distance": 900.0}, {"distance": 800.0}))
+    assert found[0].key == "first"
+
+
 def test_the_most_of_nothing_is_no_award() -> None:
     found = awarded(players({"hits": 0.0, "aim": 0.0}, {"hits": 0.0, "aim": 0.0}), PITANKS)
     assert not {"hits", "aim"} & {award.key for award in found.values()}
