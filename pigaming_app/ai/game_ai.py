@@ -13,7 +13,7 @@ LEVELS = ("level1", "level2", "level3", "level4", "level5")  # in every game; on
 TURN, POINT = "turn", "point"
 HELPED_TURN, HELPED_POINT = "helped_turn", "helped_point"  # with steering help
 ONE_BUTTON = "one_button"  # an AI drives; its entry in `driving` shows a stick on pages without a match
-CHAUFFEUR = "level3"  # the AI that drives for one button, and for somebody who is away
+STAND_IN = "level3"  # drives for somebody who is away
 USUAL_DRIVING: Mapping[str, Driving] = {TURN: turn_and_drive, POINT: point_where_to_go, ONE_BUTTON: turn_and_drive}
 
 
@@ -24,6 +24,7 @@ class GameAI:
     kinds: Mapping[str, BrainKind]
     rivals: tuple[str, ...] = LEVELS  # offered in the lobby, in the order in which it steps through them
     driving: Mapping[str, Driving] = field(default_factory=lambda: USUAL_DRIVING)  # styles, in the lobby's order
+    chauffeur: str = LEVELS[-1]  # drives for one button
     boosts: bool = False  # the one button is the turbo too, where there may be nothing to fire
     person: Callable[[Traits], BrainKind] | None = None  # what a person sees and wants; `ai/people` adds the hands
 
@@ -33,6 +34,8 @@ class GameAI:
             raise ValueError(f"kinds: {', '.join(missing)} missing")
         if wrong := [name for name, kind in self.kinds.items() if not isinstance(kind, BrainKind)]:
             raise ValueError(f"kinds: {wrong[0]} is no BrainKind")
+        if self.chauffeur not in self.kinds:
+            raise ValueError(f"chauffeur: {self.chauffeur} is not in kinds")
         if not self.rivals or {*self.rivals} - self.brains.keys():
             raise ValueError(f"rivals: not all of {', '.join(self.rivals) or 'none'} are in kinds")
         if not {TURN, POINT} <= {*self.driving} <= {TURN, POINT, HELPED_TURN, HELPED_POINT, ONE_BUTTON}:

@@ -8,7 +8,7 @@ from pigaming_app.ai.brain.archive import BrainFileError
 from pigaming_app.ai.brain.driving import Controller
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer, HumanPlayer, OneButtonPlayer
 from pigaming_app.ai.brain_files import is_path, read_brain
-from pigaming_app.ai.game_ai import CHAUFFEUR, LEVELS, ONE_BUTTON, RANDOM_ONLY, GameAI
+from pigaming_app.ai.game_ai import LEVELS, ONE_BUTTON, RANDOM_ONLY, GameAI
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import OURS, games
@@ -74,7 +74,7 @@ def make_person(game: str, style: str, read: Callable[[], Controller], seed: int
     """A person who drives in a style, one of `AIS[game].driving`; `read` polls the device."""
     if style != ONE_BUTTON:
         return HumanPlayer(read, AIS[game].driving[style])
-    return OneButtonPlayer(read, make_brain(game, CHAUFFEUR, seed), AIS[game].boosts)
+    return OneButtonPlayer(read, make_brain(game, AIS[game].chauffeur, seed), AIS[game].boosts)
 
 
 def new_match(setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant, arena: Arena | None = None) -> Match:

@@ -67,4 +67,5 @@ AI = GameAI(
     },
     rivals=("level1", "level2", "level3", "level4", "level5", "net"),
     person=person,
+    chauffeur="net",
 )

@@ -48,7 +48,7 @@ def wedge(degrees: float) -> Drawing:
 
 def is_freed(drawing: Drawing, x: float, y: float, seed: int) -> bool:
     """True if robots of level 5 get a ball that rests at (x, y) away from there before it is dropped anew."""
-    match = match_of("football", ["level5"] * 4, parse("football", drawing.text(), "a.toml"), 2.0, seed, "standard")
+    match = match_of("football", ["hand3"] * 4, parse("football", drawing.text(), "a.toml"), 2.0, seed, "standard")
     ball = match.state.ball
     ball.out, ball.x, ball.y, ball.vx, ball.vy, ball.anchor_x, ball.anchor_y = 0, x, y, 0.0, 0.0, x, y
     while not ball.out and hypot(ball.x - x, ball.y - y) < 150.0:

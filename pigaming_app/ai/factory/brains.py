@@ -27,4 +27,5 @@ PLANNER = BrainKind("planner", PlannerMind, think, make_reset())
 AI = GameAI(
     {kind.name: kind for kind in (foreman.HAND1, foreman.HAND2, foreman.HAND3, PLANNER, *LEVELS)},
     person=foreman.person,
+    chauffeur="planner",
 )

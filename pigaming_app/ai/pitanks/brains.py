@@ -33,4 +33,5 @@ AI = GameAI(
     },
     rivals=(*NAMES, "q1", "q2", "fsm", "classic"),
     person=gunner.person,
+    chauffeur="net",
 )

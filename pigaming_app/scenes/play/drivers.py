@@ -12,7 +12,7 @@ from collections.abc import Collection, Sequence
 
 import pygame
 
-from pigaming_app.ai.game_ai import CHAUFFEUR, ONE_BUTTON
+from pigaming_app.ai.game_ai import ONE_BUTTON, STAND_IN
 from pigaming_app.ai.registry import make_brain, make_person
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
@@ -203,10 +203,10 @@ class Drivers:
         brain = (
             make_person(game, self.style_of(device), lambda: self._read(seat, device), new_seed())
             if device
-            else make_brain(game, CHAUFFEUR, new_seed())
+            else make_brain(game, STAND_IN, new_seed())
         )
         self.match.sit(seat, brain)
-        self.runner.players[seat] = "human" if device else CHAUFFEUR
+        self.runner.players[seat] = "human" if device else STAND_IN
 
     def _read(self, seat: int, device: Device) -> StickState:
         """The state of a device for this tick."""

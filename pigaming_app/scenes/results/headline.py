@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from pigaming_app.ai.brain_files import display_name
-from pigaming_app.ai.game_ai import CHAUFFEUR
+from pigaming_app.ai.game_ai import STAND_IN
 from pigaming_app.ai.registry import AIS
 from pigaming_app.games.game import ALLIES, PAIRS, Outcome, Setup
 from pigaming_app.games.registry import games
@@ -41,7 +41,7 @@ class EndedMatch:
     def brain(self, seat: int) -> str:
         """The AI that drove a seat at the end; empty: a person."""
         brain = self.setup.seats[seat].brain
-        return "" if self.devices[seat] else CHAUFFEUR if brain == "human" else brain
+        return "" if self.devices[seat] else STAND_IN if brain == "human" else brain
 
 
 def headline(words: Words, ended: EndedMatch) -> str:

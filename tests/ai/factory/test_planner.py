@@ -35,7 +35,7 @@ NAMES = [level.name for level in LEVELS]
 @cache
 def alone(floor, seed=1):
     """A match of two mates without rivals, and the distance of the nearer one from each product when it is done, px."""
-    match = match_of("factory", ("level5", "off", "level5", "off"), floor, seed=seed)
+    match = match_of("factory", ("planner", "off", "planner", "off"), floor, seed=seed)
     state, gaps = match.state, []
     while not match.over:
         match.tick()
@@ -95,7 +95,7 @@ def test_the_bound_is_that_of_an_exhaustive_search():
 
 @pytest.mark.parametrize("floor", one_in(3, FLOORS))
 def test_four_of_the_best_spoil_nothing_and_one_team_delivers_everything(floor):
-    match = match_of("factory", ("level5",) * 4, floor, seed=2)
+    match = match_of("factory", ("planner",) * 4, floor, seed=2)
     while not match.over:
         match.tick()
         for seat in range(4):
@@ -112,7 +112,7 @@ def test_the_way_round_a_machine_is_the_shorter_one():
     shop = Shop(present=(0,))
     out, machine = shop.output_of(A), shop.state.machines[shop.slots[shop.output_of(A)].machine]
     for side in (-30.0, 30.0):
-        brain = make_brain("factory", "level5", 0)
+        brain = make_brain("factory", "planner", 0)
         shop.give(shop.own(ICE)[0], HALF, out)
         shop.rails.poses[0] = (machine.x + side, machine.y - 150.0, 1.57)
         shop.match.sit(0, brain)
@@ -155,7 +155,7 @@ def test_no_level_stands_still_for_long(variant, level):
 @pytest.mark.parametrize("floor", FLOORS)
 def test_the_best_are_seldom_far_from_the_bound(floor):
     """The median of 30 matches of two alone."""
-    one, two, three, four = (Seat(name, i % 2) for i, name in enumerate(("level5", "off") * 2))
+    one, two, three, four = (Seat(name, i % 2) for i, name in enumerate(("planner", "off") * 2))
     setups = [Setup("factory", floor, (one, two, three, four), 5.0, seed, "standard", 4) for seed in range(1, 31)]
     batch = Batch(setups, [LEVELS[-1], None, LEVELS[-1], None], can_compile())
     batch.play(5 * 60 * HZ)
