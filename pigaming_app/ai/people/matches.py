@@ -27,6 +27,7 @@ class Trial:
     matches: int
     seed: int = 0
     variant: str | None = None
+    minutes: float | None = None
 
     @property
     def rules(self) -> Variant:
@@ -40,7 +41,7 @@ class Trial:
         for i in range(self.matches):
             seat = i % ROBOTS
             brains = [person if team == teams[seat] else level for team in teams]
-            chosen = names[i // ROBOTS % len(names)], None, self.seed + i, self.rules.name, None
+            chosen = names[i // ROBOTS % len(names)], self.minutes, self.seed + i, self.rules.name, None
             yield make_setup(self.game, brains, *chosen, known), seat
 
 

@@ -1,9 +1,9 @@
 """All blocks by name."""
 
-from tests.bench.figures import Derived, Measured, derived, duels, fairness, networks, robots, seeds, speed
+from tests.bench.figures import Derived, Measured, derived, duels, fairness, networks, people, robots, seeds, speed
 
 OPPONENTS, NETWORKS, HARDWARE = "docs/opponents.md", "docs/networks.md", "docs/hardware.md"
-FOOTBALL, THESIS = "docs/football.md", "docs/thesis.md"
+FOOTBALL, THESIS, PEOPLE = "docs/football.md", "docs/thesis.md", "docs/people.md"
 MAIN, BENCH = "python3 main.py", ".venv/bin/python -m tests.bench."
 FAIR, SEEDS = f"{BENCH}fairness", f"{BENCH}reproduce_table --seeds {seeds.FIRST} {seeds.LAST}"
 FIVE = "level1 level2 level3 level4 level5"
@@ -13,6 +13,7 @@ DERIVED = {
     "bundles": Derived("docs/bundle.md", derived.bundles),
     "games": Derived(THESIS, derived.games_in_numbers),
     "bound": Derived(OPPONENTS, derived.makespan_bound),
+    "traits": Derived(PEOPLE, people.traits),
 }
 MEASURED = {
     "speed": Measured("README.md", f"{MAIN} bench pitanks", speed.table, 3),
@@ -36,6 +37,10 @@ MEASURED = {
     "football network": Measured(FOOTBALL, f"{BENCH}network_football net --matches 60", networks.football, 4),
     "fair football": Measured(
         FOOTBALL, f"{FAIR} football --variant V --matches 960 --brains {LEVEL5}", fairness.football, 4
+    ),
+    "people": Measured(PEOPLE, f"{MAIN} people GAME", people.wins, 20),
+    "sensitivity": Measured(
+        PEOPLE, f"{MAIN} people pitanks LEVEL --people NAME --scale TRAIT=FACTOR", people.sensitivity, 10
     ),
     "network": Measured(NETWORKS, f"{BENCH}network_wins net --matches {networks.EACH}", networks.wins, 10),
     "racer": Measured(NETWORKS, f"{BENCH}network_races {networks.RACER}", networks.races, 4),
