@@ -39,6 +39,13 @@ class Playing:
         self.held = on
         (self.channel.pause if on else self.channel.unpause)()
 
+    def end(self) -> None:
+        """Fade out; what is held is silent and ends at once."""
+        if self.held:
+            self.channel.stop()
+        else:
+            self.channel.fadeout(FADE)
+
     @property
     def position(self) -> float:
         """Seconds played so far."""
@@ -63,7 +70,7 @@ class Music:
         self._held = self._finale = False
         self._request = self._number = 0  # of the latest theme that was wanted; of the channel that played last
         self._playing: Playing | None = None
-        self._work: Thread | None = None  # the latest
+        self._works: list[Thread] = []  # those that have not ended
         self._lock = RLock()
 
     def open(self, folders: Sequence[Path]) -> None:
@@ -74,13 +81,15 @@ class Music:
 
     def wait(self) -> None:
         """Wait until what was wanted plays."""
-        if self._work:
-            self._work.join()
+        for work in self._works:
+            work.join()
 
     def close(self) -> None:
+        """Forget what plays; nothing uses the mixer any more."""
         with self._lock:
             self._folders, self._playing = (), None
             self._request += 1
+        self.wait()
 
     def play(self, theme: str | None) -> None:
         """Fade to a theme, from its beginning, or go on with it if it plays or is held; None: fade out."""
@@ -119,8 +128,7 @@ class Music:
 
     def _fade_out(self) -> None:
         if self._playing:
-            self._playing.channel.unpause()  # a paused channel does not fade
-            self._playing.channel.fadeout(1 if self._playing.held else FADE)
+            self._playing.end()
             self._playing = None
 
     def _load(self) -> None:
@@ -130,10 +138,12 @@ class Music:
             self._start(Thread(target=self._begin, args=(self.theme, self._request), name="music", daemon=True))
 
     def _start(self, work: Thread) -> None:
-        self._work = work
         work.start()
+        self._works = [*(other for other in self._works if other.is_alive()), work]
 
     def _begin(self, theme: str, request: int) -> None:
+        if request != self._request:
+            return
         sound = self._sound(f"theme_{theme}")
         name = theme if sound else DEFAULT
         sound, extra = sound or self._sound(f"theme_{name}"), self._sound(f"finale_{name}")

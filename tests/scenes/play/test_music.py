@@ -4,7 +4,6 @@ import pytest
 
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.play.pause import Pause
-from pigaming_app.scenes.play.runner import FINALE
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.results.winner import WinnersMoment
@@ -28,9 +27,9 @@ def test_each_game_has_its_theme(arcade: Arcade, game: str) -> None:
 
 def test_a_match_from_countdown_to_results(arcade: Arcade) -> None:
     scene = opened(arcade, setup("human level1 off off", minutes=1.0))
-    scene.match.state.tick = round((60.0 - FINALE - 0.5) * 50)
+    scene.match.state.tick = round(39.5 * 50)
     arcade.until(lambda: "finale" in arcade.sounds.themes)
-    assert FINALE - 0.1 <= scene.match.seconds_left <= FINALE
+    assert 19.9 <= scene.match.seconds_left <= 20.0
     scene.match.state.tick = 60 * 50 - 10
     arcade.until(lambda: scene.match.over)
     arcade.frame()
