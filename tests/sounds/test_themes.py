@@ -1,5 +1,6 @@
 """The themes of title and games, and their finales: loops that run into themselves, of even loudness."""
 
+import math
 from functools import cache
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 
 from assets.sounds import render, score
+from assets.sounds.effects import PLAYERS
 from assets.sounds.score import Part, Score
 from assets.sounds.synth import RATE, pitch
 from pigaming_app.games.registry import games
@@ -37,6 +39,19 @@ def test_each_theme_has_its_own_tempo_and_key_and_the_title_is_the_calmest() -> 
     assert len({each.tempo for each in scores.values()}) == len({each.chords[0][0] for each in scores.values()}) == 5
     assert min(scores, key=lambda name: scores[name].tempo) == "title"
     assert all(30.0 <= each.size / RATE <= 60.0 for each in scores.values())
+
+
+@pytest.mark.parametrize("name", sorted(SCORES))
+def test_the_players_pitches_are_notes_of_each_theme(name: str) -> None:
+    written = score.read(SCORES[name])
+    lead = {
+        written.hz(note, int(at))
+        for at, _, step in written.parts[0].steps(len(written.chords))
+        for note in step.split("+")
+    }
+    notes = {round(12 * math.log2(hz / 440.0)) % 12 for hz in lead.union(*written.chords)}
+    assert notes >= {round(12 * math.log2(pitch(note) / 440.0)) % 12 for note in PLAYERS}
+    assert len(notes) <= 9, "a key, and at most two notes that lead elsewhere"
 
 
 @each_file
@@ -94,6 +109,17 @@ def test_a_tone_of_the_chord_has_its_octave() -> None:
     chord = [pitch(note) for note in ("C3", "E3", "G3", "B3")]
     theme = Score(120.0, [chord], [])
     assert [theme.hz(name, 0) for name in ("1", "3'", "2,", "A4")] == [chord[0], 2 * chord[2], chord[1] / 2, 440.0]
+
+
+def test_a_score_from_elsewhere_is_rendered_beside_it(tmp_path: Path) -> None:
+    path = tmp_path / "theme_tag.toml"
+    part = 'voice = "{}"\nlevel = 0.2\nnotes = "{}"\nfinale = {}'
+    parts = part.format("bell", "1 4", "false"), part.format("hat", "x.", "true")
+    path.write_text("\n[[part]]\n".join(('tempo = 240\nchords = ["C3 E3 G3 C4"]', *parts)))
+    theme, finale = render.rendered([path])
+    assert [theme[0].name, finale[0].name] == ["theme_tag.ogg", "finale_tag.ogg"]
+    assert theme[0].parent == finale[0].parent == tmp_path
+    assert theme[1].shape == finale[1].shape == (RATE, 2), "one bar of four quarter notes"
 
 
 def test_what_rings_on_beyond_the_end_sounds_at_the_beginning() -> None:
