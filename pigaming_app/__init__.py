@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-__version__ = "2.0.0"
+__version__ = "2.1.0"
 
 _PACKAGE = Path(__file__).resolve().parent
 ROOT = _PACKAGE.parent  # working directory for `python -m pigaming_app.…`

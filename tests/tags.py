@@ -1,6 +1,6 @@
 """Files of each tag, which its successors read: `tests/data/tags/VERSION` has a small one of each kind.
 
-python -m tests.tags --write 2.0.0
+python -m tests.tags --write 2.1.0
 """
 
 import sys
