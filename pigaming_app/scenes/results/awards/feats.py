@@ -31,12 +31,12 @@ class Tally:
         self.taken = 0.0  # hits
         self.samples = self.unhit = self.escape = 0  # all; those since the last hit, and the most of these
 
-    def add(self, robot: Any, near: float) -> None:
-        """One sample; `near`: px to the nearest robot."""
+    def add(self, robot: Any, backwards: bool, near: float) -> None:
+        """One sample. `backwards`: its driver wants that, it is not pushed; `near`: px to the nearest robot."""
         self.samples += 1
         sums, linear = self.sums, robot.linear
         sums["distance"] += abs(linear)
-        sums["reverse"] += max(0.0, -linear)
+        sums["reverse"] += max(0.0, -linear) if backwards else 0.0
         sums["turning"] += abs(robot.angular)
         sums["turbo"] += robot.boosting
         sums["rest"] += abs(linear) < RESTING
@@ -66,10 +66,10 @@ class FeatRecorder:
         if match is not self.match:
             self._begin(match)
         seats = [seat for seat in range(ROBOTS) if match.state.robots[seat].present]
-        near = nearest(match.state, seats)
+        near, state = nearest(match.state, seats), match.state
         for seat in seats:
             if not finished(match, seat):
-                self.tallies[seat].add(match.state.robots[seat], near[seat])
+                self.tallies[seat].add(state.robots[seat], state.actions[seat].linear < 0.0, near[seat])
             if self.counts_hits:
                 self.tallies[seat].count_hits(match.game.stats(match.state, seat)["taken"])
         if match.state.tick % HZ == 0:

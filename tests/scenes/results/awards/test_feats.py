@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from pigaming_app.scenes.results.awards.feats import EVERY, FeatRecorder
-from pigaming_app.sim.world import DT, HZ
+from pigaming_app.sim.world import DT, HZ, Action
 from tests.matches import match_of
 
 
@@ -38,7 +38,7 @@ def scripted(scores: list[list[int]], taken: list[list[int]] | None = None, goal
     robots = [SimpleNamespace(**dict.fromkeys(("x", "y", "linear", "angular", "boosting"), 0.0)) for _ in range(4)]
     for seat, robot in enumerate(robots):
         robot.present, robot.team, robot.score = seat < len(scores[0]), seat, 0
-    state = SimpleNamespace(tick=0, robots=robots, taken=[0, 0, 0, 0])
+    state = SimpleNamespace(tick=0, robots=robots, actions=[Action() for _ in robots], taken=[0, 0, 0, 0])
     game = SimpleNamespace(
         timed=goal > 0,
         stats=lambda state, seat: {"taken": state.taken[seat]} if taken else {},
@@ -78,6 +78,20 @@ def test_a_driver_who_waits_at_the_finish_is_not_called_patient() -> None:
     """The first seat has both laps after two seconds, the second after five."""
     recorder = scripted([[1, 0], [2, 1], [2, 1], [2, 1], [2, 2], [2, 2]], goal=2)
     assert [recorder.feats(seat)["rest"] for seat in (0, 1)] == pytest.approx([2.0, 5.0], abs=0.11)
+
+
+def test_a_robot_that_is_knocked_back_does_not_drive_in_reverse() -> None:
+    """By the rules of the party a hit robot moves back 72 px, whatever its driver does."""
+    match, recorder = match_of("pitanks", "idle idle", variant="party"), FeatRecorder()
+    start = match.state.robots[1].x, match.state.robots[1].y
+    match.state.tanks[1].knocked_out = match.state.rules.knockout
+    for _ in range(HZ):
+        match.tick()
+        recorder.watch(match)
+    robot = match.state.robots[1]
+    assert hypot(robot.x - start[0], robot.y - start[1]) > 50.0
+    assert recorder.feats(1)["distance"] > 50.0
+    assert recorder.feats(1)["reverse"] == 0.0
 
 
 def test_the_recorder_changes_nothing_and_works_once_in_five_ticks() -> None:
