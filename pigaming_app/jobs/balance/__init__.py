@@ -1,3 +1,6 @@
 """Measures of fun and fairness: people as models against the opponents."""
 
-JOBS = {"people": "how often people, as models, win against the AIs"}
+JOBS = {
+    "fairness": "wins by seat and arena of equal AIs",
+    "people": "how often people, as models, win against the AIs",
+}
