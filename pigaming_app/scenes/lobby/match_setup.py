@@ -5,7 +5,6 @@ Any seated device may operate it: up and down select a row, left and right chang
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import lru_cache
 
 import pygame
 
@@ -20,6 +19,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, change_rules, last_choice, playable_arenas
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import match_setup_view as choice
+from pigaming_app.scenes.lobby.dealt import deal, first_state, start_positions
 from pigaming_app.scenes.lobby.seats import EMPTY, LobbySeats
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.results.high_scores import contest, format_score, table_of
@@ -59,6 +59,7 @@ class MatchSetupPage(Page):
         self.rows = rows(self.game, self.variant)
         self.slide, self.direction = SLIDE_SECONDS, 1
         self.going = False  # start requested, waiting for the preloader
+        self.seed = 0  # of the next match
         self.things: tuple[ThingSpec, ...] = ()  # on the mat, for a match with real robots
         self.editor = draw_arena(context, game)
         spots = [FocusSpot(name, box) for name, box in self.rows.items()]
@@ -73,7 +74,9 @@ class MatchSetupPage(Page):
 
     def on_enter(self) -> None:
         """Reset on first display and on return from the results."""
-        self.age, self.going = 0.0, False
+        from pigaming_app.scenes.play.drivers import new_seed
+
+        self.age, self.going, self.seed = 0.0, False, new_seed()
         self.context.sounds.music("title")
         self._find_arenas()
         if self._on_mat and self.context.mat:
@@ -127,7 +130,7 @@ class MatchSetupPage(Page):
         """List the arenas again, as the user may have drawn or deleted some; the one saved last is chosen."""
         self.arenas = playable_arenas(self.game.name)
         self.versions = {name: score_name(self.game.name, name) for name in own_arenas(self.game.name)}
-        start_positions.cache_clear()
+        first_state.cache_clear()
         saved = self.context.settings.choice(self.game.name).arena
         if saved in self.arenas:
             self.chosen.arena = saved
@@ -149,12 +152,11 @@ class MatchSetupPage(Page):
 
     def _begin(self) -> StackOperation:
         """Push the match, or return None while the preloader is busy."""
-        from pigaming_app.scenes.play.drivers import new_seed
         from pigaming_app.scenes.play.scene import match_of
 
         if not self.context.preloader.ready(self.game.name, self.chosen.arena):
             return None
-        setup = replace(self._setup(), seed=new_seed())
+        setup = self._setup()
         rounds = Rounds(self.chosen.rounds) if self.chosen.rounds > 1 else None
         seats = self.seats
         return Push(
@@ -162,10 +164,10 @@ class MatchSetupPage(Page):
         )
 
     def _setup(self) -> Setup:
-        """The setup selected now, without a seed."""
+        """The setup selected now."""
         now = self.chosen
         seats, minutes = self.seats.seats(), float(self._minutes)
-        return Setup(self.game.name, now.arena, seats, minutes, 0, now.variant, now.goal)
+        return Setup(self.game.name, now.arena, seats, minutes, self.seed, now.variant, now.goal)
 
     def _row(self, name: str) -> LitImage:
         """Render a row."""
@@ -287,6 +289,8 @@ class MatchSetupPage(Page):
         k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
         x0, y0 = PICTURE.centerx - k * WIDTH / 2, PICTURE.centery - k * HEIGHT / 2
         choice.draw_things(screen, self.things, (x0 + dx, y0), k)
+        if dealt := deal(self._setup(), *PICTURE.size):
+            screen.blit(dealt.image, (PICTURE.x + dx, PICTURE.y), special_flags=pygame.BLEND_PREMULTIPLIED)
         starts = start_positions(self._setup())
         for i, _ in self._lineup():
             stage = int((self.age * 0.7 + 0.25 * i) % 1.0 * 1.5 * effects.WAVE_STEPS)
@@ -311,14 +315,6 @@ def picture(game: str, name: str, allies: bool, version: str) -> Steps[LitImage]
     """
     image = yield from SCREENS[game].picture(load_cached(game, name), *PICTURE.size, allies)
     return LitImage(image, PICTURE.topleft)
-
-
-@lru_cache(maxsize=16)
-def start_positions(setup: Setup) -> list[tuple[float, float]]:
-    """Start positions of the robots in a match, px."""
-    rules, state = games()[setup.game], games()[setup.game].state()
-    rules.start(state, load_cached(setup.game, setup.arena), setup)
-    return [(robot.x, robot.y) for robot in state.robots]
 
 
 def rows(game: Game, variant: Variant) -> dict[str, pygame.Rect]:

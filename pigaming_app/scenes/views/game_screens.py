@@ -36,6 +36,7 @@ class GameScreens:
     - `preview(arena, w, h, allies)`: an arena as additive light in w x h px.
     - `plan(canvas, arena, left, top, scale)`: what a preview shows besides, such as the lines of a pitch; (left, top)
       is the corner of the arena on the canvas.
+    - `deal(canvas, arena, state)`: what the seed of a match deals, over its preview, in px of the arena.
     - `confetti(canvas, placed, size, shape, color)`: a piece of it at the celebration.
     - `team_colors`: winners have the colour of their team, not their own.
     - `lessons`: by text key of their captions (table `howto.lessons`), in pages of four.
@@ -56,6 +57,7 @@ class GameScreens:
     signs: Mapping[str, str] = field(default_factory=dict)
     awards: Mapping[str, str] = field(default_factory=dict)
     plan: Callable[[GlowCanvas, Arena, float, float, float], object] | None = None
+    deal: Callable[[GlowCanvas, Arena, Any], object] | None = None
 
     @property
     def page_count(self) -> int:

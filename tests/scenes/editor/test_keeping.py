@@ -25,7 +25,8 @@ from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.editor.toolbar import NAMES, RIGHT_COLUMN, W, box
-from pigaming_app.scenes.lobby.match_setup import PICTURE, MatchSetupPage, start_positions
+from pigaming_app.scenes.lobby.dealt import start_positions
+from pigaming_app.scenes.lobby.match_setup import PICTURE, MatchSetupPage
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.ui.i18n import LANGUAGES, texts
 from pigaming_app.ui.input.controls import Controls

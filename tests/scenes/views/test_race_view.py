@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,7 @@ from pigaming_app.sim.world import DT, HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import write_with_backup
 from pigaming_app.ui.draw.frame_budget import run_to_end
 from pigaming_app.ui.draw.text import glyph
+from pigaming_app.ui.draw.theme import read_large
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.numbers import signed
 from tests import tags
@@ -303,8 +305,7 @@ def test_cards_show_place_lap_and_gap(screen, language, gap):
 def test_the_figures_of_a_card_stand_apart_and_read_at_three_metres(screen, language, gap):
     words = Words(language)
     for place in range(1, 5):
-        ending = words(f"race.place_{place}")
-        card = RaceCard(0, "human", place, ending, 9, words.decimal(gap), 64, 0, 9, "", 0, 1, False)
+        card = RaceCard(0, "human", place, 9, words.decimal(gap), 64, 9, "", 0, 1, False)
         picture = pygame.Surface((race_cards.W, 136))
         for image, at, area in card_bits(card, 0)[1:]:
             picture.blit(image, at, area, special_flags=pygame.BLEND_RGB_ADD)
@@ -314,6 +315,25 @@ def test_the_figures_of_a_card_stand_apart_and_read_at_three_metres(screen, lang
         assert figures[-1][1] <= race_cards.W - 8
     for size in (race_cards.PLACE, race_cards.FIGURE):
         assert glyph("4", size, (255, 255, 255), 0.0)[0].image.get_height() >= 40
+
+
+@pytest.mark.parametrize("large", [False, True])
+@pytest.mark.parametrize("place", [1, 2, 3, 4])
+def test_a_card_has_three_figures_with_air_between_them(screen, large, place):
+    """Place, lap of laps, seconds behind, as in 2/5 +0.5; no word beside them."""
+    read_large(large)
+    try:
+        card = RaceCard(0, "human", place, 2, "+0.5", 64, 5, "", 0, 0, False)
+        picture = pygame.Surface((race_cards.W, 136))
+        for image, at, area in card_bits(card, 0)[1:]:
+            picture.blit(image, at, area, special_flags=pygame.BLEND_RGB_ADD)
+    finally:
+        read_large(False)
+    row = picture.subsurface((0, 34 + race_cards.row() - 22, race_cards.W, 44))
+    bright = pygame.surfarray.array3d(row).max(axis=(1, 2)) > 150
+    runs = [len(list(run)) for lit, run in groupby(bright[20:-20]) if not lit]
+    least = 12 if large else 18
+    assert sum(run >= least for run in runs) >= 2, runs
 
 
 def columns(picture):

@@ -10,7 +10,7 @@ from pigaming_app.scenes.views.game_screens import GameScreens, Placed
 from pigaming_app.scenes.views.lesson import Actor, Lesson
 from pigaming_app.scenes.views.preview import fitted
 from pigaming_app.scenes.views.race.background import GLOW, earth
-from pigaming_app.scenes.views.race.lines import draw_line, frame
+from pigaming_app.scenes.views.race.lines import draw_line, draw_signed, frame, line_signs
 from pigaming_app.scenes.views.race.track import draw_track
 from pigaming_app.scenes.views.race.view import RaceView
 from pigaming_app.scenes.views.sprites.robot import robot
@@ -19,7 +19,7 @@ from pigaming_app.scenes.views.things.styles import ROAD
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.world import HEIGHT, HZ, WIDTH
-from pigaming_app.ui.draw import ADD, BLACK, ICE, LINE, MIST, PLAYERS, THIN, Color, GlowCanvas, Point, dim
+from pigaming_app.ui.draw import ADD, BLACK, ICE, LINE, MIST, PLAYERS, THIN, Color, GlowCanvas, Point, badge, dim
 from pigaming_app.ui.draw.frame_budget import Steps
 
 
@@ -44,7 +44,7 @@ def _lane(x: float, y: float, r: float) -> list[Point]:
 
 
 def preview(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:
-    """Preview of a track: mud, road, direction, and the lines, which no seat has been dealt yet."""
+    """Preview of a track: mud, road, direction, and the lines, as no seat has been dealt them."""
     left, top, k = fitted(w, h)
     below = pygame.transform.smoothscale(earth(arena.plan), (round(k * WIDTH), round(k * HEIGHT)))
     yield
@@ -66,6 +66,17 @@ def preview(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]
     out.blit(light, (0, 0), special_flags=ADD)
     yield from crisp.downscale_onto(out)
     return out
+
+
+def deal(ink: GlowCanvas, arena: Arena, state: Race) -> None:
+    """The lines in the colours of the seats to which they were dealt, and the robots' starts."""
+    for along, sign in zip(arena.plan.lines, line_signs(state), strict=True):
+        line = frame(arena.plan.course, along)
+        ink.solid([line.at(a, b * line.half) for a, b in ((-BARE, -1), (BARE, -1), (BARE, 1), (-BARE, 1))])
+        draw_signed(ink, ink, line, sign)
+    for seat, start in enumerate(state.robots):
+        if start.present:
+            badge(ink, seat, start.x, start.y, START_BADGE)
 
 
 def chequer(ink: GlowCanvas, placed: Placed, size: float, shape: int, color: Color) -> None:
@@ -96,6 +107,7 @@ def _oil_next(state: Race) -> None:
     state.random = seeded(7)
 
 
+BARE, START_BADGE = 30.0, 26.0  # px: half the width of a line with its glow; radius of a badge
 LAP_SO_FAR = 14.0 * HZ  # ticks
 
 LESSONS = {
@@ -120,5 +132,5 @@ LESSONS = {
 }
 
 SCREENS = GameScreens(
-    RaceView, tile, "hint_recover", preview, chequer, lessons=LESSONS, lesson_pages=("standard", "party")
+    RaceView, tile, "hint_recover", preview, chequer, lessons=LESSONS, lesson_pages=("standard", "party"), deal=deal
 )

@@ -17,7 +17,7 @@ from pigaming_app.scenes.views.hud.parts import CLOCK, XS, H, HudParts, Y, drawn
 from pigaming_app.scenes.views.hud.parts import clock_bits as digits
 from pigaming_app.scenes.views.race.events import drives_wrong
 from pigaming_app.scenes.views.race.gaps import Gaps, figure
-from pigaming_app.scenes.views.race.hud_cards import FLASH, FOOT, RaceCard, W, card_bits
+from pigaming_app.scenes.views.race.hud_cards import FLASH, RaceCard, W, card_bits
 from pigaming_app.scenes.views.race.lines import flag, line_signs
 from pigaming_app.scenes.views.view import decimal
 from pigaming_app.sim.world import HZ
@@ -40,7 +40,6 @@ class RaceHud:
         self.gaps, self.signs = Gaps(state), line_signs(state)
         seats = [i for i, robot in enumerate(state.robots) if robot.present]
         self.seats, self.xs = seats, XS[len(seats)]
-        self.endings = [words(f"race.place_{i + 1}") if words else "" for i in range(LINES)]
         self.parts = HudParts(background)
         self.moves: dict[int, tuple[int, int]] = {}  # seat: (direction, tick) of its last change of place
         self.names: Sequence[str] = ()  # of the first seats, in an event
@@ -78,12 +77,12 @@ class RaceHud:
             yield from (drawn(clock_bits, kind, 60 * i + i) for kind in ("time", "left"))
         for seat in self.seats:
             yield partial(pulse, PLAYERS[seat], W, H, FLASH)
-            card = replace(self._card(state, seat, 1), turbo=32, way=FOOT // 2)
+            card = replace(self._card(state, seat, 1), turbo=32)
             changes: list[dict[str, Any]] = [{"sign": "wrong"}, {"done": True}, {"moved": 1}, {"moved": -1}]
             changes += [{"sign": "missed", "missed": sign} for sign in self.signs]
             changes += [{"item": icon, "slip": True} for icon in ICONS if party]
             changes += [{"lap": i, "gap": decimal(self.words, figure(1.1 * i))} for i in range(10)]
-            changes += [{"place": i + 1, "ending": ending} for i, ending in enumerate(self.endings)]
+            changes += [{"place": i + 1} for i in range(LINES)]
             yield from (drawn(card_bits, replace(card, **change), 0) for change in changes)
         if party and self.words:
             yield drawn(word_bits, announced(self.words("race.last_lap")))
@@ -93,16 +92,13 @@ class RaceHud:
         direction, changed_at = self.moves.get(seat, (0, -MOVED))
         done = bool(racer.finished)
         sign = "" if done else "missed" if racer.missed else "wrong" if drives_wrong(racer) else ""
-        share = racer.progress / (laps * state.course.length)
         return RaceCard(
             seat=seat,
             brain=ai_of(self.players[seat]),
             place=place,
-            ending=self.endings[place - 1],
             lap=min(laps, robot.score + 1),
             gap="" if place == 1 else decimal(self.words, figure(self._gap(state, seat))),
             turbo=round(64 * robot.turbo),
-            way=FOOT if done else round(FOOT * max(0.0, min(1.0, share))),
             laps=laps,
             sign=sign,
             missed=self.signs[racer.missed - 1],

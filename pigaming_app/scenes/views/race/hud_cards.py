@@ -19,12 +19,11 @@ from pigaming_app.ui.draw.text import number_width
 W = parts.PANEL_W  # px, width of the cards
 GAIN, LOSS = (96, 255, 150), (255, 128, 118)  # colours of a gain and a loss of time; the sign shows it too
 CELLS = 16  # of the turbo bar
-PLACE, FIGURE, OF, ENDING = kit.SUB, 58, kit.BODY, 30  # font sizes: digits of 58 are 41 px high
-ROW = 49  # px, vertical centre of the digits
-LEFT, LAP, RIGHT = 16, 103, W - 14  # px: left edge of place and lap, right edge of the gap
+PLACE, FIGURE, OF = kit.SUB, 58, kit.BODY  # font sizes: digits of 58 are 41 px high
+ROW, METER = 48, 79  # px: vertical centre of the digits, top of the turbo bar
+LEFT, AIR, RIGHT = 18, 24, W - 18  # px: left edge of the place, space from there to the lap, right edge of the gap
 GAP = 122  # px, maximum width of a gap
-LARGE_PLACE, LARGE_ROW, LARGE_LAP = 82, 45, 94  # px, of larger texts: there is no room for an ordinal suffix
-FOOT = W - 40  # px, length of the lap bar
+LARGE_PLACE, LARGE_ROW = 82, 47  # px, of larger texts
 SIGNS = W - 132  # px, centre of the warnings
 ITEM = W - 68  # px, EDGE left of the centre of the item slot
 FLASH = 0.3  # brightness of the flash of a card
@@ -38,11 +37,9 @@ class RaceCard:
     seat: int
     brain: str
     place: int
-    ending: str  # ordinal suffix of the place: st, nd
     lap: int  # current lap, of `laps`
     gap: str  # to the leader, s; empty for the leader
     turbo: int  # remaining, 0..64
-    way: int  # px of the lap bar that are lit
     laps: int
     sign: str
     missed: int
@@ -60,22 +57,16 @@ def card_bits(card: RaceCard, x: int) -> list[Bit]:
         (frame(card.seat, card.brain, card.name, bool(card.sign), card.done, card.item != "none"), corner, None)
     ]
     number = kit.FOCUS if card.done and card.place == 1 else kit.WHITE
-    text, large = str(card.place), kit.reads_large()
-    bits += parts.number_bits(text, place_size(), x + LEFT, parts.Y + (LARGE_ROW if large else ROW), number)
-    after = x + LEFT + round(number_width(text, place_size())) + 1
-    if not large:
-        bits.append((word(card.ending, number, ENDING), (after - parts.EDGE, parts.Y + ROW - 15 - parts.EDGE), None))
+    bits += parts.number_bits(str(card.place), place_size(), x + LEFT, parts.Y + row(), number)
     if card.moved:
-        bits.append((mover(card.moved > 0), (after + 15 - parts.EDGE, parts.Y + ROW + 16 - parts.EDGE), None))
+        at = x + lap_x() - AIR // 2 - parts.EDGE, parts.Y + row() - parts.EDGE
+        bits.append((mover(card.moved > 0), at, None))
     if card.item != "none":
         bits.append((item_slot(card.item), (x + ITEM - parts.EDGE, parts.Y - 2 * parts.EDGE - ITEM_UP), None))
     color, wide = kit.PLAYERS[card.seat], round(CELLS * parts.CELL)
     full = parts.turbo_cells(kit.WHITE, wide, 7, True, 1.0) if card.slip else parts.turbo_cells(color, wide, 7, True)
-    bits += parts.bar_bits(
-        full, parts.turbo_cells(color, wide, 7, False), (x + 17, parts.Y + 76), card.turbo * CELLS * parts.CELL / 64
-    )
-    full, empty = (foot(card.seat, card.laps, lit) for lit in (True, False))
-    bits += parts.bar_bits(full, empty, (x + 20, parts.Y + parts.H - 3), card.way)
+    lit = card.turbo * CELLS * parts.CELL / 64
+    bits += parts.bar_bits(full, parts.turbo_cells(color, wide, 7, False), (x + 17, parts.Y + METER), lit)
     if card.sign == "missed":
         bits.append((missed_mark(card.missed), (x + SIGNS - parts.EDGE, parts.Y - parts.EDGE), None))
     elif card.sign:
@@ -86,22 +77,30 @@ def card_bits(card: RaceCard, x: int) -> list[Bit]:
 
 
 def _figures(card: RaceCard, x: int) -> list[Bit]:
-    """Lap and gap; the leader has a crown instead, and a flag at the end."""
-    lap, size, at = str(card.lap), kit.readable(FIGURE), LARGE_LAP if kit.reads_large() else LAP
-    bits = parts.number_bits(lap, size, x + at, parts.Y + ROW, kit.ICE)
-    low = parts.Y + ROW + 0.35 * (size - OF)  # common baseline
-    bits += parts.number_bits(f"/{card.laps}", OF, x + at + number_width(lap, size), low, kit.MIST)
+    """Lap and gap, as in 2/5 +0.5; the leader has a crown instead, and a flag at the end."""
+    lap, size, at, middle = str(card.lap), kit.readable(FIGURE), x + lap_x(), parts.Y + row()
+    bits = parts.number_bits(lap, size, at, middle, kit.ICE)
+    low = middle + 0.35 * (size - OF)  # common baseline
+    bits += parts.number_bits(f"/{card.laps}", OF, at + number_width(lap, size), low, kit.MIST)
     if card.gap:
         size = parts.number_size(card.gap, GAP, FIGURE, OF)  # OF: a gap of minutes
-        return bits + parts.number_bits(
-            card.gap, size, x + RIGHT - number_width(card.gap, size), parts.Y + ROW, kit.ICE
-        )
+        return bits + parts.number_bits(card.gap, size, x + RIGHT - number_width(card.gap, size), middle, kit.ICE)
     return [*bits, (leader(card.done), (x + RIGHT - 60 - parts.EDGE, parts.Y - parts.EDGE), None)]
+
+
+def lap_x() -> int:
+    """Left edge of the lap, px from that of the card."""
+    return LEFT + round(number_width("4", place_size())) + AIR
 
 
 def place_size() -> int:
     """Type size of the place, px."""
     return LARGE_PLACE if kit.reads_large() else PLACE
+
+
+def row() -> int:
+    """Vertical centre of the digits, px."""
+    return LARGE_ROW if kit.reads_large() else ROW
 
 
 # ---- cached pieces
@@ -119,19 +118,10 @@ def frame(seat: int, brain: str, name: str, alarm: bool, done: bool, slot: bool)
     ink.line(outline, edge if alarm or done else kit.dim(edge, 0.8), kit.LINE if alarm or done else kit.THIN, True)
     if slot:
         ink.fill(kit.regular_polygon(6, ITEM_SIZE + 9, 0.0, ITEM + parts.EDGE, -ITEM_UP), (0, 0, 0))
-    ink.fill([(18, parts.H - 8), (W - 18, parts.H - 8), (W - 18, parts.H + 8), (18, parts.H + 8)], (0, 0, 0))
     ink.solid(kit.cut_box(14, -20, 56, 36, 4))
     kit.badge(ink, seat, 42, -2, 20)
     driver_tab(ink, brain, name, 76, -2, (ITEM + parts.EDGE - ITEM_SIZE - 12 if slot else W - 16) - 76, color)
     return ink.lit(0.7)
-
-
-@cached
-def word(text: str, color: kit.Color, size: int = kit.BODY) -> pygame.Surface:
-    """Short word, EDGE px from the left, vertical centre EDGE px from the top."""
-    width = max(1, round(number_width(text, size)))
-    ink = kit.GlowCanvas(width + 2 * parts.EDGE, size + 2 * parts.EDGE)
-    return ink.text(text, size, parts.EDGE, parts.EDGE, color, "head").lit(0.5)
 
 
 @cached
@@ -146,22 +136,11 @@ def item_slot(name: str) -> pygame.Surface:
 
 
 @cached
-def foot(seat: int, laps: int, full: bool) -> pygame.Surface:
-    """Lap bar along the bottom of a card, one segment per lap, all lit or all dark."""
-    ink, color = parts.plate(FOOT, 6), kit.PLAYERS[seat]
-    piece = FOOT / laps
-    for i in range(laps):
-        corners = [(i * piece, 0), ((i + 1) * piece - 5, 0), ((i + 1) * piece - 5, 6), (i * piece, 6)]
-        ink.fill(corners, kit.mix(color, kit.WHITE, 0.25) if full else kit.dim(color, 0.28))
-    return ink.lit(0.6) if full else ink.plain()
-
-
-@cached
 def mover(up: bool) -> pygame.Surface:
     """Arrowhead for a gained or lost place."""
     side = -1 if up else 1
     ink = parts.plate(2, 2)
-    return ink.fill([(-13, -side * 9), (13, -side * 9), (0, side * 11)], GAIN if up else LOSS).lit(0.9)
+    return ink.fill([(-9, -side * 7), (9, -side * 7), (0, side * 9)], GAIN if up else LOSS).lit(0.9)
 
 
 @cached

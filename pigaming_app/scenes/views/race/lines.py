@@ -74,6 +74,16 @@ def draw_sign(ink: kit.GlowCanvas, sign: int, x: float, y: float, r: float) -> N
         ink.text(LETTERS[sign - CHECKPOINT], round(r * 1.3), x, y, kit.BLACK, "hero", "c")
 
 
+def draw_signed(glow: kit.GlowCanvas, crisp: kit.GlowCanvas, line: LineFrame, sign: int) -> None:
+    """Draw a line on black as its sign requires: in the colour of its seat, white, or as a checkpoint."""
+    wide, edge = NARROW_LINE if sign >= CHECKPOINT else WIDE_LINE, line.half - 3
+    glow.solid([line.at(a, b) for a, b in ((-wide, -edge), (wide, -edge), (wide, edge), (-wide, edge))])
+    if sign >= CHECKPOINT:
+        draw_checkpoint(crisp, line)
+    else:
+        draw_line(glow, crisp, line, kit.ICE if sign == START else kit.PLAYERS[sign])
+
+
 def draw_line(glow: kit.GlowCanvas, crisp: kit.GlowCanvas, line: LineFrame, color: kit.Color) -> None:
     """Two chequered columns between two bright rails."""
     half = line.half - 3
@@ -112,13 +122,7 @@ def line_sprite(line: LineFrame, sign: int) -> Sprite:
     """A line of a race, anchored at its centre. Blit with PRE."""
     half = math.ceil(line.half) + 40
     glow, crisp = (kit.GlowCanvas(2 * half, 2 * half).set_transform(half - line.x, half - line.y) for _ in range(2))
-    wide = NARROW_LINE if sign >= CHECKPOINT else WIDE_LINE
-    edge = line.half - 3
-    glow.solid([line.at(a, b) for a, b in ((-wide, -edge), (wide, -edge), (wide, edge), (-wide, edge))])
-    if sign >= CHECKPOINT:
-        draw_checkpoint(crisp, line)
-    else:
-        draw_line(glow, crisp, line, kit.ICE if sign == START else kit.PLAYERS[sign])
+    draw_signed(glow, crisp, line, sign)
     image = glow.sprite(GLOW)
     run_to_end(crisp.downscale_onto(image))
     return trim(image, half, half)

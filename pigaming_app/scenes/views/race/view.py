@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pygame
 
-from pigaming_app.games.race.state import MISSED_LINE, OFF_COURSE, Race, Racer
+from pigaming_app.games.race.state import LINES, MISSED_LINE, OFF_COURSE, Race, Racer
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.hud.parts import H, Y, pulse
 from pigaming_app.scenes.views.particles import reel
@@ -77,6 +77,7 @@ class RaceView(MatchView):
         self.recorder: GhostRecorder | None = None
         self.frames = [frame(arena.plan.course, along) for along in arena.plan.lines]
         self.void = void_words(words)
+        self.endings = [words(f"race.place_{i + 1}") if words else "" for i in range(LINES)]
         self.lost_ticks = [0] * len(state.robots)  # since when each robot has been lost
         self.void_at = [-VOID_LASTS] * len(state.robots)
         self.add_prewarm_jobs(self.cards.jobs(state))
@@ -215,7 +216,7 @@ class RaceView(MatchView):
     def _sign_of(self, racer: Racer, seat: int, said: bool, below: bool) -> Sprite | None:
         if racer.finished:
             place = 1 + self.detector.order.index(seat)
-            return race_signs.place(seat, place, self.cards.endings[place - 1], below)
+            return race_signs.place(seat, place, self.endings[place - 1], below)
         if racer.missed:
             return race_signs.missed(self.signs[racer.missed - 1], below, self.void if said else ())
         return race_signs.wrong_way(below) if drives_wrong(racer) else None
