@@ -145,7 +145,7 @@ def test_a_match_on_a_drawing_is_driven_by_a_device_that_is_there(arcade: Arcade
 def test_the_way_back_from_a_match_hides_no_robot_and_no_rules(arcade: Arcade, game: str, name: str) -> None:
     """On the islands robots start in the middle of each side."""
     test = arcade.open(PlayTest(arcade.context, game, load(game, name), KEYS[0]))
-    arcade.frame(draw=True)
+    arcade.wait(test.runner.view.opening + 0.1, draw=True)
     box, shown = test.runner.notice.box, test.opening.card
     assert box
     assert shown

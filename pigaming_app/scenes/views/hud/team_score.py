@@ -12,7 +12,7 @@ from pigaming_app.ui.draw.text import number_width
 from pigaming_app.ui.numbers import numeral
 
 W, TOP, BOTTOM = 228, 20, 128  # px: width, upper and lower edge of a total
-DIGITS = 132  # px, type size: legible from five metres, and larger than the clock by any setting
+DIGITS, LARGER = 132, 146  # px, type sizes: legible from five metres, larger than the clock; of larger texts
 NARROW = 104  # px, for three digits
 SIGN, SIGN_X = 20, 32  # px: radius of the emblem, and its distance from the outer edge
 
@@ -29,7 +29,7 @@ class TeamHud(ScoreHud):
     def sum_bits(self, panel: TeamPanel, points: int, leads: bool) -> list[Bit]:
         text, second = numeral(points), panel.x > 960
         room = W - SIGN_X - SIGN
-        size = parts.number_size(text, room - 8, DIGITS, NARROW)
+        size = parts.number_size(text, room - 8, LARGER if kit.reads_large() else DIGITS, NARROW)
         x = panel.x + (room - number_width(text, size)) / 2 + (0 if second else W - room)
         at = panel.x - parts.EDGE, TOP - parts.EDGE
         bits: list[Bit] = [(total_frame(panel.team % len(TEAMS), leads, second), at, None)]
