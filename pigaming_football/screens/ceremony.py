@@ -55,7 +55,7 @@ def samples(view: FootballView) -> Iterator[Callable[[], object]]:
     for side in (0, 1):
         yield partial(sprites.team_name, view.word(f"lobby.side_{side + 1}"), side)
     for drop in range(sprites.DROPS):
-        yield partial(sprites.falling, drop)
+        yield partial(sprites.falling, 0.0, drop)
     for corner in range(4):
         yield partial(sprites.bracket, corner)
 
@@ -70,7 +70,7 @@ def draw_teams(view: FootballView, light: Batch, top: Batch) -> None:
     fallen = (view.since - FALL) / (LAND - FALL)
     if fallen >= 0.0:
         drop = min(sprites.DROPS - 1, int(fallen * fallen * sprites.DROPS))
-        put(top, sprites.falling(drop), *view.on_canvas(800.0, 450.0))
+        put(top, sprites.falling(0.0, drop), *view.on_canvas(800.0, 450.0))
 
 
 def draw_brackets(view: FootballView, light: Batch) -> None:

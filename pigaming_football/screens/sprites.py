@@ -1,11 +1,8 @@
 """Sprites of Robot Football: the rolling ball, its trail, goals, lines of the pitch."""
 
 import math
-from functools import cache
 
-import pygame
-
-from pigaming_app.api.look import STYLE, GlowCanvas, Sprite, dim, light_sprite, regular_polygon, turning_sprite
+from pigaming_app.api.look import STYLE, GlowCanvas, dim, light_sprite, regular_polygon, turning_sprite
 from pigaming_app.api.rules import HEIGHT, WIDTH
 
 Color = tuple[int, int, int]
@@ -72,11 +69,11 @@ def trail(ink: GlowCanvas, level: int, gold: bool) -> None:
     ink.disc(0, 0, RADIUS - 7, dim(STYLE.focus if gold else STYLE.ice, 0.30 * level / TRAIL))
 
 
-@cache
-def shadow() -> Sprite:
+@light_sprite(84, 0.0)
+def shadow(ink: GlowCanvas) -> None:
     """The light that the ball throws on the dark floor instead of a shadow."""
-    spot = pygame.transform.gaussian_blur(GlowCanvas(64, 64, 1).disc(32, 32, 15, dim(STYLE.ice, 0.30)).plain(), 8)
-    return Sprite(pygame.transform.smoothscale(spot, (160, 160)), -80, -80)
+    for r in range(80, 0, -2):
+        ink.disc(0, 0, r, dim(STYLE.ice, 0.30 * (1.0 - r / 80.0) ** 2))
 
 
 @light_sprite(32)
@@ -91,15 +88,10 @@ def team_name(ink: GlowCanvas, word: str, team: int) -> None:
     ink.text(word, 120, 0, 0, STYLE.teams[team], "hero", "c")
 
 
-@cache
-def falling(drop: int) -> Sprite:
+@turning_sprite(96, 1)
+def falling(ink: GlowCanvas, drop: int) -> None:
     """The ball as it falls from above; the last of DROPS lies on the ground."""
-    size = 1.0 + 2.0 * (1.0 - drop / (DROPS - 1))
-    half = round(size * (RADIUS + 22))
-    image = draw_ball(GlowCanvas(2 * half, 2 * half).set_transform(half, half, 0.3 * drop, size), 0.0, False).sprite(
-        0.8
-    )
-    return Sprite(image, -half, -half)
+    draw_ball(ink, 0.3 * (DROPS - 1 - drop), False, RADIUS * (1.0 + 2.0 * (1.0 - drop / (DROPS - 1))))
 
 
 @light_sprite(100)
