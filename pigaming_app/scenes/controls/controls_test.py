@@ -13,7 +13,6 @@ from pigaming_app.ai.registry import AIS
 from pigaming_app.scenes.controls import pictures as gadgets
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
-from pigaming_app.scenes.flow.match_choice import last_choice
 from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.pages.page import Hints, Page
@@ -133,7 +132,7 @@ class ControlsTest(Page):
         self._style(screen, x + gadgets.STYLE[0], y + gadgets.STYLE[1], device)
 
     def _style_of(self, device: Device) -> str:
-        return self.context.driving.of(device, GAME, last_choice(self.context, GAME).variant)
+        return self.context.driving.of(device, GAME)
 
     def _style(self, screen: pygame.Surface, x: float, y: float, device: Device) -> None:
         style = self._style_of(device)

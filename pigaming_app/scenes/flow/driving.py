@@ -4,7 +4,6 @@ from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.input.events import Device
 
-PARTY = "party"  # the rule set for novices
 UNHELPED = {HELPED_TURN: TURN, HELPED_POINT: POINT}  # the same styles in games without help
 PICTURES = {
     TURN: "wheel",
@@ -25,10 +24,10 @@ class DrivingStyles:
         self.chosen: dict[Device, str] = {}
         self.remembered: dict[Device, str] = {}  # as it was when each device came: later choices of others do not count
 
-    def of(self, device: Device, game: str, variant: str) -> str:
+    def of(self, device: Device, game: str) -> str:
         """The style of a device in a game: its player's choice, the last choice on this kind of device, or the default.
 
-        The default of pads and phones in party rules is to point.
+        The default of pads and phones is to point.
         """
         styles = _styles(game)
         last = self.settings.pad_driving if device.has_stick else self.settings.keys_driving
@@ -36,15 +35,15 @@ class DrivingStyles:
             for name in (style, UNHELPED.get(style, "")):
                 if name in styles:
                     return name
-        return POINT if device.has_stick and variant == PARTY else TURN
+        return POINT if device.has_stick else TURN
 
-    def change(self, device: Device, game: str, variant: str, delta: int) -> None:
+    def change(self, device: Device, game: str, delta: int) -> None:
         """Step a device through the game's styles, and remember the new one for its kind of device.
 
         One button is a need of one person, so it is not remembered for others.
         """
         names = _styles(game)
-        style = names[(names.index(self.of(device, game, variant)) + delta) % len(names)]
+        style = names[(names.index(self.of(device, game)) + delta) % len(names)]
         self.chosen[device] = style
         if style == ONE_BUTTON:
             return

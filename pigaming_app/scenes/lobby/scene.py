@@ -70,7 +70,7 @@ class Lobby:
         return last_choice(self.context, self.game).variant
 
     def _driving(self, device: Device) -> str:
-        return self.context.driving.of(device, self.game, self.variant)
+        return self.context.driving.of(device, self.game)
 
     def on_enter(self) -> None:
         """Reset on first display and on return from match setup: everyone has to confirm again."""
@@ -273,7 +273,7 @@ class Lobby:
         elif row == RIVALS:
             self._change_strength(delta)
         elif device := self.seats.places[seat].device:
-            self.context.driving.change(device, self.game, self.variant, delta)
+            self.context.driving.change(device, self.game, delta)
             self.context.sounds.play("move")
 
     def _change_strength(self, delta: int, seat: int | None = None) -> None:

@@ -110,7 +110,7 @@ class Drivers:
 
     def style_of(self, device: Device) -> str:
         """The driving style of a device in this match."""
-        return self.context.driving.of(device, self.setup.game, self.setup.variant)
+        return self.context.driving.of(device, self.setup.game)
 
     def resume(self) -> None:
         """The match goes on after an interruption: what is held does not count."""

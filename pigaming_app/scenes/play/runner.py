@@ -189,7 +189,7 @@ class MatchRunner:
         """Name and icon of a seat's driver; the icon of a person who does not steer is that of the driving style."""
         words = self.context.words
         if device:
-            style = self.context.driving.of(device, self.match.setup.game, self.match.setup.variant)
+            style = self.context.driving.of(device, self.match.setup.game)
             controls = self.context.controls
             sign = controls.sign(device) if style == TURN else PICTURES[style]
             moves = steering(words, controls, device)

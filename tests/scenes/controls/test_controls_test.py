@@ -98,12 +98,12 @@ def test_a_keyboard_robot_turns_with_its_keys(arcade: Arcade) -> None:
 
 def test_a_robot_shows_the_driving_style_of_its_device_and_stays_on_its_card(arcade: Arcade) -> None:
     pad, device = arcade.plug()
-    arcade.context.driving.change(device, "pitanks", "party", -1)
+    arcade.context.driving.change(device, "pitanks", -1)
     pad.stick(1.0, 0.0)
     arcade.wait(1.0)
     robot = arcade.shown(ControlsTest).driven[device].robots[0]
     assert robot.angular == pytest.approx(padtest.TURN_RATE, rel=0.02)
-    arcade.context.driving.change(device, "pitanks", "plain", 1)
+    arcade.context.driving.change(device, "pitanks", 1)
     arcade.wait(2.5)
     assert abs(turn_to(robot.heading)) < 0.05
     assert abs(robot.angular) < 0.05

@@ -231,7 +231,7 @@ def test_without_a_mat_nobody_has_a_real_robot(arcade: Arcade) -> None:
 def test_everyone_chooses_a_driving_style_on_the_own_card_with_pad_keys_or_mouse(arcade: Arcade) -> None:
     def styles() -> list[str]:
         devices = arcade.shown(Lobby).seats.devices()
-        return [arcade.context.driving.of(device, "pitanks", "party") for device in devices if device]
+        return [arcade.context.driving.of(device, "pitanks") for device in devices if device]
 
     pad, _ = arcade.plug()
     arcade.press(Button.FIRE)

@@ -192,10 +192,10 @@ def test_a_phone_drives_pauses_and_does_not_pause_by_turbo(arcade: Arcade) -> No
     match = match_with(arcade, one, None)
     phones = arcade.context.controls.phones
     heading = match.match.state.robots[0].heading
-    phones.receive(one.number, Touches(1.0, 0.0, BITS[Button.BACK]))
+    phones.receive(one.number, Touches(0.0, 1.0, BITS[Button.BACK]))
     for _ in range(30):
         arcade.frame()
-        phones.receive(one.number, Touches(1.0, 0.0, BITS[Button.BACK]))
+        phones.receive(one.number, Touches(0.0, 1.0, BITS[Button.BACK]))
     assert match.match.state.robots[0].heading != heading
     assert arcade.stack.top is match
     tap(arcade, one, Button.START)

@@ -28,7 +28,8 @@ COUNTDOWN = 3.8  # seconds until GO
 
 
 def two_pads(arcade: Arcade, minutes: float = 1.0) -> tuple[MatchScene, VirtualPad, VirtualPad]:
-    """A match of two pads, running."""
+    """A match of two pads that steer, running."""
+    arcade.context.settings.pad_driving = TURN
     (one, first), (two, second) = arcade.plug(), arcade.plug()
     match = arcade.open(MatchScene(arcade.context, setup("human human off off", minutes), [first, second]))
     arcade.wait(COUNTDOWN + 0.1)
@@ -36,6 +37,7 @@ def two_pads(arcade: Arcade, minutes: float = 1.0) -> tuple[MatchScene, VirtualP
 
 
 def test_nothing_moves_before_go_and_everything_after(arcade: Arcade) -> None:
+    arcade.context.settings.pad_driving = TURN
     pad, device = arcade.plug()
     match = arcade.open(MatchScene(arcade.context, setup("human level5 off off", 1.0), [device, None, None, None]))
     pad.stick(0.0, -1.0)
@@ -58,8 +60,9 @@ def test_the_stick_is_read_on_the_tick_that_acts_on_it(arcade: Arcade) -> None:
 
 
 def test_a_pad_that_points_drives_where_the_stick_points_also_after_it_was_replugged(arcade: Arcade) -> None:
+    arcade.context.settings.pad_driving = TURN
     pad, device = arcade.plug()
-    arcade.context.driving.change(device, "pitanks", "plain", 1)
+    arcade.context.driving.change(device, "pitanks", 1)
     match = arcade.open(MatchScene(arcade.context, setup("human level1 off off", 5.0), [device]))
     assert match.runner.driver(0, device)[1] == "point"
     arcade.wait(COUNTDOWN + 0.1)
