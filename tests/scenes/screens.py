@@ -1,7 +1,7 @@
 """Every menu screen with the longest values it can show, ready to be drawn."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from functools import partial
 from pathlib import Path
@@ -74,6 +74,8 @@ from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.replays.page import ReplaysPage
+from pigaming_app.scenes.results.awards.ceremony import Ceremony
+from pigaming_app.scenes.results.awards.moment import AwardsMoment
 from pigaming_app.scenes.results.high_scores import HighScores, high_score_tables
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.title.scene import Title
@@ -142,6 +144,15 @@ class Ending:
             rows.append(Row(seat, self.teams[seat], place, self.scores[seat], facts, {}, (75.12, 80.0)))
         series = tuple(((0.0, 0), (20.0, score)) for score in self.scores)
         return Outcome(tuple(rows), self.winners, series, 300.0)
+
+
+def event_awards(arcade: Arcade) -> Scene:
+    """The awards after a match of entrants with long names."""
+    results = ENDINGS["in teams"].results(arcade)
+    ended = replace(results.ended, names=("W" * 12, "Wolfgang-Maria", "Ångström", "MMMMMMMMM"))
+    scene = AwardsMoment(arcade.context, Ceremony(arcade.context, ended, True, {}), results)
+    scene.age = 7.0
+    return scene
 
 
 ENDINGS = {
@@ -506,6 +517,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "arena and radio": robots_drawn.radio_page,
     **{f"radio {reason}": partial(robots_drawn.radio_page, message=f"setup_{reason}") for reason in RADIO_REFUSALS},
     "event podium": event_podium,
+    "event awards": event_awards,
     "ladder": lambda arcade: LadderChoice(arcade.context, "all"),
     "ladder resumed": partial(ladder, said="", rung=5, wins=1, losses=1, beaten=4, lost=999),
     "ladder assisted": partial(ladder, said="assisted", rung=3, beaten=2),

@@ -50,7 +50,9 @@ class PageHead:
         self.colored = line(self._color(), self.length)
         self.steel = line(kit.STEEL, RIGHT - LEFT, kit.THIN)
         yield
-        self.parts.append(RevealedPart(self._where(), 0.1))
+        self.room = float(RIGHT)  # px, right limit of the title
+        if not self.ended.names:  # of an event, they need the room
+            self.parts.append(RevealedPart(self._where(), 0.1))
         yield
         self.parts.append(RevealedPart(self._title(), self.title_at))
         yield
@@ -93,7 +95,7 @@ class PageHead:
         arena = load(setup.game, setup.arena).title.get(words.language, setup.arena)
         line = f"{words('games.' + setup.game)}  ·  {arena}  ·  {minutes}"
         size = fit_size(line, kit.BODY, 720, "body")
-        self.room = RIGHT - kit.text_width(line, size, "body") - 40  # px, right limit of the title
+        self.room = RIGHT - kit.text_width(line, size, "body") - 40
         layer = Layer(self.room, 60, RIGHT - self.room, 100)
         layer.canvas.body(line, RIGHT, 112, kit.MIST, "r", size)
         return layer.render()

@@ -135,11 +135,11 @@ def awards_of(ended: EndedMatch, feats: Mapping[int, Feats], rounds: Rounds | No
     """The award of each seat of a match, or of all its rounds."""
     place = places(ended.outcome)
     played = [outcome.rows for outcome in rounds.outcomes] if rounds else [ended.outcome.rows]
+    rows = {seat: [row for table in played for row in table if row.seat == seat] for seat in sorted(place)}
     players = [
-        Player(seat, seat in ended.humans, place[seat], figures([r for rows in played for r in rows if r.seat == seat]))
-        for seat in sorted(place)
+        Player(seat, seat in ended.humans, place[seat], {**figures(own), **feats.get(seat, {})})
+        for seat, own in rows.items()
     ]
-    players = [Player(p.seat, p.person, p.place, {**p.figures, **feats.get(p.seat, {})}) for p in players]
     return awarded(players, own_awards(SCREENS[ended.setup.game].awards), ended.setup.seed)
 
 
