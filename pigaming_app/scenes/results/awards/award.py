@@ -44,6 +44,7 @@ GENERAL = (
     Award("first", "first", "first", least=True),
     Award("escape", "shield", "escape", above=5.0),
     Award("comeback", "rebound", "comeback", above=0.0),
+    Award("finish", "up", "finish", above=0.0),
     Award("fastest", "clock", "fastest", least=True),
     Award("even", "even", "spread", least=True),
     Award("distance", "road", "distance", above=400.0, weight=0.9),
@@ -52,6 +53,7 @@ GENERAL = (
     Award("near", "amid", "near", least=True, weight=0.7),
     Award("dancer", "spiral", "turning", above=6.3, weight=0.7),
     Award("calm", "calm", "turning", least=True, weight=0.7),
+    Award("straight", "ahead", "straight", above=300.0, weight=0.7),
     Award("reverse", "behind", "reverse", above=300.0, weight=0.7),
     Award("patient", "hourglass", "rest", above=3.0, weight=0.6),
 )

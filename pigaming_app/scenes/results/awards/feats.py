@@ -12,14 +12,15 @@ from pigaming_app.sim.world import DT, HZ, ROBOTS
 EVERY = 5  # ticks between two samples
 SAMPLE = EVERY * DT  # s
 REGION = 100.0  # px, side of the squares of the arena that a robot may have been in
-RESTING = 5.0  # px/s, below which it stands
+RESTING, STRAIGHT = 5.0, 0.1  # px/s, below which it stands; rad/s, below which it does not turn
 SUMS = ("distance", "reverse", "turning", "turbo", "rest", "near")
 
 Feats = Mapping[str, float]
-"""Of one robot, as far as there are any: `distance` and `reverse` driven, px; `turning`, rad; `turbo`, `rest` and
-`escape` (longest time without a hit), s; `first` (its first point), s; `explored`, squares; `near` (mean distance to
-the nearest robot), px; `half`: its place at half time, 1 is best; `comeback`: how far it was behind the best then, as
-the ranking counts, if its place is better now."""
+"""Of one robot, as far as there are any: `distance` and `reverse` driven, px; `straight`, the longest way without a
+turn, px; `turning`, rad; `turbo`, `rest` and `escape` (longest time without a hit), s; `first` (its first point), s;
+`explored`, squares; `near` (mean distance to the nearest robot), px; `finish`, points in the second half; `half`: its
+place at half time, 1 is best; `comeback`: how far it was behind the best then, as the ranking counts, if its place is
+better now."""
 
 
 class Tally:
@@ -27,6 +28,7 @@ class Tally:
 
     def __init__(self) -> None:
         self.sums = dict.fromkeys(SUMS, 0.0)
+        self.line = self.straight = 0.0  # px since the last turn, and the most
         self.regions: set[tuple[int, int]] = set()
         self.taken = 0.0  # hits
         self.samples = self.unhit = self.escape = 0  # all; those since the last hit, and the most of these
@@ -41,6 +43,8 @@ class Tally:
         sums["turbo"] += robot.boosting
         sums["rest"] += abs(linear) < RESTING
         sums["near"] += near
+        self.line = self.line + abs(linear) * SAMPLE if abs(robot.angular) < STRAIGHT else 0.0
+        self.straight = max(self.straight, self.line)
         self.regions.add((int(robot.x // REGION), int(robot.y // REGION)))
 
     def count_hits(self, taken: float) -> None:
@@ -81,11 +85,17 @@ class FeatRecorder:
             return {}
         tally = self.tallies[seat]
         found = {name: total * SAMPLE for name, total in tally.sums.items()}
-        found |= {"near": tally.sums["near"] / max(1, tally.samples), "explored": float(len(tally.regions))}
+        found |= {
+            "near": tally.sums["near"] / max(1, tally.samples),
+            "explored": float(len(tally.regions)),
+            "straight": tally.straight,
+        }
         if self.counts_hits:
             found["escape"] = tally.escape * SAMPLE
         if points := [seconds for seconds, score in self.series[seat] if score > 0]:
             found["first"] = points[0]
+        if not self.match.game.timed:
+            found["finish"] = second_half(self.match.series[seat], self.match.state.tick * DT)
         if self.standings:
             half, end = self.standings[len(self.standings) // 2], standing(self.match)
             found["half"] = float(rank(half, seat))
@@ -115,6 +125,11 @@ def finished(match: Match, seat: int) -> bool:
     """True if a robot has reached the goal of a race, and waits for the others."""
     goal = match.setup.goal
     return bool(match.game.timed and goal and match.state.robots[seat].score >= goal)
+
+
+def second_half(series: Sequence[tuple[float, int]], seconds: float) -> float:
+    """Points made in the second half of a match of so many seconds."""
+    return float(series[-1][1] - next(score for when, score in reversed(series) if when <= seconds / 2))
 
 
 def standing(match: Match) -> list[float]:

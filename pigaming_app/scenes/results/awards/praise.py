@@ -7,6 +7,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.results.awards.award import Award
 from pigaming_app.scenes.results.awards.feats import Feats
 from pigaming_app.scenes.results.headline import EndedMatch
+from pigaming_app.sim.drivetrain import MM
 from pigaming_app.ui.i18n import Words
 
 CLOSE_POINTS, CLOSE_SECONDS = 3, 5.0  # the largest gap to the next place that is called close
@@ -33,16 +34,18 @@ def praises(words: Words, ended: EndedMatch, awards: Mapping[int, Award], feats:
         choices = [
             _close(words, ended, seat),
             words("awards.led") if half == 1.0 else "",
-            _best_at(words, awards[seat]),
+            _best_at(words, awards[seat], feats.get(seat, {})),
         ]
         said[seat] = next((one for one in choices if one and one not in said.values()), choices[-1])
     return said
 
 
-def _best_at(words: Words, award: Award) -> str:
-    """What the player was best at."""
-    key = f"awards.{award.key}_praise"
-    return words(key if key in words else "awards.praise" if award.figure else "awards.thanks")
+def _best_at(words: Words, award: Award, feats: Feats) -> str:
+    """What the player was best at; after an award that compares nobody, the way driven."""
+    if award.figure:
+        return words(key if (key := f"awards.{award.key}_praise") in words else "awards.praise")
+    meters = round(feats.get("distance", 0.0) * MM / 1000.0)
+    return words("awards.driven", meters=meters) if meters else words("awards.thanks")
 
 
 def _close(words: Words, ended: EndedMatch, seat: int) -> str:

@@ -56,7 +56,11 @@ def test_awards_and_kind_words_are_read_from_three_metres(language: str) -> None
     awards = {award_text(words, game, award) for game, award in every_award()}
     assert {text for text in awards if fit_size(text, SUB, room) < LABEL} == set()
     said = [key for key in texts(language) if key.startswith("awards.") and key.endswith(("_praise", "praise", "led"))]
-    said = [words(key) for key in said] + [words("awards.close", count=3), words("awards.close_time", seconds="4.9")]
+    said = [words(key) for key in said] + [
+        words("awards.close", count=3),
+        words("awards.driven", meters=99),
+        words("awards.close_time", seconds="4.9"),
+    ]
     assert {text for text in said if fit_size(text, BODY, room, "body") < BODY} == set()
 
 

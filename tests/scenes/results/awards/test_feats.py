@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from pigaming_app.scenes.results.awards.feats import EVERY, FeatRecorder
+from pigaming_app.scenes.results.awards.feats import EVERY, FeatRecorder, Tally
 from pigaming_app.sim.world import DT, HZ, Action
 from tests.matches import match_of
 
@@ -64,6 +64,7 @@ def test_a_comeback_is_the_gap_at_half_time_of_one_who_has_gained_a_place() -> N
     assert [feats["comeback"] for feats in found] == [0.0, 5.0, 0.0]
     assert [feats["half"] for feats in found] == [1.0, 3.0, 2.0]
     assert [feats["first"] for feats in found] == [2.0, 2.0, 2.0]
+    assert [feats["finish"] for feats in found] == [0.0, 8.0, 0.0]
 
 
 def test_the_longest_escape_lies_between_two_hits() -> None:
@@ -78,6 +79,15 @@ def test_a_driver_who_waits_at_the_finish_is_not_called_patient() -> None:
     """The first seat has both laps after two seconds, the second after five."""
     recorder = scripted([[1, 0], [2, 1], [2, 1], [2, 1], [2, 2], [2, 2]], goal=2)
     assert [recorder.feats(seat)["rest"] for seat in (0, 1)] == pytest.approx([2.0, 5.0], abs=0.11)
+
+
+def test_the_longest_straight_ends_where_a_robot_turns() -> None:
+    tally, robot = Tally(), SimpleNamespace(x=0.0, y=0.0, linear=100.0, angular=0.0, boosting=0)
+    for angular, seconds in ((0.0, 1), (2.0, 1), (0.05, 3), (-2.0, 1), (0.0, 2)):
+        robot.angular = angular
+        for _ in range(seconds * HZ // EVERY):
+            tally.add(robot, False, 0.0)
+    assert tally.straight == pytest.approx(300.0)
 
 
 def test_a_robot_that_is_knocked_back_does_not_drive_in_reverse() -> None:

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from pigaming_app.games.game import Outcome, Row
-from pigaming_app.scenes.results.awards.award import Award
+from pigaming_app.scenes.results.awards.award import FREE, Award
 from pigaming_app.scenes.results.awards.praise import last_seats, places, praises
 from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.ui.i18n import Words
@@ -33,6 +33,13 @@ def test_or_that_it_has_led_or_what_it_was_best_at() -> None:
     assert spoken(far, {3: {"half": 1.0}}) == {3: "In the lead at half time!"}
     assert spoken(far, {3: {"half": 4.0}}) == {3: "Nobody aimed better!"}
     assert spoken(far, seat3="something_of_a_plug_in") == {3: "Nobody did that better!"}
+
+
+def test_after_an_award_that_compares_nobody_it_is_told_how_far_it_drove() -> None:
+    far = ended_match(scores=(90, 80, 70, 5), winners=(0,))
+    fair = dict.fromkeys(range(4), FREE[0])
+    said = [praises(Words("en"), far, fair, {3: {"distance": way}})[3] for way in (10_000.0, 0.0)]
+    assert said == ["13 m driven: well done!", "Great that you played!"]
 
 
 def test_the_two_of_a_team_are_told_different_things() -> None:
