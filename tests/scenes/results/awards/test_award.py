@@ -12,7 +12,7 @@ from pigaming_app.games.game import Row
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.results.awards.award import FREE, GENERAL, Award, Player, awarded, own_awards
 from pigaming_app.scenes.results.awards.ceremony import award_text, figures
-from pigaming_app.scenes.views.registry import SCREENS
+from pigaming_app.scenes.views.registry import SCREENS, text_keys
 from pigaming_app.ui.draw.icons import ICONS
 from pigaming_app.ui.i18n import LANGUAGES, Words, texts
 
@@ -23,7 +23,7 @@ UNKIND = {
     "es": "peor mal malo mala perd último última lent vago vaga débil nunca fracas torpe menos pocos",
     "fr": "pire mauvais nul nulle perd dernier dernière lent lente paresseu faible jamais raté maladroit moins peu",
     "pt": "pior mau má perd último última lent pregui frac nunca falh desajeitad menos poucos",
-}  # words, and beginnings of words of five letters or fewer stand for all forms
+}  # words of up to four letters, and beginnings of longer ones
 
 
 def players(*figures: Mapping[str, float], people: str = "1111") -> list[Player]:
@@ -150,3 +150,23 @@ def test_every_award_has_a_name_and_an_icon_and_no_two_are_alike(language: str) 
         assert len(set(named)) == len(named)
     assert {award.icon for _, award in every_award()} <= ICONS.keys()
     assert len(words("results.hits_taken", count=3).split()) <= 3 + (language == "fr")  # the colon stands apart
+
+
+def test_the_texts_of_its_awards_are_asked_of_a_plug_in() -> None:
+    named = replace(SCREENS["football"], awards={"-own_goals": "heart", "goals": "ball"})
+    asked = set(text_keys("football", named))
+    assert {"awards.own_goals", "awards.goals", "awards.goals_praise"} <= asked
+    assert "awards.own_goals_praise" not in asked, "it may be left out"
+
+
+def test_a_plug_in_has_its_own_awards_beside_those_of_every_game() -> None:
+    """Robot Football imports the public face alone."""
+    own = own_awards(SCREENS["football"].awards)
+    found = awarded(players({"goals": 2, "turning": 90.0}, {"assists": 3, "turning": 80.0}, {"turning": 5.0}), own)
+    words = Words("de")
+    assert [award_text(words, "football", found[seat]) for seat in range(3)] == [
+        "Meiste Tore",
+        "Beste Pässe",
+        "Ruhigste Hand",
+    ]
+    assert award_text(words, "football", GENERAL[0]) == "Erstes Tor"
