@@ -18,9 +18,9 @@ SUMS = ("distance", "reverse", "turning", "turbo", "rest", "near")
 Feats = Mapping[str, float]
 """Of one robot, as far as there are any: `distance` and `reverse` driven, px; `straight`, the longest way without a
 turn, px; `turning`, rad; `turbo`, `rest` and `escape` (longest time without a hit), s; `first` (its first point), s;
-`explored`, squares; `near` (mean distance to the nearest robot), px; `finish`, points in the second half; `half`: its
-place at half time, 1 is best; `comeback`: how far it was behind the best then, as the ranking counts, if its place is
-better now."""
+`explored`, squares; `near` (mean distance to the nearest robot), px; `finish`, points in the second half; `led`: 1 if
+it, or its team, was alone in the lead at half time; `comeback`: how far it was behind the best then, as the ranking
+counts, if its place is better now."""
 
 
 class Tally:
@@ -98,7 +98,7 @@ class FeatRecorder:
             found["finish"] = second_half(self.match.series[seat], self.match.state.tick * DT)
         if self.standings:
             half, end = self.standings[len(self.standings) // 2], standing(self.match)
-            found["half"] = float(rank(half, seat))
+            found["led"] = float(leads(self.match, half, seat))
             found["comeback"] = max(half) - half[seat] if rank(end, seat) < rank(half, seat) else 0.0
         return found
 
@@ -136,6 +136,13 @@ def standing(match: Match) -> list[float]:
     """The ranking key of each seat; of an empty one the lowest."""
     robots = match.state.robots
     return [match.game.ranking_key(match.state, i) if robots[i].present else -inf for i in range(ROBOTS)]
+
+
+def leads(match: Match, keys: Sequence[float], seat: int) -> bool:
+    """True if all other teams have a lower ranking key, and there are any."""
+    team = match.state.robots[seat].team
+    others = [key for robot, key in zip(match.state.robots, keys, strict=True) if robot.present and robot.team != team]
+    return bool(others) and keys[seat] > max(others)
 
 
 def rank(keys: Sequence[float], seat: int) -> int:

@@ -30,10 +30,10 @@ def praises(words: Words, ended: EndedMatch, awards: Mapping[int, Award], feats:
     """A sentence for each seat in the last place; those of a team have different ones."""
     said: dict[int, str] = {}
     for seat in last_seats(ended.outcome):
-        half = feats.get(seat, {}).get("half")
+        led = feats.get(seat, {}).get("led")
         choices = [
             _close(words, ended, seat),
-            words("awards.led") if half == 1.0 else "",
+            words("awards.led") if led else "",
             _best_at(words, awards[seat], feats.get(seat, {})),
         ]
         said[seat] = next((one for one in choices if one and one not in said.values()), choices[-1])

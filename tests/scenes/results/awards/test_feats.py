@@ -62,9 +62,21 @@ def test_a_comeback_is_the_gap_at_half_time_of_one_who_has_gained_a_place() -> N
     recorder = scripted([[0, 0, 0], [6, 1, 2], [6, 1, 2], [6, 1, 2], [6, 7, 2], [6, 9, 2]])
     found = [recorder.feats(seat) for seat in range(3)]
     assert [feats["comeback"] for feats in found] == [0.0, 5.0, 0.0]
-    assert [feats["half"] for feats in found] == [1.0, 3.0, 2.0]
+    assert [feats["led"] for feats in found] == [1.0, 0.0, 0.0]
     assert [feats["first"] for feats in found] == [2.0, 2.0, 2.0]
     assert [feats["finish"] for feats in found] == [0.0, 8.0, 0.0]
+
+
+@pytest.mark.parametrize(("teams", "led"), [((0, 1, 2), [0.0, 0.0, 0.0]), ((0, 0, 1), [1.0, 1.0, 0.0])])
+def test_nobody_leads_beside_another_one_but_a_team_does(teams: tuple[int, ...], led: list[float]) -> None:
+    """Two are level at half time, as team mates always are; where nobody has a point, nobody leads."""
+    recorder, level = scripted([[4, 4, 1]] * 6), scripted([[0, 0, 0]] * 6)
+    for one in (recorder, level):
+        assert one.match
+        for robot, team in zip(one.match.state.robots, teams, strict=False):
+            robot.team = team
+    assert [recorder.feats(seat)["led"] for seat in range(3)] == led
+    assert [level.feats(seat)["led"] for seat in range(3)] == [0.0, 0.0, 0.0]
 
 
 def test_the_longest_escape_lies_between_two_hits() -> None:

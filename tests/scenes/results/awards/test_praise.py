@@ -30,8 +30,8 @@ def test_the_last_place_is_told_how_close_it_was() -> None:
 
 def test_or_that_it_has_led_or_what_it_was_best_at() -> None:
     far = ended_match(scores=(90, 80, 70, 5), winners=(0,))
-    assert spoken(far, {3: {"half": 1.0}}) == {3: "In the lead at half time!"}
-    assert spoken(far, {3: {"half": 4.0}}) == {3: "Nobody aimed better!"}
+    assert spoken(far, {3: {"led": 1.0}}) == {3: "In the lead at half time!"}
+    assert spoken(far, {3: {"led": 0.0}}) == {3: "Nobody aimed better!"}
     assert spoken(far, seat3="something_of_a_plug_in") == {3: "Nobody did that better!"}
 
 
