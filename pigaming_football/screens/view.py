@@ -53,7 +53,8 @@ class FootballView(SimpleView):
 
     def samples(self) -> Iterator[Callable[[], object]]:
         for color in STYLE.teams:
-            yield partial(self.announcement, self.word("football.goal"), color)
+            for goal in ("football.goal", "football.own_goal"):
+                yield partial(self.announcement, self.word(goal), color)
         yield from ceremony.samples(self)
         yield sprites.shadow
         for level in range(1, sprites.TRAIL + 1):
@@ -157,11 +158,11 @@ class FootballView(SimpleView):
     # ---- events
 
     def events(self, state: Football) -> list[Cue]:
-        before, ball, cues = self.scores.copy(), state.ball, super().events(state)
+        ball, cues = state.ball, super().events(state)
         cues = [cue for cue in cues if cue[0] != "pickup"]
         self.track.follow(ball, self.particles.clock)
         if state.goals > self.goals:
-            cues += self.cheer(state, before)
+            cues += self.cheer(state)
         elif self.out and not ball.out:
             cues.append(("drop", None, ball.x))
             self.particles.shock(*self.on_canvas(ball.x, ball.y), STYLE.focus if ball.worth > 1 else STYLE.ice)
@@ -190,14 +191,22 @@ class FootballView(SimpleView):
             return "fire", seat, ball.x
         return "hit", None, ball.x
 
-    def cheer(self, state: Football, before: Sequence[int]) -> list[Cue]:
-        """Light, sparks and sounds of a goal, and its replay. `before`: the points of the seats before it."""
+    def name_scorer(self, before: Football, conceded: int) -> None:
+        """Announce a goal with its scorer, an own goal with the team for which it counts."""
+        seat, color = scorer_of(before, conceded), STYLE.teams[1 - conceded]
+        if seat >= 0:
+            self.announce(self.word("football.goal"), color, self.name(seat))
+        else:
+            self.announce(self.word("football.own_goal"), color, self.word(f"lobby.side_{2 - conceded}"))
+
+    def cheer(self, state: Football) -> list[Cue]:
+        """Light, sparks and sounds of a goal, and its replay."""
         self.scorer, self.goal_at = 1 - state.goal_side, self.particles.clock
+        clip = self.film.before(state)
+        self.name_scorer(clip[-1] if len(clip) else state, state.goal_side)
         self.present(ceremony.SECONDS)
-        if self.presenting and len(clip := self.film.before(state)) > 1:
+        if self.presenting and len(clip) > 1:
             self.replay = ceremony.GoalReplay(clip)
-        names = [self.name(seat) for seat in self.seats if state.robots[seat].score > before[seat]]
-        self.announce(self.word("football.goal"), STYLE.teams[self.scorer], "".join(names[:1]))
         self.goal_from = (0.0 if state.goal_side == 0 else 1600.0, state.goal_y)
         x, y = self.on_canvas(*self.goal_from)
         color, inwards = STYLE.teams[self.scorer], 0.0 if state.goal_side == 0 else math.pi
@@ -213,6 +222,14 @@ class FootballView(SimpleView):
             if side_of(state.robots[seat]) == self.scorer:
                 self.rumble(seat)
         return [(JINGLES[self.scorer], None, self.goal_from[0]), ("rush", None, self.goal_from[0])]
+
+
+def scorer_of(before: Football, conceded: int) -> int:
+    """The seat that scored, by the state before the goal: of the two last to touch the ball, the later one of the team
+    that did not concede; -1: neither, an own goal.
+    """
+    touched = (before.ball.touched - 1, before.ball.before - 1)
+    return next((seat for seat in touched if seat >= 0 and side_of(before.robots[seat]) != conceded), -1)
 
 
 def waiting(state: Football) -> int:

@@ -166,6 +166,25 @@ def test_the_scorer_is_named(arcade: Arcade, names) -> None:
     assert view_in(scene).said[3] == ("Cyd" if names else "Player 3")
 
 
+@pytest.mark.parametrize(
+    ("touched", "before", "word", "name"),
+    [
+        (3, 2, "Goal!", "Player 3"),
+        (2, 3, "Goal!", "Player 3"),  # deflected
+        (2, 4, "Own goal!", "Ice"),
+        (2, 0, "Own goal!", "Ice"),
+        (0, 0, "Own goal!", "Ice"),
+    ],
+)
+def test_an_own_goal_is_called_one(arcade: Arcade, touched, before, word, name) -> None:
+    """The goal on the right is that of robots 2 and 4, so it counts for Ice."""
+    scene = begun(arcade)
+    scene.match.state.ball.touched, scene.match.state.ball.before = touched, before
+    scored(arcade, scene)
+    said = view_in(scene).said
+    assert (said[0], said[3]) == (word, name)
+
+
 @pytest.mark.long
 def test_a_match_with_ceremonies_is_the_match_without(arcade: Arcade) -> None:
     """Two seconds of waiting and a drawn replay change no state: actions and random numbers stay the same."""
@@ -246,7 +265,7 @@ def test_without_a_scene_that_waits_there_is_no_ceremony() -> None:
 def test_the_words_fit(arcade: Arcade, language) -> None:
     match = match_of("football", "idle idle idle idle", "classic")
     view = view_of(match, language)
-    for key in ("football.kick_off", "football.goal"):
+    for key in ("football.kick_off", "football.goal", "football.own_goal"):
         assert view.announcement(view.word(key), (255, 255, 255)).image.get_width() <= 1000 + 64
     assert text_width(view.word("football.replay"), 40, "head") <= CLOCK.w - 24, "legible at three metres"
     for side in ("lobby.side_1", "lobby.side_2"):
