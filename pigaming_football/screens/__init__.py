@@ -24,8 +24,8 @@ def tile(ink: GlowCanvas, x: float, y: float) -> None:
         )
     draw_ball(ink.set_transform(x + 346, y + 140, 0.0, 1.3), 0.6, False)
     ink.set_transform(0, 0)
-    robot(ink, 0, x + 130, y + 178, -0.17, 1.15)
-    robot(ink, 3, x + 454, y + 206, -2.2, 1.0)
+    robot(ink, 0, x + 130, y + 178, -0.17, 1.15, STYLE.teams[0])
+    robot(ink, 3, x + 454, y + 206, -2.2, 1.0, STYLE.teams[1])
 
 
 def plan(ink: GlowCanvas, arena: Arena, left: float, top: float, k: float) -> None:

@@ -37,9 +37,19 @@ def draw_tank(ink: kit.GlowCanvas, player: int, rim: kit.Color | None = None) ->
     return ink.solid([(x * 1.16, y * 1.16) for x, y in turret]).fill(turret, kit.PLAYERS[player])
 
 
-def robot(ink: kit.GlowCanvas, player: int, x: float, y: float, angle: float, scale: float = 1.0) -> kit.GlowCanvas:
-    """Draw the robot of seat 0..3 at (x, y), heading `angle` rad, with its number upright."""
-    draw_tank(ink.set_transform(x, y, angle, scale), player)
+def robot(
+    ink: kit.GlowCanvas,
+    player: int,
+    x: float,
+    y: float,
+    angle: float,
+    scale: float = 1.0,
+    rim: kit.Color | None = None,
+) -> kit.GlowCanvas:
+    """Draw the robot of seat 0..3 at (x, y), heading `angle` rad, with its number upright. `rim`: colour of its team,
+    if its ring has that.
+    """
+    draw_tank(ink.set_transform(x, y, angle, scale), player, rim)
     back, size = _back(player), _number_size(player)
     ink.set_transform(x, y, 0, scale)
     ink.text(str(player + 1), size, -back * math.cos(angle), -back * math.sin(angle), kit.BLACK, "hero", "c")
