@@ -77,6 +77,7 @@ def test_a_match_that_ends_leads_back_to_the_drawing_and_into_no_log(arcade: Arc
     test = arcade.shown(PlayTest)
     arcade.wait(6.0)
     assert test.match.state.tick > 0
+    test.match.state.robots[0].score += 1  # a tie would be played on
     test.match.state.rules.ticks = test.match.state.tick + 2
     arcade.until(lambda: arcade.stack.top is editor, 10.0)
     arcade.press(Button.BACK)
