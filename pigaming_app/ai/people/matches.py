@@ -37,7 +37,7 @@ class Trial:
     def setups(self, person: str, level: str) -> Iterator[tuple[Setup, int]]:
         """Each setup, and the person's seat. Mates are of the person's kind. Raises ChoiceError."""
         names, teams = arenas(self.game), self.rules.teams
-        known = known_brains(self.game, [person, level])
+        known = [*known_brains(self.game, [level]), person]
         for i in range(self.matches):
             seat = i % ROBOTS
             brains = [person if team == teams[seat] else level for team in teams]
@@ -74,7 +74,7 @@ def places(trial: Trial, persons: Sequence[str], levels: Sequence[str], scale: s
     if wrong := [name for name in persons if not is_person(trial.game, name)]:
         raise ChoiceError(f"no model of people '{wrong[0]}' in {trial.game}")
     line_ups = LineUps(trial.game, [*persons, *levels], can_compile(), scaled(trial.game, scale))
-    return [_place(trial, person, level, line_ups) for person in persons for level in levels]
+    return [place(trial, person, level, line_ups) for person in persons for level in levels]
 
 
 def is_person(game: str, name: str) -> bool:
@@ -99,7 +99,7 @@ def scaled(game: str, scale: str | None) -> dict[str, BrainKind]:
     return {name: person_brain(name, wishes, person) for name, person in changed.items()} if wishes else {}
 
 
-def _place(trial: Trial, person: str, level: str, line_ups: LineUps) -> Place:
+def place(trial: Trial, person: str, level: str, line_ups: LineUps) -> Place:
     game, setups = games()[trial.game], [*trial.setups(person, level)]
     ends = line_ups.played([setup for setup, _ in setups])
     seats = [seat for _, seat in setups]

@@ -2,4 +2,4 @@
 
 from pigaming_app.scenes.features.feature import Feature
 
-FEATURE = Feature("balance", rooms=("jobs.balance", "ai.people"))
+FEATURE = Feature("balance", rooms=("jobs.balance", "ai.people", "ai.exploits"))
