@@ -27,11 +27,15 @@ AIS: Mapping[str, GameAI] = {
 BRAINS: Mapping[str, Mapping[str, BrainKind]] = {game: ai.brains for game, ai in AIS.items()}
 
 
-@cache
 def every_brain(game: str) -> Mapping[str, BrainKind]:
     """The brains of a game by name, those that stand for people among them; none of an unknown game."""
+    return {**_people(game), **BRAINS.get(game, {})}
+
+
+@cache
+def _people(game: str) -> Mapping[str, BrainKind]:
     models = optional("ai.people.models")
-    return {**BRAINS.get(game, {}), **(models.people(AIS[game]) if models and game in AIS else {})}
+    return models.people(AIS[game]) if models and game in AIS else {}
 
 
 def is_brain(game: str, name: str) -> bool:

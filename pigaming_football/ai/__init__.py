@@ -32,7 +32,7 @@ HANDS = (
 )
 STRENGTHS = (
     Strength(0.255, 55, 0.45, turbo=False, passes=False, form=0.4),
-    Strength(0.39, 50, 0.40, turbo=False, passes=False, form=0.5),
+    Strength(0.4, 50, 0.40, turbo=False, passes=False, form=0.55),
     Strength(0.485, 45, 0.35, turbo=False, passes=False, form=0.5),
     Strength(0.58, 38, 0.28, turbo=False, passes=True, form=0.5),
     Strength(0.64, 34, 0.22, turbo=False, passes=True, form=0.45),

@@ -83,7 +83,7 @@ def tour(played: Sequence[str]) -> None:
         press(app, Button.FIRE)
         until(app, lambda: isinstance(app.stack.top, MatchScene), 300)
         match = top(app, MatchScene)
-        until(app, lambda: match.match.state.tick > 30, 150)
+        until(app, lambda: match.match.state.tick > 30, 300)
         press(app, Button.START)
         frames(app, 2)
         assert app.stack.top is not match, "no pause"

@@ -36,17 +36,17 @@ EXPERT = Traits(  # an adult who plays often, on a pad
 
 
 @dataclass(frozen=True)
-class Person:
+class PersonModel:
     """Traits, and the driving style of their device."""
 
     traits: Traits
     driving: str
 
 
-PEOPLE: Mapping[str, Person] = {
-    "beginner": Person(BEGINNER, TURN),
-    "player": Person(PLAYER, POINT),
-    "expert": Person(EXPERT, POINT),
+PEOPLE: Mapping[str, PersonModel] = {
+    "beginner": PersonModel(BEGINNER, TURN),
+    "player": PersonModel(PLAYER, POINT),
+    "expert": PersonModel(EXPERT, POINT),
 }
 
 
@@ -58,7 +58,7 @@ def people(ai: GameAI) -> dict[str, BrainKind]:
     return found
 
 
-def person_brain(name: str, wishes: Callable[[Traits], BrainKind], person: Person) -> BrainKind:
+def person_brain(name: str, wishes: Callable[[Traits], BrainKind], person: PersonModel) -> BrainKind:
     """The brain of a person in a game whose wishes are a brain by traits."""
     inner = wishes(person.traits)
 

@@ -30,6 +30,7 @@ class PeopleOptions(JsonOption, SeedOption):
     matches: int = option("matches of each against each; default 400", integer(), 400, metavar="NUMBER")
     variant: str | None = option("set of rules; default: the game's first")
     scale: str | None = option("a trait of them and a factor, such as reaction=1.3", metavar="TRAIT=FACTOR")
+    minutes: float | None = None
 
 
 def run(options: PeopleOptions) -> int:
@@ -43,7 +44,7 @@ def run(options: PeopleOptions) -> int:
             require_one_of("variant", options.variant, list(rules.variants))
         for level in levels:
             find_brain(options.game, level)
-        trial = Trial(options.game, options.matches, options.seed, options.variant)
+        trial = Trial(options.game, options.matches, options.seed, options.variant, options.minutes)
         found = places(trial, people, levels, options.scale)
     if options.json:
         rows = [{**asdict(place), "share": place.share, "wilson95": place.interval} for place in found]

@@ -30,7 +30,7 @@ from pigaming_app.ui.widgets.score_board import BoardRow, ScoreBoard
 
 NONE = "–"
 STRONG_LEVEL = 3  # the weakest level that counts
-STRONG = frozenset({"hand2", "hand3", "net", "q1", "q2"})
+STRONG = frozenset({"hand2", "hand3", "net", "planner", "q1", "q2"})
 """Other AIs no weaker than `hand2`. Of 200 matches of `duel pitanks NAME hand2 --matches 200` under
 `pickups`, `hand3` wins 161 and loses 26, q1 187 and 9, q2 109 and 79; `hand1` wins 1, `fsm` 41 (and loses 125) and
 `classic` none."""

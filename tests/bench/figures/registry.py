@@ -40,7 +40,7 @@ MEASURED = {
     ),
     "people": Measured(PEOPLE, f"{MAIN} people GAME", people.wins, 20),
     "sensitivity": Measured(
-        PEOPLE, f"{MAIN} people pitanks LEVEL --people NAME --scale TRAIT=FACTOR", people.sensitivity, 10
+        PEOPLE, f"{MAIN} people pitanks level1 --people beginner --scale reaction=0.7", people.sensitivity, 10
     ),
     "network": Measured(NETWORKS, f"{BENCH}network_wins net --matches {networks.EACH}", networks.wins, 10),
     "racer": Measured(NETWORKS, f"{BENCH}network_races {networks.RACER}", networks.races, 4),

@@ -23,7 +23,7 @@ it, or its team, was alone in the lead at half time; `comeback`: how far it was 
 counts, if its place is better now."""
 
 
-class Tally:
+class RobotFeats:
     """What adds up for one robot, per sample."""
 
     def __init__(self) -> None:
@@ -57,7 +57,7 @@ class FeatRecorder:
     """Records the feats of a match, or of all its rounds."""
 
     def __init__(self) -> None:
-        self.tallies = [Tally() for _ in range(ROBOTS)]
+        self.tallies = [RobotFeats() for _ in range(ROBOTS)]
         self.match: Match | None = None
         self.series: Sequence[Sequence[tuple[float, int]]] = ()  # of the first round
         self.standings: list[list[float]] = []  # ranking keys of all seats, once a second of the present round

@@ -147,12 +147,12 @@ LESSONS = {
     "claim": Lesson((Actor(300, 342, 0, TAKE),), 5.5, AT_A, _pallet_at(IN_SLOT, OUTPUT_A, HALF, 140, FIRE)),
     "fast": Lesson((Actor(300, 90, 0, f"{FEED}, wait 3"),), 5.5, AT_A, _pallet_at(ON_ROBOT, 0, RAW)),
     "allies": Lesson(
-        (Actor(300, 184, 180, FETCH), *(Actor(x, y, 180, "level5") for x, y in ((340, 330), (240, 420), (400, 130)))),
+        (Actor(300, 184, 180, FETCH), *(Actor(x, y, 180, "planner") for x, y in ((340, 330), (240, 420), (400, 130)))),
         4.5,
         (230.0, 260.0),
     ),
     "stars": Lesson((Actor(900, 160, 0, "wait 9"),), 4.5, (895.0, 60.0), _before_star),
-    "tasks": Lesson((Actor(300, 330, 0, "wait 9"), Actor(330, 200, 180, "level5")), 6.0, (330.0, 230.0)),
+    "tasks": Lesson((Actor(300, 330, 0, "wait 9"), Actor(330, 200, 180, "planner")), 6.0, (330.0, 230.0)),
     "clear": Lesson((Actor(330, 450, 0, "wait 9"),), 6.0, (560.0, 330.0), _pallet_at(IN_SLOT, OUTPUT_A, HALF, 880)),
 }
 

@@ -111,10 +111,10 @@ BARE, START_BADGE = 30.0, 26.0  # px: half the width of a line with its glow; ra
 LAP_SO_FAR = 14.0 * HZ  # ticks
 
 LESSONS = {
-    "laps": Lesson((Actor(112, 640, 270, "level3"),), 4.0, None, _in_lap(3, LINES)),
-    "lines": Lesson((Actor(1010, 116, 0, "level3"),), 7.0, None, _in_lap(0, 0)),
-    "finish": Lesson((Actor(640, 760, 166, "level3"),), 5.0, None, _in_lap(3, LINES - 1)),
-    "mud": Lesson((Actor(560, 640, 180, "go 100 640"), Actor(560, 786, 180, "level3")), 3.0, (400.0, 700.0)),
+    "laps": Lesson((Actor(112, 640, 270, "hand3"),), 4.0, None, _in_lap(3, LINES)),
+    "lines": Lesson((Actor(1010, 116, 0, "hand3"),), 7.0, None, _in_lap(0, 0)),
+    "finish": Lesson((Actor(640, 760, 166, "hand3"),), 5.0, None, _in_lap(3, LINES - 1)),
+    "mud": Lesson((Actor(560, 640, 180, "go 100 640"), Actor(560, 786, 180, "hand3")), 3.0, (400.0, 700.0)),
     "draft": Lesson(
         (Actor(200, 130, 0, "go 1000 116, turbo go 1500 70"), Actor(330, 120, 0, "go 1400 120")),
         3.4,

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from pigaming_app.scenes.results.awards.feats import EVERY, FeatRecorder, Tally
+from pigaming_app.scenes.results.awards.feats import EVERY, FeatRecorder, RobotFeats
 from pigaming_app.sim.world import DT, HZ, Action
 from tests.matches import match_of
 
@@ -94,7 +94,7 @@ def test_a_driver_who_waits_at_the_finish_is_not_called_patient() -> None:
 
 
 def test_the_longest_straight_ends_where_a_robot_turns() -> None:
-    tally, robot = Tally(), SimpleNamespace(x=0.0, y=0.0, linear=100.0, angular=0.0, boosting=0)
+    tally, robot = RobotFeats(), SimpleNamespace(x=0.0, y=0.0, linear=100.0, angular=0.0, boosting=0)
     for angular, seconds in ((0.0, 1), (2.0, 1), (0.05, 3), (-2.0, 1), (0.0, 2)):
         robot.angular = angular
         for _ in range(seconds * HZ // EVERY):
