@@ -3,20 +3,15 @@
 The scene holds the match meanwhile: after a goal the rules let robots drive on, and nobody could see where.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from pigaming_app.api.look import STYLE, Batch, put
+from pigaming_app.api.look import STYLE, Batch, SimpleView, put
 from pigaming_app.api.rules import HZ
 
 from . import sprites
 from .ball_track import BallTrack
-
-if TYPE_CHECKING:
-    from .view import FootballView
 
 SECONDS = 2.0  # of a ceremony
 IMPACT, IN_NET = 0.25, 0.2  # s before the replay, and after it: the ball in the net
@@ -49,7 +44,7 @@ class GoalReplay:
             self.track.follow(self.clip[self.shown].ball, time)
 
 
-def samples(view: FootballView) -> Iterator[Callable[[], object]]:
+def samples(view: SimpleView) -> Iterator[Callable[[], object]]:
     """Functions that make the pictures of ceremonies."""
     yield partial(view.announcement, view.word("football.kick_off"), STYLE.ice)
     for side in (0, 1):
@@ -60,7 +55,7 @@ def samples(view: FootballView) -> Iterator[Callable[[], object]]:
         yield partial(sprites.bracket, corner)
 
 
-def draw_teams(view: FootballView, light: Batch, top: Batch) -> None:
+def draw_teams(view: SimpleView, light: Batch, top: Batch) -> None:
     """The names of the teams, which come in from their sides, and the ball, which falls on its spot."""
     entered = 1.0 - (1.0 - min(1.0, view.since / ENTER)) ** 3
     for side in (0, 1):
@@ -73,7 +68,7 @@ def draw_teams(view: FootballView, light: Batch, top: Batch) -> None:
         put(top, sprites.falling(0.0, drop), *view.on_canvas(800.0, 450.0))
 
 
-def draw_brackets(view: FootballView, light: Batch) -> None:
+def draw_brackets(view: SimpleView, light: Batch) -> None:
     """The corners of the picture of a replay."""
     for corner in range(4):
         x, y = (BRACKET if corner % 2 == 0 else 1600.0 - BRACKET), (BRACKET if corner < 2 else 900.0 - BRACKET)

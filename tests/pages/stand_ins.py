@@ -62,6 +62,8 @@ LIMITS: dict[str, dict[str, object]] = {  # of parsed arguments, by the end of t
     "duel": {"minutes": MINUTES, "matches": 2},
     "league": {"minutes": MINUTES, "matches": 2, "brains": 3},
     "people": {"minutes": MINUTES, "matches": 1},
+    "fairness": {"minutes": MINUTES, "matches": 2},
+    "exploits": {"minutes": MINUTES, "matches": 1},
     "train qlearning": {"minutes": 0.05, "matches": 1},
     "train ppo": {"minutes": None, "updates": 1},
     "tests.bench.fairness": {"matches": 4},

@@ -6,6 +6,7 @@ from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.traits import NUMBERS
+from pigaming_app.ai.game_ai import POINT, TURN
 from pigaming_app.ai.learning.league import wilson
 from pigaming_app.ai.learning.line_ups import LineUps
 from pigaming_app.ai.people.models import PEOPLE, people, person_brain
@@ -17,6 +18,8 @@ from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, make_setup, require_one_of
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import ROBOTS
+
+STYLES = (TURN, POINT)
 
 
 @dataclass(frozen=True)
@@ -66,14 +69,16 @@ class Place:
         return wilson(round(self.wins), self.matches)
 
 
-def places(trial: Trial, persons: Sequence[str], levels: Sequence[str], scale: str | None = None) -> list[Place]:
+def places(
+    trial: Trial, persons: Sequence[str], levels: Sequence[str], scale: str | None = None, driving: str | None = None
+) -> list[Place]:
     """The place of each of these people against each of these AIs. Raises ChoiceError or ArenaError.
 
-    `scale`: a trait of the people and a factor, such as "reaction=1.3".
+    `scale`: a trait of the people and a factor, such as "reaction=1.3"; `driving`: their style, turn or point.
     """
     if wrong := [name for name in persons if not is_person(trial.game, name)]:
         raise ChoiceError(f"no model of people '{wrong[0]}' in {trial.game}")
-    line_ups = LineUps(trial.game, [*persons, *levels], can_compile(), scaled(trial.game, scale))
+    line_ups = LineUps(trial.game, [*persons, *levels], can_compile(), changed(trial.game, scale, driving))
     return [place(trial, person, level, line_ups) for person in persons for level in levels]
 
 
@@ -82,10 +87,21 @@ def is_person(game: str, name: str) -> bool:
     return name in people(AIS[game])
 
 
-def scaled(game: str, scale: str | None) -> dict[str, BrainKind]:
-    """The people of a game with one trait scaled, as in "reaction=1.3". Raises ChoiceError."""
-    if not scale:
+def changed(game: str, scale: str | None, driving: str | None) -> dict[str, BrainKind]:
+    """The people of a game, with one trait scaled, or with another driving style. Raises ChoiceError."""
+    wishes = AIS[game].person
+    if wishes is None or not (scale or driving):
         return {}
+    if driving:
+        require_one_of("driving style", driving, STYLES)
+    models = {name: replace(model, driving=driving or model.driving) for name, model in PEOPLE.items()}
+    if scale:
+        trait, factor = _trait_and_factor(scale)
+        models = {name: replace(model, traits=model.traits.scaled(trait, factor)) for name, model in models.items()}
+    return {name: person_brain(name, wishes, model) for name, model in models.items()}
+
+
+def _trait_and_factor(scale: str) -> tuple[str, float]:
     trait, _, factor = scale.partition("=")
     require_one_of("trait", trait, NUMBERS)
     try:
@@ -94,9 +110,7 @@ def scaled(game: str, scale: str | None) -> dict[str, BrainKind]:
         raise ChoiceError(f"{scale}: not a trait and a factor, such as reaction=1.3") from None
     if not 0.0 < share <= 10.0:
         raise ChoiceError(f"{scale}: the factor is not between 0 and 10")
-    wishes = AIS[game].person
-    changed = {name: replace(person, traits=person.traits.scaled(trait, share)) for name, person in PEOPLE.items()}
-    return {name: person_brain(name, wishes, person) for name, person in changed.items()} if wishes else {}
+    return trait, share
 
 
 def place(trial: Trial, person: str, level: str, line_ups: LineUps) -> Place:

@@ -30,6 +30,7 @@ class PeopleOptions(JsonOption, SeedOption):
     matches: int = option("matches of each against each; default 400", integer(), 400, metavar="NUMBER")
     variant: str | None = option("set of rules; default: the game's first")
     scale: str | None = option("a trait of them and a factor, such as reaction=1.3", metavar="TRAIT=FACTOR")
+    driving: str | None = option("driving style of beginner, player and expert: turn or point", metavar="STYLE")
     minutes: float | None = None
 
 
@@ -45,7 +46,7 @@ def run(options: PeopleOptions) -> int:
         for level in levels:
             find_brain(options.game, level)
         trial = Trial(options.game, options.matches, options.seed, options.variant, options.minutes)
-        found = places(trial, people, levels, options.scale)
+        found = places(trial, people, levels, options.scale, options.driving)
     if options.json:
         rows = [{**asdict(place), "share": place.share, "wilson95": place.interval} for place in found]
         print(json.dumps({"game": options.game, "variant": options.variant or rules.default.name, "places": rows}))
