@@ -29,7 +29,7 @@ BRAINS: Mapping[str, Mapping[str, BrainKind]] = {game: ai.brains for game, ai in
 
 def every_brain(game: str) -> Mapping[str, BrainKind]:
     """The brains of a game by name, those that stand for people among them; none of an unknown game."""
-    return {**_people(game), **BRAINS.get(game, {})}
+    return {**BRAINS.get(game, {}), **_people(game)}
 
 
 @cache
