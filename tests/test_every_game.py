@@ -11,7 +11,7 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 import pytest
 
 from pigaming_app.ai.learning.rollout import Batch
-from pigaming_app.ai.registry import BRAINS, make_brain
+from pigaming_app.ai.registry import AIS, BRAINS, make_brain
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import ALONE, Seat, Setup
 from pigaming_app.games.match import Match
@@ -31,7 +31,7 @@ THINGS = {
         "race": (("wall", 790, 110), ("mud", 300, 180), ("line", 1300, 780)),
     }.items()
 }
-BY_HAND = {"pitanks": "fsm", "race": "hand3"}
+BY_HAND = {"pitanks": "fsm", "factory": "hand3", "race": "hand3"}
 TWINS_TICKS = 20_000  # over all matches of the comparison of the two bodies
 
 
@@ -54,7 +54,7 @@ def companies():
 def company(game, by_hand=False):
     """Brains for the four seats: the best one, or a machine by hand, if any, and random ones."""
     kinds = BRAINS[game]
-    best = kinds[BY_HAND.get(game, "random")] if by_hand else kinds.get("level5", kinds["random"])
+    best = kinds[BY_HAND.get(game, "random")] if by_hand else kinds[AIS[game].chauffeur]
     return [best, kinds["random"], kinds["random"], kinds["random"]]
 
 

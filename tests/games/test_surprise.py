@@ -49,7 +49,7 @@ def lap(seed: int) -> None:
 
 def deliver(seed: int) -> None:
     """Two robots of the planner, one of either team, deliver one pallet each within the time."""
-    assert finished(match_of("factory", "level5 level5", f"surprise-{seed}", goal=2)).state.winner
+    assert finished(match_of("factory", "planner planner", f"surprise-{seed}", goal=2)).state.winner
 
 
 def corners(drawing: Drawing) -> int:

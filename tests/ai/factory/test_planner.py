@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from pigaming_app.ai.explanations.registry import thoughts_of
-from pigaming_app.ai.factory.brains import LEVELS
+from pigaming_app.ai.factory.brains import LEVELS, PLANNER
 from pigaming_app.ai.factory.navigation import FAR
 from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import make_brain
@@ -157,6 +157,6 @@ def test_the_best_are_seldom_far_from_the_bound(floor):
     """The median of 30 matches of two alone."""
     one, two, three, four = (Seat(name, i % 2) for i, name in enumerate(("planner", "off") * 2))
     setups = [Setup("factory", floor, (one, two, three, four), 5.0, seed, "standard", 4) for seed in range(1, 31)]
-    batch = Batch(setups, [LEVELS[-1], None, LEVELS[-1], None], can_compile())
+    batch = Batch(setups, [PLANNER, None, PLANNER, None], can_compile())
     batch.play(5 * 60 * HZ)
     assert np.median([match.tick for match in batch.ended()]) * DT <= 1.4 * bound(floor, 2, 4)

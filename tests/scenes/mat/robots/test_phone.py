@@ -6,6 +6,7 @@ from math import dist
 
 import pytest
 
+from pigaming_app.ai.game_ai import TURN
 from pigaming_app.hardware.emulator.firmware import DEADMAN
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.scenes.mat.robots.match_scene import RealMatch
@@ -66,7 +67,8 @@ class Player:
 
 @pytest.fixture
 def player(arcade: Arcade, mat: EmulatedSession, monkeypatch: pytest.MonkeyPatch) -> Iterator[Player]:
-    """A robot that drives."""
+    """A robot that drives, by a phone that steers."""
+    arcade.context.settings.pad_driving = TURN
     phones = arcade.context.controls.phones
     monkeypatch.setattr(phones, "clock", mat.arena.clock)
     number = phones.connect()
