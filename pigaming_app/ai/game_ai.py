@@ -1,6 +1,6 @@
 """The AIs of one game, and the ways in which people drive in it."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 from pigaming_app.ai.brain import kind
@@ -26,9 +26,6 @@ class GameAI:
     driving: Mapping[str, Driving] = field(default_factory=lambda: USUAL_DRIVING)  # styles, in the lobby's order
     chauffeur: str = LEVELS[-1]  # drives for one button
     boosts: bool = False  # the one button is the turbo too, where there may be nothing to fire
-    tricks: Mapping[str, Sequence[BrainKind]] = field(
-        default_factory=dict
-    )  # scripts, in several forms, that must not win
     person: Callable[[Traits], BrainKind] | None = None  # what a person sees and wants; `ai/people` adds the hands
 
     def __post_init__(self) -> None:

@@ -21,21 +21,20 @@ from tests.matches import run
 AS_PLAYED = 2.0  # minutes
 
 
-def with_brains(football, seed=5, **brains):
+def with_brains(football, **brains):
     for seat, name in brains.items():
-        football.sit(int(seat[1:]), make_brain("football", name, seed))
+        football.sit(int(seat[1:]), make_brain("football", name, 5))
     return football
 
 
-@pytest.mark.parametrize("level", LEVELS)
+RARE = pytest.mark.xfail(strict=True, reason="levels for people score rarely; open in issue 30")
+
+
+@pytest.mark.parametrize("level", [pytest.param(one, marks=RARE) if one in LEVELS[:2] else one for one in LEVELS])
 def test_alone_every_level_finds_the_goal(level):
-    """In one of four matches of three minutes: the lowest one aims as badly as a child who plays for the first time."""
-    for seed in range(1, 5):
-        football = run(with_brains(match(present=(0,), minutes=3.0), seed, p0=level), 180 * 50)
-        assert football.state.players[0].own_goals <= 1
-        if goals_of(football.state, 0):
-            return
-    pytest.fail("no goal")
+    football = run(with_brains(match(present=(0,)), p0=level), 60 * 50)
+    assert goals_of(football.state, 0) > 0
+    assert football.state.players[0].own_goals <= 1
 
 
 @pytest.mark.parametrize("cases", [24, pytest.param(60, marks=[pytest.mark.long, pytest.mark.again])])
@@ -137,11 +136,13 @@ def test_each_level_beats_the_one_below(lower, upper):
 @pytest.mark.long
 @pytest.mark.parametrize("level", ["level1", "level3", "level5"])
 @pytest.mark.parametrize("arena", repeated(["classic", "bumpers", "small_goals"]))
-def test_sides_are_even_and_goals_neither_rare_nor_cheap(arena, level):
+def test_sides_are_even_and_goals_neither_rare_nor_cheap(request, arena, level):
+    if level == "level1" or (arena, level) == ("small_goals", "level3"):
+        request.applymarker(RARE)
     setups = [setup(arena, minutes=AS_PLAYED, seed=seed) for seed in range(100)]
     batch = Batch(setups, [BRAINS["football"][level]] * 4, True)
     batch.play(round(AS_PLAYED * 3000))
     goals = [[sum(int(row["robots"][k]["score"]) for k in side) for side in ((0, 2), (1, 3))] for row in batch.matches]
     wins = [sum(one > other for one, other in goals), sum(one < other for one, other in goals)]
-    assert 0.8 <= sum(map(sum, goals)) / len(goals) <= 8.0
+    assert 2.0 <= sum(map(sum, goals)) / len(goals) <= 8.0
     assert abs(wins[0] - wins[1]) <= 3.0 * sum(wins) ** 0.5, "three standard deviations of a fair coin"

@@ -31,16 +31,19 @@ def victims(level: str, variant: str, seed: int) -> dict[int, list[int]]:
 
 @pytest.mark.long
 @pytest.mark.parametrize(("level", "variant"), repeated(CASES))
-def test_their_hits_are_spread_evenly_and_move_on(level, variant):
+def test_their_hits_are_spread_evenly_and_move_on(request, level, variant):
     """A third of all hits for each of the others; two in a row on one seat are stray shots."""
+    if level == "level1" and variant != "party":
+        reason = "42 % on the random driver, and 11 of 14 hits on one seat; open in issue 30"
+        request.applymarker(pytest.mark.xfail(strict=True, reason=reason))
     hits, twice, child = 0, 0, 0
-    for seed in range(6):
+    for seed in range(18):
         for seats in victims(level, variant, seed).values():
             hits += len(seats)
             child += seats.count(0)
             twice += sum(a == b for a, b in pairwise(seats))
             if len(seats) >= 8:
-                assert max(Counter(seats).values()) <= 0.8 * len(seats), "one seat is hunted"
-    assert hits > 30
+                assert max(Counter(seats).values()) <= 0.75 * len(seats), "one seat is hunted"
+    assert hits > 60
     assert 0.25 <= child / hits <= 0.42
-    assert twice / hits <= 0.35
+    assert twice / hits <= 0.3

@@ -38,9 +38,9 @@ MEASURED = {
     "fair football": Measured(
         FOOTBALL, f"{FAIR} football --variant V --matches 960 --brains {LEVEL5}", fairness.football, 4
     ),
-    "people": Measured(PEOPLE, f"{MAIN} people GAME", people.wins, 20),
+    "people": Measured(PEOPLE, f"{MAIN} people GAME --seed 0", people.wins, 20),
     "sensitivity": Measured(
-        PEOPLE, f"{MAIN} people pitanks level1 --people beginner --scale reaction=0.7", people.sensitivity, 10
+        PEOPLE, f"{MAIN} people pitanks level1 --people beginner --scale reaction=0.7 --seed 0", people.sensitivity, 10
     ),
     "network": Measured(NETWORKS, f"{BENCH}network_wins net --matches {networks.EACH}", networks.wins, 10),
     "racer": Measured(NETWORKS, f"{BENCH}network_races {networks.RACER}", networks.races, 4),
