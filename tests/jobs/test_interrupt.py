@@ -33,6 +33,9 @@ BODIES = {  # what keeps a job busy when Ctrl-C comes, once it has begun
     "command = [sys.executable, '-c', 'import time; time.sleep(99)']\n"
     "begin()\nwith Pool() as threads: threads.submit(subprocess.run, command).result()",
     "a destructor": "class A:\n    def __del__(self):\n        time.sleep(99)\nbegin()\na = A()\ndel a\ntime.sleep(99)",
+    "a file of a library": "import io, pygame\nfrom pigaming_app.ui.draw.theme import _file\nclass File(io.BytesIO):\n"
+    "    def close(self): time.sleep(99)\n"
+    "pygame.font.init()\nbegin()\npygame.font.Font(File(_file('head')), 20)\ntime.sleep(99)",
     "a handler": "begin()\ntry: time.sleep(99)\nexcept BaseException: time.sleep(99)",
     "a library": "begin()\ntry: time.sleep(99)\nexcept BaseException: raise ValueError from None",
     "a child": "begin()\nsubprocess.run([sys.executable, '-c', 'import time; time.sleep(99)'])",

@@ -13,7 +13,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from types import FrameType
+from types import FrameType, TracebackType
 from typing import Any, NoReturn
 
 LINE = "PiGaming: stopped."
@@ -92,6 +92,14 @@ class Interrupts:
         elif not self.cut:
             sys.__unraisablehook__(args)
 
+    def printed(self, kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        """Hook for exceptions that a library prints and drops, as SDL does with those of a file's methods."""
+        if self.cut:
+            self._raised = False
+            _later(SWALLOWED, self._wake)
+        else:
+            sys.__excepthook__(kind, error, trace)
+
     def in_thread(self, args: Any) -> None:
         """Hook for exceptions that end a thread: once Ctrl-C was pressed, those of threads cut off are no news."""
         if not self.cut:
@@ -114,17 +122,18 @@ def watched() -> Iterator[Interrupts]:
     ):
         yield interrupts
         return
-    hooks = sys.unraisablehook, threading.excepthook
+    hooks = sys.unraisablehook, sys.excepthook, threading.excepthook
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     handler = signal.signal(signal.SIGURG, interrupts.notice)
     watcher = threading.Thread(target=interrupts.watch, name="interrupts", daemon=True)
     watcher.start()
-    sys.unraisablehook, threading.excepthook = interrupts.ignored, interrupts.in_thread
+    sys.unraisablehook, sys.excepthook = interrupts.ignored, interrupts.printed
+    threading.excepthook = interrupts.in_thread
     try:
         yield interrupts
     finally:
         interrupts.close(watcher)
-        sys.unraisablehook, threading.excepthook = hooks
+        sys.unraisablehook, sys.excepthook, threading.excepthook = hooks
         signal.signal(signal.SIGURG, handler)
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
