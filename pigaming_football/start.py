@@ -1,14 +1,14 @@
 """Robot Football: initial state of a match, its variants, and its statistics."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from pigaming_app.api import Variant
 from pigaming_app.api.arenas import FieldError
-from pigaming_app.api.rules import HZ, WIDTH, Arena, Setup, seat_robots
+from pigaming_app.api.rules import HZ, WIDTH, Arena, Setup, dealt_to_teams, seat_robots
 
 from .pitch import Pitch
 from .rules import take_out
-from .state import LEFT, MIDDLE, RIGHT, Football, Rules
+from .state import MIDDLE, Football, Rules
 
 OVERTIME = 60.0  # s, at most
 VARIANTS = Variant.by_name(
@@ -21,7 +21,7 @@ VARIANTS = Variant.by_name(
 
 def start(match: Football, arena: Arena, setup: Setup) -> None:
     """Fill a fresh match: walls, goals, robots on their team's starts, rules, random seed, the ball in the middle."""
-    seat_robots(match, arena, setup)
+    seat_robots(match, arena, setup, dealt_to_teams)
     pitch = arena.plan
     if not isinstance(pitch, Pitch):
         raise FieldError("goal", "a table is missing")
@@ -29,21 +29,9 @@ def start(match: Football, arena: Arena, setup: Setup) -> None:
     match.drop_count = len(pitch.drops)
     for spot, (x, y) in zip(match.drops, pitch.drops, strict=False):
         spot.x, spot.y = x, y
-    teams = [seat.team for seat in setup.seats]
-    for i, k in enumerate(start_indices(teams, [bool(robot.present) for robot in match.robots])):
-        robot, player, pose = match.robots[i], match.players[i], arena.starts[k]
-        robot.x, robot.y, robot.heading = pose.x, pose.y, pose.heading
-        player.last_x, player.last_y, player.armed = pose.x, pose.y, 1
+    for robot, player in zip(match.robots, match.players, strict=True):
+        player.last_x, player.last_y, player.armed = robot.x, robot.y, 1
     take_out(match, WIDTH / 2, MIDDLE, match.rules.warning, 0.0)
-
-
-def start_indices(teams: Sequence[int], plays: Sequence[bool]) -> list[int]:
-    """The start of each seat: 1st and 3rd for the left team, the others for the right; empty seats take the rest."""
-    free = {LEFT: [0, 2], RIGHT: [1, 3]}
-    sides = [LEFT if team % 2 == 0 else RIGHT for team in teams]
-    taken = [free[side].pop(0) if on and free[side] else -1 for side, on in zip(sides, plays, strict=True)]
-    left = sorted(free[LEFT] + free[RIGHT])
-    return [k if k >= 0 else left.pop(0) for k in taken]
 
 
 def rules_of(setup: Setup) -> Rules:

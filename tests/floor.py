@@ -6,6 +6,7 @@ from math import cos, hypot, sin
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.pitanks import GAME as PITANKS
 from pigaming_app.games.pitanks.state import PiTanks
+from pigaming_app.games.starts import in_order, take_starts
 from pigaming_app.sim.arena import Arena, StartPose, WallSpec, build
 from pigaming_app.sim.world import Wall, World
 
@@ -39,11 +40,13 @@ def pitanks(
     minutes: float = 1.0,
     half: float = 15.0,
 ) -> PiTanks:
-    """A match of PiTanks before its first tick, with one robot for each pose."""
+    """A match of PiTanks before its first tick, with one robot for each pose, in the order of seats."""
     match = PiTanks()
     one, two, three, four = (Seat("random" if i < len(poses) else "off", teams[i]) for i in range(4))
     setup = Setup("pitanks", "test", (one, two, three, four), minutes, 1, variant)
-    PITANKS.start(match, arena(walls, poses, health, half), setup)
+    place = arena(walls, poses, health, half)
+    PITANKS.start(match, place, setup)
+    take_starts(match, place, in_order(match))
     return match
 
 

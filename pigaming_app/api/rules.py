@@ -2,6 +2,7 @@
 
 from pigaming_app.games.game import Setup
 from pigaming_app.games.simple import Rules, SimpleMatch, seat_robots, steer
+from pigaming_app.games.starts import dealt_to_teams
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.contact import first_wall
@@ -24,6 +25,7 @@ __all__ = [
     "Setup",
     "SimpleMatch",
     "Wall",
+    "dealt_to_teams",
     "disc_contact",
     "first_wall",
     "is_clear",

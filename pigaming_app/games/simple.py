@@ -1,11 +1,11 @@
 """The parts of a game with walls, robots and points, which other games replace by their own."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import atan2, sqrt
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pigaming_app.games.starts import clear_starts
+from pigaming_app.games.starts import clear_starts, dealt, take_starts
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.arena import Arena, Layout, build, read_floor, read_starts, read_walls
 from pigaming_app.sim.kernel import kernel
@@ -45,6 +45,7 @@ class MatchState(World):
     """A match of any game, up to the fields that a game adds."""
 
     rules: MatchRules
+    starts: Annotated[list[int], ROBOTS]  # index of the start on which each seat began
 
 
 @record
@@ -106,13 +107,19 @@ def rules_of(setup: Any) -> Rules:
     return rules
 
 
-def seat_robots(match: MatchState, arena: Arena, setup: Any) -> None:
-    """Fill a fresh match: arena, robots on their starts, the generator's seed, the time limit."""
+def seat_robots(
+    match: MatchState, arena: Arena, setup: Any, deal: Callable[[MatchState], Sequence[int]] = dealt
+) -> None:
+    """Fill a fresh match: arena, robots on their starts, the generator's seed, the time limit.
+
+    `deal`: the start of each seat: `dealt` at random, or `dealt_to_teams`.
+    """
     match.random, match.rules.ticks = seeded(setup.seed), round(setup.minutes * 60 * HZ)
     build(match, arena)
     for robot, seat in zip(match.robots, setup.seats, strict=True):
         robot.present = int(seat.brain != "off")
         robot.team = seat.team
+    take_starts(match, arena, deal(match))
 
 
 @kernel

@@ -1,14 +1,13 @@
 """View of Robot Football: pitch, goals, the rolling ball, its trail and charge, kick-off and goals."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
 from pigaming_app.api.look import STYLE, Batch, SimpleView, put
 
 from ..rules import side_of
-from ..start import start_indices
 from ..state import Football
 from . import ceremony, sprites
 from .ball_track import FADES, BallTrack
@@ -39,9 +38,6 @@ class FootballView(SimpleView):
     def open(self) -> None:
         self.present(ceremony.SECONDS)
         self.announce(self.word("football.kick_off"), STYLE.ice)
-
-    def start_order(self, state: Football) -> Sequence[int]:
-        return start_indices([robot.team for robot in state.robots], [bool(robot.present) for robot in state.robots])
 
     def floor_marks(self, state: Football) -> tuple[Any, ...]:
         return sprites.draw_pitch, state.mouth

@@ -101,6 +101,14 @@ class Floor:
     aisle: tuple[float, float, float, float]
     walls: tuple[WallSpec, ...] = ()
 
+    @property
+    def swapped(self) -> "Floor":
+        """The same floor with the warehouses of either team in the places of the other's."""
+        own = SHELVES * len(KINDS)
+        places = (*self.slots[own : TEAMS * own], *self.slots[:own])
+        moved = (replace(slot, x=place.x, y=place.y) for slot, place in zip(self.slots, places, strict=False))
+        return replace(self, slots=(*moved, *self.slots[TEAMS * own :]))
+
 
 def read(table: TomlTable) -> Layout:
     """Parse a floor: warehouses, machines, aisle and workers. Raises FieldError."""

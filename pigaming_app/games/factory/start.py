@@ -21,6 +21,7 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.games.game import ALLIES, PAIRS, Setup, Variant
 from pigaming_app.games.simple import seat_robots
+from pigaming_app.games.starts import dealt, dealt_to_ends
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 
@@ -46,8 +47,9 @@ STEPS_PER_DELIVERY = 1000.0  # steps of work that weigh as much as one delivery:
 
 def start(match: Factory, arena: Arena, setup: Setup) -> None:
     """Fill a fresh match: walls, machines, people, robots on their team's starts, pallets, rules, random seed."""
-    seat_robots(match, arena, setup)
-    floor: Floor = arena.plan
+    allies = VARIANTS[setup.variant].team_mode == ALLIES
+    seat_robots(match, arena, setup, dealt if allies else dealt_to_ends)
+    floor = floor_of(match, arena)
     set_rules(match.rules, setup)
     if match.rules.allies:
         expected = expected_time(floor, sum(robot.present for robot in match.robots), match.rules.pallets)
@@ -55,10 +57,8 @@ def start(match: Factory, arena: Arena, setup: Setup) -> None:
             round(THREE_STARS * expected * HZ),
             round(TWO_STARS * expected * HZ),
         )
-    for i, k in enumerate(_start_indices(setup)):
-        robot, pose = match.robots[i], arena.starts[k]
-        robot.x, robot.y, robot.heading = pose.x, pose.y, pose.heading
-        match.motions[i].x, match.motions[i].y = pose.x, pose.y
+    for motion, robot in zip(match.motions, match.robots, strict=True):
+        motion.x, motion.y = robot.x, robot.y
     _place_equipment(match, floor)
     if match.rules.party:
         set_out(match)
@@ -66,6 +66,13 @@ def start(match: Factory, arena: Arena, setup: Setup) -> None:
         _place_pallets(match)
     for side in (ICE, FIRE):
         stock_up(match, side)
+
+
+def floor_of(match: Factory, arena: Arena) -> Floor:
+    """The floor of a match: the warehouses belong to the teams that start beside them."""
+    floor: Floor = arena.plan
+    pairs = zip(match.robots, match.starts, strict=True)
+    return floor.swapped if any(robot.present and robot.team != k % TEAMS for robot, k in pairs) else floor
 
 
 def _place_pallets(match: Factory) -> None:
@@ -76,19 +83,6 @@ def _place_pallets(match: Factory) -> None:
         pallet = match.pallets[side * MAX_PALLETS + i // TEAMS]
         pallet.exists, pallet.team, pallet.state = 1, ICE if rules.allies else side, RAW
         pallet.place, pallet.at = WAITING, side
-
-
-def _start_indices(setup: Setup) -> list[int]:
-    """The start of each seat: the 1st and 3rd for ICE, the others for FIRE; empty seats take the rest.
-
-    Allies start in the order of their seats.
-    """
-    if VARIANTS[setup.variant].team_mode == ALLIES:
-        return list(range(ROBOTS))
-    free = {ICE: [0, 2], FIRE: [1, 3]}
-    taken = [free[seat.team].pop(0) if seat.brain != "off" else -1 for seat in setup.seats]
-    left = sorted(free[ICE] + free[FIRE])
-    return [k if k >= 0 else left.pop(0) for k in taken]
 
 
 def _place_equipment(match: Factory, floor: Floor) -> None:

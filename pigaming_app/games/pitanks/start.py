@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pigaming_app.games.game import Setup, Variant
 from pigaming_app.games.pitanks.state import PiTanks, PiTanksRules
 from pigaming_app.games.simple import seat_robots
+from pigaming_app.games.starts import dealt, in_order
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HZ
 
@@ -19,8 +20,11 @@ VARIANTS = Variant.by_name(
 
 
 def start(match: PiTanks, arena: Arena, setup: Setup) -> None:
-    """Fill a fresh match: walls, robots on their starts, rules, random seed."""
-    seat_robots(match, arena, setup)
+    """Fill a fresh match: walls, robots on their starts, rules, random seed.
+
+    The starts are dealt by the seed, but in `classic`, which is frozen.
+    """
+    seat_robots(match, arena, setup, in_order if setup.variant == "classic" else dealt)
     set_rules(match.rules, setup)
     match.next_pickup = match.rules.pickup_every // 2
 

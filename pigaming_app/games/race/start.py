@@ -36,13 +36,14 @@ from pigaming_app.games.race.laps import progress
 from pigaming_app.games.race.passages import Span, passages
 from pigaming_app.games.race.racing_line import Line, line_round
 from pigaming_app.games.race.state import LINES, MAX_LAPS, Race, RaceRules, TimingLine
+from pigaming_app.games.starts import dealt, dealt_to_all
 from pigaming_app.sim.arena import Arena, Layout, StartPose, build
 from pigaming_app.sim.record import copy
-from pigaming_app.sim.rng import seeded, uniform
+from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.things.cover import CoverPart
 from pigaming_app.sim.things.spec import ThingSpec, read_things, wall_capsules
 from pigaming_app.sim.toml_table import FieldError, TomlTable
-from pigaming_app.sim.world import DT, HZ, ROBOTS, WALLS
+from pigaming_app.sim.world import DT, HZ, WALLS
 
 LAPS = RaceRules().laps  # the default goal
 GOALS = tuple(range(1, MAX_LAPS + 1))
@@ -143,7 +144,8 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
     for robot, seat in zip(match.robots, setup.seats, strict=True):
         robot.present, robot.team = int(seat.brain != "off"), seat.team
     party = bool(match.rules.party)
-    for place, i in enumerate(_dealt(match, party)):
+    match.starts[:] = dealt(match) if party else dealt_to_all(match)
+    for i, place in enumerate(match.starts):
         robot, racer, pose = match.robots[i], match.racers[i], (track.grid if party else arena.starts)[place]
         robot.x, robot.y, robot.heading = pose.x, pose.y, pose.heading
         racer.line = track.common if party else place
@@ -168,15 +170,6 @@ def _set_line(match: Race, found: tuple[Line, Sequence[Span]]) -> None:
     match.ideal[:], match.pace[:] = ideal, pace
     match.narrow = int(bool(spans))
     match.low[:], match.high[:] = zip(*spans, strict=True) if spans else ([0.0] * POINTS,) * 2
-
-
-def _dealt(match: Race, party: bool) -> list[int]:
-    """All seats in random order; on a common grid those without a robot come last."""
-    seats = list(range(ROBOTS))
-    for i in range(ROBOTS - 1, 0, -1):
-        j = int(uniform(match) * (i + 1))
-        seats[i], seats[j] = seats[j], seats[i]
-    return sorted(seats, key=lambda seat: not match.robots[seat].present) if party else seats
 
 
 def _furnish(match: Race, track: TrackPlan) -> None:

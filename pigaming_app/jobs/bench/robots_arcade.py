@@ -27,7 +27,8 @@ from pigaming_app.ui.i18n import english
 START = 120.0  # s until the robots have taken their places
 KEY = bytes(range(100, 116))  # of the Wi-Fi robots
 GAME = "pitanks"
-PLAY = ("play", GAME, "--seats", "level5,level5,level5,level5", "--real", "all", "--minutes", "30")
+IN_ORDER = "3"  # a seed that deals the starts in the order of the seats
+PLAY = ("play", GAME, "--seats", "level5,level5,level5,level5", "--real", "all", "--minutes", "30", "--seed", IN_ORDER)
 
 
 class Arcade:

@@ -31,13 +31,12 @@ def start_positions(setup: Setup) -> list[tuple[float, float]]:
 
 @cached
 @resumable
-def deal(setup: Setup, w: int, h: int) -> Steps[Sprite | None]:
-    """What covers the preview of w x h px in a match; None if its game deals nothing to be seen."""
-    draw = SCREENS[setup.game].deal
-    if draw is None:
-        return None
+def deal(setup: Setup, w: int, h: int) -> Steps[Sprite]:
+    """What covers the preview of w x h px in a match."""
     ink = GlowCanvas(w, h, 3)
     left, top, k = fitted(w, h)
-    draw(ink.set_transform(left, top, 0.0, k), load_cached(setup.game, setup.arena), first_state(setup))
+    SCREENS[setup.game].deal(
+        ink.set_transform(left, top, 0.0, k), load_cached(setup.game, setup.arena), first_state(setup)
+    )
     yield
     return Sprite((yield from ink.sprite_steps(GLOW)), 0, 0)

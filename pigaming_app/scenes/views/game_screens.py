@@ -7,7 +7,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.scenes.views.lesson import Lesson
-from pigaming_app.scenes.views.preview import fitted, walls
+from pigaming_app.scenes.views.preview import fitted, robots, walls
 from pigaming_app.scenes.views.view import MatchView, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.ui.draw import ADD, Color, GlowCanvas, Point, shape_points
@@ -36,7 +36,7 @@ class GameScreens:
     - `preview(arena, w, h, allies)`: an arena as additive light in w x h px.
     - `plan(canvas, arena, left, top, scale)`: what a preview shows besides, such as the lines of a pitch; (left, top)
       is the corner of the arena on the canvas.
-    - `deal(canvas, arena, state)`: what the seed of a match deals, over its preview, in px of the arena.
+    - `deal(canvas, arena, state)`: what the seed of a match deals, over its preview, in px of the arena; the robots.
     - `confetti(canvas, placed, size, shape, color)`: a piece of it at the celebration.
     - `team_colors`: winners have the colour of their team, not their own.
     - `lessons`: by text key of their captions (table `howto.lessons`), in pages of four.
@@ -57,7 +57,7 @@ class GameScreens:
     signs: Mapping[str, str] = field(default_factory=dict)
     awards: Mapping[str, str] = field(default_factory=dict)
     plan: Callable[[GlowCanvas, Arena, float, float, float], object] | None = None
-    deal: Callable[[GlowCanvas, Arena, Any], object] | None = None
+    deal: Callable[[GlowCanvas, Arena, Any], object] = robots
 
     @property
     def page_count(self) -> int:

@@ -1,6 +1,7 @@
-"""Preview of an arena with walls and the players at their start positions, as additive light."""
+"""Preview of an arena with walls and starts, as additive light."""
 
 import math
+from typing import Any
 
 import pygame
 
@@ -13,10 +14,11 @@ from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps
 
 MARGIN = 8  # px around the frame for its glow
+BADGE = 26.0  # px of the arena, radius
 
 
 def walls(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:
-    """Preview of an arena with walls and start positions."""
+    """Preview of an arena with walls and starts, as no seat has been dealt them."""
     left, top, k = fitted(w, h)
     floor, ink = kit.GlowCanvas(w, h, 3), kit.GlowCanvas(w, h, 3)
     FLOORS[pattern_of(arena)](floor.set_transform(left, top, 0.0, k))
@@ -29,17 +31,22 @@ def walls(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:
         ink.line(ends, kit.WALL, thick).line(ends, kit.dim(kit.WALL, 0.25 if wall.health != SOLID else 0.8), thick - 4)
     draw_all(ink.set_transform(left, top, 0.0, k), NEON, arena.things)
     ink.set_transform(0.0, 0.0)
-    for player, start in enumerate(arena.starts):
+    for start in arena.starts:
         r, c, s = max(9.0, 44 * k), math.cos(start.heading), math.sin(start.heading)
         x, y = left + k * start.x, top + k * start.y
-        ink.fill([(x + py, y - px) for px, py in kit.shape_points(player, r)], kit.PLAYERS[player])
-        ink.line(
-            [(x + 1.5 * r * c, y + 1.5 * r * s), (x + 2.3 * r * c, y + 2.3 * r * s)], kit.PLAYERS[player], kit.HAIR + 1
-        )
+        ink.ring(x, y, r, kit.MIST, kit.THIN)
+        ink.line([(x + 1.5 * r * c, y + 1.5 * r * s), (x + 2.3 * r * c, y + 2.3 * r * s)], kit.MIST, kit.HAIR + 1)
     yield
     out = yield from ink.lit_steps(0.6)
     out.blit((yield from floor.downscale_steps()), (0, 0), special_flags=pygame.BLEND_RGB_MAX)
     return out
+
+
+def robots(ink: kit.GlowCanvas, arena: Arena, state: Any) -> None:
+    """The robots of a match on the starts that were dealt to their seats."""
+    for seat, robot in enumerate(state.robots):
+        if robot.present:
+            kit.badge(ink, seat, robot.x, robot.y, BADGE)
 
 
 def fitted(w: int, h: int) -> tuple[float, float, float]:

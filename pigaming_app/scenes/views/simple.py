@@ -55,8 +55,8 @@ class SimpleView(MatchView):
         self, arena: Arena, state: Any, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
         self.words = words
-        floor = partial(walled_floor, self.starts(arena, state), pattern_of(arena), *self.floor_marks(state))
-        self.walls = WalledBackground(len(arena.walls), floor)
+        floor = partial(walled_floor, pattern_of(arena), *self.floor_marks(state))
+        self.walls = WalledBackground(len(arena.walls), floor, self.starts(arena, state))
         super().__init__(state, players, options, words, self.walls, arena.things)
         self.hud = self.make_hud(state)
         self.said: tuple[str, Color, float, str] = "", ICE, 0.0, ""  # announcement, colour, when it began; a name below
@@ -76,7 +76,7 @@ class SimpleView(MatchView):
 
     def start_order(self, state: Any) -> Sequence[int]:
         """The start, 0 to 3, on which each seat begins."""
-        return range(ROBOTS)
+        return state.starts  # type: ignore[no-any-return]
 
     def starts(self, arena: Arena, state: Any) -> Starts:
         """Where the robots of the seats that play begin."""

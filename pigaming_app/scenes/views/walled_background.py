@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import cached_property
 from typing import Any
 
 import pygame
@@ -12,7 +13,7 @@ from pigaming_app.scenes.views.sprites.wall import wall
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ADD, LINE, PLAYERS, PRE, WALL, GlowCanvas, LayeredCanvas, cut_box, dim, shape_points
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.sprites import Sprite
+from pigaming_app.ui.draw.sprites import Batch, Sprite, light_sprite, put
 from pigaming_app.ui.draw.surface_cache import cached
 
 MARGIN = 96  # px left and right of the arena that marks may reach
@@ -21,13 +22,24 @@ Starts = tuple[tuple[int, float, float], ...]  # seat, px, px
 
 class WalledBackground(Background):
     """Background with the first `count` walls, those of the arena; the others belong to real things. `floor` renders
-    what lies under them.
+    what lies under them; `starts` are marked on it.
     """
 
-    def __init__(self, count: int, floor: Callable[[], pygame.Surface]) -> None:
+    def __init__(self, count: int, floor: Callable[[], pygame.Surface], starts: Starts) -> None:
         super().__init__(floor)
+        self.starts = starts
         self.health: list[int] = [0] * count
         self.sprites: list[Sprite | None] = [None] * count
+
+    @cached_property
+    def bare(self) -> pygame.Surface:
+        """The floor, with the starts of this match."""
+        marks: Batch = []
+        out = self._paint().copy()
+        for seat, x, y in self.starts:
+            put(marks, start_mark(seat), LEFT + x, TOP + y)
+        out.fblits(marks, ADD)
+        return out
 
     def show_walls(self, state: Any) -> None:
         """Bake the walls whose health has changed."""
@@ -64,18 +76,21 @@ def _box(part: Any, sprite: Sprite) -> pygame.Rect:
     return sprite.image.get_rect(topleft=(int(x + sprite.dx + 0.5), int(y + sprite.dy + 0.5)))
 
 
+@light_sprite(48, 0.0)
+def start_mark(ink: GlowCanvas, seat: int) -> None:
+    """The shape of a seat on the floor, where its robot begins."""
+    ink.line([(y, -x) for x, y in shape_points(seat, 40)], dim(PLAYERS[seat], 0.20), 3, True)
+
+
 @cached
 @resumable
-def walled_floor(starts: Starts, pattern: str, *marks: Any) -> Steps[pygame.Surface]:
-    """Floor, frame and start position markers. `pattern`: one of FLOORS; `marks`: see `SimpleView.floor_marks`."""
+def walled_floor(pattern: str, *marks: Any) -> Steps[pygame.Surface]:
+    """Floor and frame. `pattern`: one of FLOORS; `marks`: see `SimpleView.floor_marks`."""
     canvas = LayeredCanvas()
     glow, crisp = canvas.glow, canvas.crisp
     FLOORS[pattern](crisp.set_transform(LEFT, TOP))
     crisp.set_transform(0, 0)
     yield
-    for seat, x, y in starts:
-        pad = [(LEFT + x + py, TOP + y - px) for px, py in shape_points(seat, 40)]
-        crisp.line(pad, dim(PLAYERS[seat], 0.20), 3, True)
     glow.neon(cut_box(LEFT - 3, TOP - 3, WIDTH + 6, HEIGHT + 6, 28), WALL, LINE, True)
     crisp.line(cut_box(LEFT + 14, TOP + 14, WIDTH - 28, HEIGHT - 28, 24), (38, 53, 78), 2, True)
     yield

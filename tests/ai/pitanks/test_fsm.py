@@ -10,12 +10,12 @@ from tests.matches import match_of, run
 
 SEED, TICKS = 7, 1500
 DIGESTS = {
-    ("fsm", "classic", "pickups"): "c5286ea9226d6de3e65a55d1807850c23083baf95c0676741536a74b38844f53",
-    ("fsm", "labyrinth", "plain"): "b590877c495fee4049ee5408e43cab7238a52becf1079fb08c6f3c68b1d24b3c",
-    ("fsm", "trenches", "classic"): "915d51e9f6bb6b1ffd432833712a6c4489c76b61546ff76019e71b370141e437",
-    ("classic", "classic", "pickups"): "fa36d4d57fdea44cf14c1a3719006f250942f7085d6d0bbc4cebd7d3ab6bc941",
-    ("classic", "labyrinth", "plain"): "835d5980c4d80600d0b0810d3be7365f98963553c06e979f83c0b7256b08c8cd",
-    ("classic", "trenches", "classic"): "82fe4d3e16944172a4a159d67cca9e364f9c3cb7ca6c19fe4d8e782361d67ee6",
+    ("fsm", "classic", "pickups"): "14f25ac01a4630c35f0f32a1892d624dfc8a30b87691d75007d0373127dd1434",
+    ("fsm", "labyrinth", "plain"): "2b6aada99d526233d7f8a69b1f7a685c056ffc50e8b1764d871b3ab21d5016a2",
+    ("fsm", "trenches", "classic"): "059a78e9a365afa74b1894e1ab52870b921b3bf95e190cd20ba6c02cc0af9f56",
+    ("classic", "classic", "pickups"): "181efe574df91d63668b5f6b0ec0dd2d8e58c1a1ef45c27a835b15f942056853",
+    ("classic", "labyrinth", "plain"): "b55e57440847188f0b8e9dc8b8bef513b808c25323c6e93a8560c0fef09930a3",
+    ("classic", "trenches", "classic"): "3584fc63bccbb793cf81e9fa4d97335a036fb4acd2461bcec4162cd6da9a0066",
 }
 
 

@@ -23,6 +23,7 @@ from pigaming_app.games.factory.state import (
     IN_MACHINE,
     IN_SLOT,
     INPUT,
+    MACHINE_SLOTS,
     ON_ROBOT,
     RAW,
     RESTING,
@@ -735,12 +736,34 @@ def test_one_against_one(seats):
 
 @pytest.mark.parametrize("teams", [(0, 1, 0, 1), (1, 0, 1, 0), (0, 0, 1, 1), (1, 0, 0, 1)])
 @pytest.mark.parametrize("floor", FLOORS)
-def test_a_teams_robots_take_its_starts_in_the_order_of_seats(floor, teams):
-    match = match_of("factory", ["idle"] * 4, floor, teams=teams)
-    starts = [(start.x, start.y) for start in match.arena.starts]
-    for team in (ICE, FIRE):
-        robots = [robot for robot in match.state.robots if robot.team == team]
-        assert [(robot.x, robot.y) for robot in robots] == [starts[team], starts[team + 2]]
+def test_a_teams_robots_start_beside_its_entry(floor, teams):
+    for seed in range(8):
+        match = match_of("factory", ["idle"] * 4, floor, seed=seed, teams=teams).state
+        for team in (ICE, FIRE):
+            robots = [robot for robot in match.robots if robot.team == team]
+            slots = [slot for slot in match.slots[:MACHINE_SLOTS] if (slot.team, slot.kind) == (team, ENTRY)]
+            assert len({(robot.x, robot.y) for robot in robots}) == 2
+            assert len({slot.x < 800.0 for slot in slots} | {robot.x < 800.0 for robot in robots}) == 1
+
+
+@pytest.mark.parametrize("floor", FLOORS)
+def test_both_teams_get_either_end_and_its_four_slots_of_each_kind(floor):
+    ends: dict[int, set[tuple[tuple[int, float, float], ...]]] = {ICE: set(), FIRE: set()}
+    for seed in range(12):
+        match = match_of("factory", ["idle"] * 4, floor, seed=seed).state
+        for team in (ICE, FIRE):
+            slots = [slot for slot in match.slots[:MACHINE_SLOTS] if slot.team == team]
+            ends[team].add(tuple((slot.kind, slot.x, slot.y) for slot in slots))
+    assert ends[ICE] == ends[FIRE]
+    assert len(ends[ICE]) == 2
+
+
+def test_allies_keep_the_warehouses_as_they_are_drawn():
+    slots = {
+        tuple((slot.x, slot.y) for slot in match_of("factory", ["idle"] * 4, seed=seed, variant="together").state.slots)
+        for seed in range(8)
+    }
+    assert len(slots) == 1
 
 
 @pytest.mark.parametrize("off", range(4))

@@ -3,11 +3,13 @@
 import pygame
 import pytest
 
+from pigaming_app.games.factory.state import MACHINE_SLOTS
 from pigaming_app.scenes.lobby.dealt import deal, first_state
-from pigaming_app.scenes.lobby.match_setup import PICTURE, MatchSetupPage
+from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.views.preview import fitted
 from pigaming_app.scenes.views.race.lines import frame, line_signs
+from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.input.events import Button
 from tests.matches import setup_of
@@ -35,7 +37,6 @@ def test_each_line_has_the_colour_of_the_seat_that_is_dealt_it(seed) -> None:
     pygame.display.set_mode((1920, 1080))
     setup = setup_of("race", "level1 level1 level1 level1", "classic", 10.0, seed, "standard")
     cover, (left, top, k) = deal(setup, *SIZE), fitted(*SIZE)
-    assert cover is not None
     state = first_state(setup)
     for i, racer in enumerate(state.racers):
         line = frame(state.course, state.lines[racer.line].along)
@@ -49,7 +50,6 @@ def test_a_party_has_one_white_line_and_no_colours_of_players() -> None:
     pygame.display.set_mode((1920, 1080))
     setup = setup_of("race", "level1 level1 off off", "classic", 10.0, 1, "party")
     cover, (left, top, k) = deal(setup, *SIZE), fitted(*SIZE)
-    assert cover is not None
     state = first_state(setup)
     for line in state.lines:
         at = frame(state.course, line.along)
@@ -77,6 +77,24 @@ def test_the_next_match_is_dealt_anew(arcade: Arcade) -> None:
     assert len(seeds) == 3
 
 
-@pytest.mark.parametrize("game", ["pitanks", "football", "factory"])
-def test_other_games_deal_nothing_to_be_seen(game) -> None:
-    assert deal(setup_of(game, "level1 level1 level1 level1"), *PICTURE.size) is None
+@pytest.mark.parametrize("seed", [1, 2])
+def test_each_warehouse_has_the_colour_of_the_team_that_is_dealt_it(seed) -> None:
+    """Seed 1 deals Ice the end where the file has it, seed 2 the other; seen on the edges of the warehouses."""
+    pygame.display.init()
+    pygame.display.set_mode((1920, 1080))
+    setup = setup_of("factory", "level1 level1 level1 level1", "hall", 5.0, seed)
+    cover, (left, top, k) = deal(setup, *SIZE), fitted(*SIZE)
+    for slot in first_state(setup).slots[:MACHINE_SLOTS]:
+        pixel = cover.image.get_at((round(left + k * (slot.x - 54)), round(top + k * slot.y)))[:3]
+        assert max(abs(a - b) for a, b in zip(pixel, TEAMS[slot.team], strict=True)) < 60
+
+
+@pytest.mark.parametrize("game", ["pitanks", "football"])
+def test_each_robot_is_shown_on_its_start(game) -> None:
+    pygame.display.init()
+    pygame.display.set_mode((1920, 1080))
+    for seed in (1, 2):
+        setup = setup_of(game, "level1 level1 level1 off", seed=seed)
+        cover, (left, top, k) = deal(setup, *SIZE), fitted(*SIZE)
+        found = [most_like(cover.image, left + k * one.x, top + k * one.y) for one in first_state(setup).robots]
+        assert found == [0, 1, 2, None]

@@ -45,7 +45,7 @@ LEFT_PANEL, CLOCK, RIGHT_PANEL = (160, 0, 652, 136), (830, 0, 260, 136), (1108, 
 
 def begun(variant="standard", goal=None, floor="hall"):
     minutes = float(games()["factory"].variants[variant].default_minutes)
-    return Match(setup_of("factory", HUMANS, floor, minutes, 3, variant, goal))
+    return Match(setup_of("factory", HUMANS, floor, minutes, 1, variant, goal))
 
 
 def seen(match, players=HUMANS, language="en"):

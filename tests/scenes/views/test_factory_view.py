@@ -42,7 +42,7 @@ EXIT_ICE = SHELVES
 
 
 def begun(floor="hall", goal=4, brains=("human",) * 4):
-    return match_of("factory", brains, floor, 5.0, 3, "standard", goal)
+    return match_of("factory", brains, floor, 5.0, 1, "standard", goal)
 
 
 def seen(match, players=HUMANS, taste=None):

@@ -1,7 +1,7 @@
 """Background of Robot Factory: warehouses in team colours, machines, the aisle; rendered once per floor."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import pygame
 
@@ -33,24 +33,33 @@ def bare(floor: Floor, allies: bool = False, party: bool = False) -> Steps[pygam
         for y in range(50, int(HEIGHT), 50):
             page.crisp.disc(x, y, 1.6, (26, 37, 54))
     yield
-    yield from draw_floor((page.glow, page.crisp), floor, allies, party)
-    for first in range(0, MACHINE_SLOTS, SHELVES):
-        slots = floor.slots[first : first + SHELVES]
-        _draw_storage((page.glow, page.crisp), slots, _color(slots, allies))
+    yield from draw_floor((page.glow, page.crisp), floor, colors_of(allies), party)
+    for slots in warehouses(floor):
+        _draw_storage((page.glow, page.crisp), slots, colors_of(allies)[slots[0].team])
     page.glow.line(kit.cut_box(-3, -3, WIDTH + 6, HEIGHT + 6, 28), kit.WALL, kit.THIN, True)
     yield
     return (yield from page.render_steps())
 
 
-def draw_floor(canvases: Inks, floor: Floor, allies: bool = False, party: bool = False) -> Steps[None]:
-    """Draw aisle, warehouses, machines and shared slots in arena px."""
+def colors_of(allies: bool) -> Sequence[kit.Color]:
+    """Colours of the warehouses, by team; those of allies all belong to the first one."""
+    return TEAMS[:1] * 2 if allies else TEAMS
+
+
+def warehouses(floor: Floor) -> Iterator[tuple[SlotSpec, ...]]:
+    """The slots of each warehouse."""
+    for first in range(0, MACHINE_SLOTS, SHELVES):
+        yield floor.slots[first : first + SHELVES]
+
+
+def draw_floor(canvases: Inks, floor: Floor, colors: Sequence[kit.Color], party: bool = False) -> Steps[None]:
+    """Draw aisle, warehouses, machines and shared slots in arena px. `colors`: of the warehouses, by team."""
     draw_aisle(canvases, floor.aisle, walkers=not party)
     for slot in floor.slots[SHARED_SLOTS:] if party else ():
         draw_shared_slot(canvases[1], slot.x, slot.y)
     yield
-    for first in range(0, MACHINE_SLOTS, SHELVES):
-        slots = floor.slots[first : first + SHELVES]
-        draw_warehouse(canvases, slots, _color(slots, allies))
+    for slots in warehouses(floor):
+        draw_warehouse(canvases, slots, colors[slots[0].team])
         yield
     for wall in floor.walls:
         ends = [(wall.ax, wall.ay), (wall.bx, wall.by)]
@@ -77,10 +86,6 @@ def draw_walker(ink: kit.GlowCanvas, x: float, y: float, color: kit.Color) -> No
     limbs = ([(0, -22), (-2, 4)], [(-2, 4), (14, 18), (16, 38)], [(-2, 4), (-8, 22), (-20, 36)])
     for limb in (*limbs, [(0, -20), (16, -8), (26, -4)], [(0, -20), (-14, -8), (-16, 6)]):
         ink.line([(x + u, y + v) for u, v in limb], color, 8)
-
-
-def _color(slots: tuple[SlotSpec, ...], allies: bool) -> kit.Color:
-    return TEAMS[FIRST_TEAM if allies else slots[0].team]
 
 
 def draw_warehouse(canvases: Inks, slots: Sequence[SlotSpec], color: kit.Color) -> None:

@@ -7,6 +7,7 @@ from functools import partial
 import pygame
 
 from pigaming_app.games.factory.pallets import side_of
+from pigaming_app.games.factory.start import floor_of
 from pigaming_app.games.factory.state import (
     DAMAGED,
     DONE,
@@ -66,14 +67,8 @@ class FactoryView(MatchView):
     def __init__(
         self, arena: Arena, state: Factory, players: list[str], options: ViewOptions, words: Words | None = None
     ) -> None:
-        super().__init__(
-            state,
-            players,
-            options,
-            words,
-            Background(partial(bare, arena.plan, bool(state.rules.allies), bool(state.rules.party))),
-            arena.things,
-        )
+        floor, kinds = floor_of(state, arena), (bool(state.rules.allies), bool(state.rules.party))
+        super().__init__(state, players, options, words, Background(partial(bare, floor, *kinds)), arena.things)
         self.hud = FactoryHud(self.background, players, state, words)
         self.detector = FactoryEventDetector(state)
         self.guide = NextStepGuide(players)
@@ -81,6 +76,7 @@ class FactoryView(MatchView):
         self.notes = FactoryAnnouncements(words)
         self.people = self.people_before = _people(state)
         self.add_prewarm_jobs(self.hud.jobs(state))
+        self.add_prewarm_jobs(partial(bare, other, *kinds) for other in (floor.swapped,) if not state.rules.allies)
         self.add_prewarm_jobs(jobs(self.seats, state, self.notes))
 
     def show_names(self, names: Sequence[str]) -> None:

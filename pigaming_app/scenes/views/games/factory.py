@@ -6,6 +6,7 @@ from collections.abc import Callable
 import pygame
 
 from pigaming_app.games.factory.pallets import move
+from pigaming_app.games.factory.start import floor_of
 from pigaming_app.games.factory.state import (
     DONE,
     FIRE,
@@ -18,13 +19,12 @@ from pigaming_app.games.factory.state import (
     SHARED_SLOTS,
     Factory,
 )
-from pigaming_app.scenes.views.factory.background import draw_floor
+from pigaming_app.scenes.views.factory.background import colors_of, draw_floor, draw_warehouse, warehouses
 from pigaming_app.scenes.views.factory.view import FactoryView
 from pigaming_app.scenes.views.game_screens import GameScreens, Placed
 from pigaming_app.scenes.views.lesson import Actor, Lesson
-from pigaming_app.scenes.views.preview import fitted
-from pigaming_app.scenes.views.sprites.robot import robot
-from pigaming_app.scenes.views.sprites.teams import TEAMS
+from pigaming_app.scenes.views.preview import fitted, robots
+from pigaming_app.scenes.views.sprites.robot import robot as draw_robot
 from pigaming_app.scenes.views.things.on_mat import black_out, draw_all
 from pigaming_app.scenes.views.things.styles import WORKSHOP
 from pigaming_app.sim.arena import Arena
@@ -43,7 +43,7 @@ def tile(ink: GlowCanvas, x: float, y: float) -> None:
     for cx in (100, 242, 318, 460):
         ink.line([(x + cx - 5, y + 68), (x + cx + 4, y + 78), (x + cx - 5, y + 88)], MIST, THIN)
     for player, cx, color in ((2, 132, GREEN), (3, 356, BLUE)):
-        robot(ink, player, x + cx, y + 206, 0, 1.05)
+        draw_robot(ink, player, x + cx, y + 206, 0, 1.05)
         _pallet(ink, x + cx + 92, y + 206, color)
 
 
@@ -62,21 +62,30 @@ def _pallet(ink: GlowCanvas, x: float, y: float, color: Color, r: float = 22) ->
 
 
 def preview(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:
-    """Preview of a factory floor: warehouses, machines, the aisle, start positions by team."""
+    """Preview of a factory floor: machines, the aisle, and the warehouses, as no team has been dealt them."""
     left, top, k = fitted(w, h)
     glow, crisp = (
         GlowCanvas(w, h, 3).set_transform(left, top, 0.0, k),
         GlowCanvas(w, h, 3).set_transform(left, top, 0.0, k),
     )
-    yield from draw_floor((glow, crisp), arena.plan, allies)
+    yield from draw_floor((glow, crisp), arena.plan, (dim(MIST, 0.3),) * 2)
     glow.line(cut_box(0, 0, WIDTH, HEIGHT, 28), MIST, THIN / k, True)
     black_out(crisp, arena.things)
     draw_all(glow, WORKSHOP, arena.things)
-    for i, start in enumerate(arena.starts):
-        glow.ring(start.x, start.y, 36, TEAMS[0 if allies else i % 2], 8)
     out = yield from glow.lit_steps(GLOW)
     yield from crisp.downscale_onto(out)
     return out
+
+
+def deal(ink: GlowCanvas, arena: Arena, state: Factory) -> None:
+    """The warehouses and the robots' starts in the colours of the teams to which they were dealt."""
+    colors = colors_of(bool(state.rules.allies))
+    for slots in warehouses(floor_of(state, arena)):
+        draw_warehouse((ink, ink), slots, colors[slots[0].team])
+    for robot in state.robots:
+        if robot.present:
+            ink.ring(robot.x, robot.y, 36, colors[robot.team], 8)
+    robots(ink, arena, state)
 
 
 def crate(ink: GlowCanvas, placed: Placed, size: float, shape: int, color: Color) -> None:
@@ -165,5 +174,6 @@ SCREENS = GameScreens(
     team_colors=True,
     lessons=LESSONS,
     lesson_pages=("standard", "party", "together"),
+    deal=deal,
     awards={"delivered": "crate", "steps": "gear", "-bumps": "heart"},
 )

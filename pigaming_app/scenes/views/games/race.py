@@ -8,7 +8,7 @@ import pygame
 from pigaming_app.games.race.state import LINES, Race
 from pigaming_app.scenes.views.game_screens import GameScreens, Placed
 from pigaming_app.scenes.views.lesson import Actor, Lesson
-from pigaming_app.scenes.views.preview import fitted
+from pigaming_app.scenes.views.preview import fitted, robots
 from pigaming_app.scenes.views.race.background import GLOW, earth
 from pigaming_app.scenes.views.race.lines import draw_line, draw_signed, frame, line_signs
 from pigaming_app.scenes.views.race.track import draw_track
@@ -19,7 +19,7 @@ from pigaming_app.scenes.views.things.styles import ROAD
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.world import HEIGHT, HZ, WIDTH
-from pigaming_app.ui.draw import ADD, BLACK, ICE, LINE, MIST, PLAYERS, THIN, Color, GlowCanvas, Point, badge, dim
+from pigaming_app.ui.draw import ADD, BLACK, ICE, LINE, MIST, PLAYERS, THIN, Color, GlowCanvas, Point, dim
 from pigaming_app.ui.draw.frame_budget import Steps
 
 
@@ -74,9 +74,7 @@ def deal(ink: GlowCanvas, arena: Arena, state: Race) -> None:
         line = frame(arena.plan.course, along)
         ink.solid([line.at(a, b * line.half) for a, b in ((-BARE, -1), (BARE, -1), (BARE, 1), (-BARE, 1))])
         draw_signed(ink, ink, line, sign)
-    for seat, start in enumerate(state.robots):
-        if start.present:
-            badge(ink, seat, start.x, start.y, START_BADGE)
+    robots(ink, arena, state)
 
 
 def chequer(ink: GlowCanvas, placed: Placed, size: float, shape: int, color: Color) -> None:
@@ -107,7 +105,7 @@ def _oil_next(state: Race) -> None:
     state.random = seeded(7)
 
 
-BARE, START_BADGE = 30.0, 26.0  # px: half the width of a line with its glow; radius of a badge
+BARE = 30.0  # px, half the width of a line with its glow
 LAP_SO_FAR = 14.0 * HZ  # ticks
 
 LESSONS = {
