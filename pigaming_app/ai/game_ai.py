@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from pigaming_app.ai.brain import kind
 from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_drive
@@ -26,6 +27,8 @@ class GameAI:
     driving: Mapping[str, Driving] = field(default_factory=lambda: USUAL_DRIVING)  # styles, in the lobby's order
     chauffeur: str = LEVELS[-1]  # drives for one button
     boosts: bool = False  # the one button is the turbo too, where there may be nothing to fire
+    auto: tuple[BrainKind, BrainKind] | None = None  # the ends between which strength follows people; None: no Auto
+    lead: Callable[[Any, int], float] | None = None  # kernel, points by which a seat is ahead; default: of the match
     person: Callable[[Traits], BrainKind] | None = None  # what a person sees and wants; `ai/people` adds the hands
 
     def __post_init__(self) -> None:

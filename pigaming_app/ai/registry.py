@@ -6,6 +6,7 @@ from typing import Any
 
 from pigaming_app.ai.brain.archive import BrainFileError
 from pigaming_app.ai.brain.driving import Controller
+from pigaming_app.ai.brain.effort import between
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer, HumanPlayer, OneButtonPlayer
 from pigaming_app.ai.brain_files import is_path, read_brain
 from pigaming_app.ai.game_ai import LEVELS, ONE_BUTTON, RANDOM_ONLY, GameAI
@@ -28,8 +29,14 @@ BRAINS: Mapping[str, Mapping[str, BrainKind]] = {game: ai.brains for game, ai in
 
 
 def every_brain(game: str) -> Mapping[str, BrainKind]:
-    """The brains of a game by name, those that stand for people among them; none of an unknown game."""
-    return {**BRAINS.get(game, {}), **_people(game)}
+    """The brains of a game by name, those of Auto and of people among them; none of an unknown game."""
+    return {**BRAINS.get(game, {}), **_auto(game), **_people(game)}
+
+
+@cache
+def _auto(game: str) -> Mapping[str, BrainKind]:
+    ai = AIS.get(game)
+    return {kind.name: kind for kind in between(*ai.auto, ai.lead)} if ai and ai.auto else {}
 
 
 @cache

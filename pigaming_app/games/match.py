@@ -125,6 +125,15 @@ def standings(game: Game, state: MatchState) -> tuple[dict[int, float], tuple[in
     return keys, leaders if len({teams[i] for i in leaders}) == 1 and (best > 0.0 or not alone) else ()
 
 
+def victory(game: Game, end: Any, seat: int) -> float:
+    """The share of a seat's team in the victory: 1, of n level teams at the top 1/n, else 0."""
+    keys, winners = standings(game, end)
+    if winners:
+        return float(seat in winners)
+    best = {end.robots[i].team for i, key in keys.items() if key == max(keys.values())}
+    return 1.0 / len(best) if end.robots[seat].team in best and len(best) > 1 else 0.0
+
+
 def _is_decided(game: Game, state: MatchState) -> bool:
     """True once a sudden death has a winner: one team alone has the most points, or somebody has the first time."""
     seats = [i for i in range(ROBOTS) if state.robots[i].present]

@@ -79,6 +79,7 @@ def record(cls: type[T]) -> type[T]:
     body = {
         "__slots__": tuple(field.name for field in fields),
         "__init__": init,
+        "__setitem__": lambda self, name, value: setattr(self, name, value),  # as NumPy records have it
         "__annotations__": hints,
         "__doc__": cls.__doc__,
         "__module__": cls.__module__,

@@ -121,7 +121,7 @@ class Settings:
     corners: Annotated[list[Annotated[int, Meta(gt=-10_000, lt=10_000)]], none_or_eight] = field(
         default_factory=list
     )  # of the picture on the projector, px of the canvas: x and y of all four
-    strength: Annotated[str, one_of(*LEVELS)] = "level3"  # of the AIs that fill the seats
+    strength: Annotated[str, one_of("auto", *LEVELS)] = "auto"  # of the AIs that fill the seats
     camera: Annotated[int, between(0, 63)] = 0  # over the mat
     arena_mm: Annotated[float, between(500.0, 10000.0)] = 2112.0  # the arena's width on the mat
     camera_mm: Annotated[float, between(0.0, 10000.0)] = 2500.0  # its height above it; 0: measured with a robot

@@ -18,7 +18,7 @@ class Strength:
     """What makes a footballer weaker than it could be."""
 
     speed: float  # share of full speed
-    reaction: int  # ticks between looks at the ball
+    reaction: float  # ticks between looks at the ball
     error: float  # rad, standard deviation of the aim
     turbo: bool  # whether it uses the turbo
     passes: bool
@@ -37,6 +37,10 @@ STRENGTHS = (
     Strength(0.58, 38, 0.28, turbo=False, passes=True, form=0.5),
     Strength(0.64, 34, 0.22, turbo=False, passes=True, form=0.45),
 )
+
+
+EASIEST = Strength(0.1, 80, 1.1, turbo=False, passes=True, form=0.4)
+HARDEST = Strength(0.85, 14, 0.12, turbo=False, passes=True, form=0.4)
 
 
 def _footballer(name: str, strength: Strength) -> BrainKind:
@@ -66,6 +70,7 @@ AI = GameAI(
         "net": NET,
     },
     rivals=("level1", "level2", "level3", "level4", "level5", "net"),
+    auto=(_footballer("easiest", EASIEST), _footballer("hardest", HARDEST)),
     person=person,
     chauffeur="net",
 )

@@ -24,7 +24,7 @@ class Mind:
     obs: Observation
     route: Route
     speed: float  # share of the full stick, 0..1
-    reaction: int  # ticks between looks at the ball
+    reaction: float  # ticks between looks at the ball
     error: float  # standard deviation of its aim, rad
     turbo: int  # 1: it uses the turbo
     plays: int  # 1: it passes
@@ -57,7 +57,7 @@ def notice(mind: Mind) -> None:
     obs, step = mind.obs, PERIOD / 50.0
     mind.look -= PERIOD
     if mind.look <= 0 or obs.ball_out > 0.0 or obs.held:
-        mind.look = mind.reaction
+        mind.look = int(mind.reaction)
         mind.seen_x, mind.seen_y, mind.seen_vx, mind.seen_vy = obs.ball_x, obs.ball_y, obs.ball_vx, obs.ball_vy
     else:
         mind.seen_x = min(max(mind.seen_x + mind.seen_vx * step, BALL), WIDTH - BALL)

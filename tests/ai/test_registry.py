@@ -2,6 +2,7 @@
 
 import pytest
 
+from pigaming_app.ai.auto import NAME as AUTO
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.registry import AIS, BRAINS, level_of
 from pigaming_app.games.registry import games
@@ -23,10 +24,10 @@ def test_a_level_is_a_name_of_a_brain(game):
 
 
 @pytest.mark.parametrize("game", games())
-def test_the_lobby_offers_brains_and_begins_with_a_level(game):
+def test_the_lobby_offers_brains_and_begins_with_the_levels(game):
     assert set(AIS[game].rivals) <= set(BRAINS[game])
     assert AIS[game].rivals[:5] == LEVELS
-    assert Settings().strength in LEVELS
+    assert Settings().strength == AUTO
 
 
 def test_both_state_machines_are_offered_after_all_others():

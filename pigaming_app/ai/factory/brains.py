@@ -21,11 +21,14 @@ STRENGTHS = (
     weaker(speed=0.5, hesitation=1.5, noise=0.12, delay=0.3, slip=0.02, rules=2),
     weaker(speed=0.62, hesitation=0.9, noise=0.06, delay=0.2, rules=2),
 )
+EASIEST = weaker(speed=0.26, hesitation=5.0, noise=0.35, delay=0.45, slip=0.03, rules=2)
+HARDEST = weaker(speed=0.8, hesitation=0.4, noise=0.04, delay=0.15, slip=0.0, rules=2)
 LEVELS = tuple(BrainKind(f"level{n}", PlannerMind, think, reset) for n, reset in enumerate(STRENGTHS, start=1))
 PLANNER = BrainKind("planner", PlannerMind, think, make_reset())
 
 AI = GameAI(
     {kind.name: kind for kind in (foreman.HAND1, foreman.HAND2, foreman.HAND3, PLANNER, *LEVELS)},
+    auto=(BrainKind("easiest", PlannerMind, think, EASIEST), BrainKind("hardest", PlannerMind, think, HARDEST)),
     person=foreman.person,
     chauffeur="planner",
 )

@@ -40,13 +40,17 @@ class LineUps:
 
         Every seat names one of the brains, or is off.
         """
+        return self.played_with_efforts(setups)[0]
+
+    def played_with_efforts(self, setups: Sequence[Setup]) -> tuple[list[Any], list[list[float]]]:
+        """The final state of each match, and the final effort of each seat; 0 of a brain that has none."""
         states = initial_states(setups)
         minds = self._cast.minds([self._seated(setup) for setup in setups])
         ticks = bound(self.game, max(longest(setup) for setup in setups))
         if not self.fast:
             plain_rollout(self.game, self._cast.families)(states, minds, self._cast.weights, ticks)
             check(self.game, states)
-            return states
+            return states, [[self._effort(mind) for mind in seated] for seated in minds]
         rehearse(setups[0], [self.kinds[seat.brain] for seat in setups[0].seats])
         matches, loop = packed(states), compiled_rollout(self.game, self._cast.families)
         weights = self._cast.weights
@@ -63,7 +67,14 @@ class LineUps:
             part.result()
         ended: list[Any] = [unpack(games()[self.game].state, row) for row in matches]
         check(self.game, ended)
-        return ended
+        return ended, [[self._effort(mind) for mind in seated] for seated in minds]
+
+    def _effort(self, mind: Any) -> float:
+        """The effort in a seat's mind, a NumPy record if the loop is compiled."""
+        inner = mind[f"mind{mind['family']}"] if self.fast else getattr(mind, f"mind{mind.family}")
+        if self.fast:
+            return float(inner["effort"]["now"]) if "effort" in (inner.dtype.names or ()) else 0.0
+        return inner.effort.now if hasattr(inner, "effort") else 0.0
 
     def _seated(self, setup: Setup) -> list[tuple[BrainKind, int]]:
         """Brain and seed of every seat, as `new_match` has them."""

@@ -127,7 +127,8 @@ def shipped_brain(
 
     `handicap`: what makes it weaker, by name: `delay` (s, age of the poses of others), `error` (rad, of their bearing),
     `sharpness` (below 1 it chooses less surely), `thrift` (points that a shot costs), `speed` (share of full speed),
-    `form` (share of that which it lacks on a bad day), `turns` (s for which it goes for one opponent).
+    `form` (share of that which it lacks on a bad day), `turns` (s for which it goes for one opponent),
+    `reluctance` (off the logit of a shot).
     """
 
     @cache

@@ -40,6 +40,7 @@ class Handicap:
     thrift: Share = 0.0  # cost of a shot that it has in mind, in points
     speed: Annotated[float, between(0.1, 1.0)] = 1.0  # share of full speed that it drives at most
     form: Annotated[float, between(0.0, 0.9)] = 0.0  # share of that which it may lack on a bad day, drawn by match
+    reluctance: Annotated[float, between(-10.0, 10.0)] = 0.0  # logits by which it prefers not to shoot, if above 0
     turns: float = 0.0  # s, at most, for which it goes for one opponent before the next has its turn; 0: no turns
 
 
@@ -69,6 +70,7 @@ class NetworkMind:
     random: int
     error: float  # see Handicap
     sharpness: float
+    reluctance: float
     speed: float  # share of full speed in this match
     error_left: int  # ticks until the aiming error is redrawn
     inputs: Annotated[list[float], 2, "f"]
@@ -179,8 +181,9 @@ def misjudge(mind: NetworkMind) -> None:
 def make_think(encoding: Encoding) -> Callable[[Any, int, Any, Any], None]:
     """The decision function of a game's networks."""
     encode, act = encoding.encode, encoding.act
-    counts = tuple(choices for _, choices in encoding.heads)
+    names, counts = zip(*encoding.heads, strict=True)
     heads = len(counts)
+    shot = 1 + sum(counts[: names.index("fire")]) if "fire" in names else -1  # logit of a shot
 
     def think(match: MatchState, seat: int, mind: NetworkMind, weights: Any) -> None:
         mind.wait -= 1
@@ -191,6 +194,8 @@ def make_think(encoding: Encoding) -> Callable[[Any, int, Any, Any], None]:
             misjudge(mind)
         encode(match, seat, mind.senses, mind.inputs)
         forward(mind, weights)
+        if shot >= 0 and mind.reluctance > 0.0:
+            mind.logits[shot] -= mind.reluctance / LOGIT
         first = 0
         for head in range(heads):
             mind.choices[head] = draw(mind, first, counts[head])
@@ -236,6 +241,7 @@ def network_brain(
 
     def reset(mind: NetworkMind, seed: int) -> None:
         mind.random, mind.sharpness, mind.error = seeded(seed), handicap.sharpness, handicap.error
+        mind.reluctance = handicap.reluctance
         mind.senses.delay, mind.senses.thrift, mind.senses.turns = handicap.delay, handicap.thrift, handicap.turns
         mind.wait = 1 + int(uniform(mind) * PERIOD)
         mind.speed = handicap.speed * (1.0 - handicap.form * uniform(mind))

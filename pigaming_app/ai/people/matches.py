@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.traits import NUMBERS
@@ -12,8 +11,8 @@ from pigaming_app.ai.learning.line_ups import LineUps
 from pigaming_app.ai.people.models import PEOPLE, people, person_brain
 from pigaming_app.ai.registry import AIS, known_brains
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.game import Game, Setup, Variant
-from pigaming_app.games.match import standings
+from pigaming_app.games.game import Setup, Variant
+from pigaming_app.games.match import victory
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, make_setup, require_one_of
 from pigaming_app.sim.kernel import can_compile
@@ -120,12 +119,3 @@ def place(trial: Trial, person: str, level: str, line_ups: LineUps) -> Place:
     wins = sum(victory(game, end, seat) for end, seat in zip(ends, seats, strict=True))
     score = sum(end.robots[seat].score for end, seat in zip(ends, seats, strict=True)) / len(ends)
     return Place(person, level, len(ends), wins, score)
-
-
-def victory(game: Game, end: Any, seat: int) -> float:
-    """The share of a seat's team in the victory: 1, of n level teams at the top 1/n, else 0."""
-    keys, winners = standings(game, end)
-    if winners:
-        return float(seat in winners)
-    best = {end.robots[i].team for i, key in keys.items() if key == max(keys.values())}
-    return 1.0 / len(best) if end.robots[seat].team in best and len(best) > 1 else 0.0

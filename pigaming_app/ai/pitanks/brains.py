@@ -17,6 +17,13 @@ HANDICAPS = tuple(
     {"delay": 0.4, "error": 0.3, "thrift": thrift, "speed": speed, "turns": TURNS}
     for thrift, speed in ((1.0, 0.4), (0.89, 0.45), (0.81, 0.5), (0.68, 0.52), (0.58, 0.62))
 )
+EASIEST, HARDEST = (
+    shipped_brain(name, "pitanks", NETWORK, handicap={**handicap, "turns": TURNS})
+    for name, handicap in {
+        "easiest": {"delay": 0.4, "error": 0.25, "thrift": 1.0, "speed": 0.4, "reluctance": 8.0},
+        "hardest": {"delay": 0.2, "error": 0.2, "thrift": 0.5, "speed": 0.85, "reluctance": -8.0},
+    }.items()
+)
 LEVELS = tuple(
     shipped_brain(f"level{number}", "pitanks", NETWORK, handicap=handicap)
     for number, handicap in enumerate(HANDICAPS, start=1)
@@ -32,6 +39,7 @@ AI = GameAI(
         **{level.name: level for level in LEVELS},
     },
     rivals=(*NAMES, "q1", "q2", "fsm", "classic"),
+    auto=(EASIEST, HARDEST),
     person=gunner.person,
     chauffeur="net",
 )

@@ -12,7 +12,7 @@ from pigaming_app.ai.brain.driving import point_where_to_go, turn_and_drive
 from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT, TURN, GameAI
 from pigaming_app.ai.game_ai import LEVELS as NAMES
 from pigaming_app.ai.networks.files import shipped_brain
-from pigaming_app.ai.race.racer import HAND1, HAND2, HAND3, Driver, person, racer
+from pigaming_app.ai.race.racer import HAND1, HAND2, HAND3, Driver, lead, person, racer
 from pigaming_app.ai.race.steering_help import with_help
 
 NETWORK = "race"  # in assets/brains
@@ -24,6 +24,8 @@ DRIVERS = (
     driver(speed=0.77, line=1.0, spread=6.0, delay=0.1, mistakes=0.0, foresight=290.0, alert=0.35),
     driver(speed=0.87, line=1.0, spread=4.0, delay=0.05, mistakes=0.0, foresight=380.0, alert=1.0),
 )
+EASIEST = driver(speed=0.4, line=0.85, spread=14.0, delay=0.3, mistakes=0.01, foresight=180.0, alert=0.05)
+HARDEST = driver(speed=0.98, line=1.0, spread=3.0, delay=0.05, mistakes=0.0, foresight=400.0, alert=1.0)
 LEVELS = tuple(racer(f"level{number}", driver) for number, driver in enumerate(DRIVERS, start=1))
 NET = shipped_brain("net", "race", NETWORK)
 
@@ -38,6 +40,8 @@ AI = GameAI(
         ONE_BUTTON: turn_and_drive,
     },
     boosts=True,
+    auto=(racer("easiest", EASIEST), racer("hardest", HARDEST)),
+    lead=lead,
     person=person,
     chauffeur="hand3",
 )

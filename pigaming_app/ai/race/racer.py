@@ -25,7 +25,7 @@ from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import bell, seeded, uniform
-from pigaming_app.sim.world import HZ, Action
+from pigaming_app.sim.world import HZ, ROBOTS, Action
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 LOOK = 115.0  # lookahead along the course, px
@@ -42,6 +42,7 @@ WIDE, OVER = 60.0, 45.0  # px of lane change within one lookahead then, and px o
 CHASE = 60.0, 260.0  # px to a robot behind, for which it drops oil
 SEEN_OIL = 300.0  # px to oil ahead, for which it raises its shield
 NEXT_BOX = 220.0  # px to an item box, before which it uses up its item
+POINT = 100.0  # px of progress that count as a point where strength follows people
 STUCK_TICKS = 40  # ticks of driving without moving that count as stuck
 
 RACE, GO_BACK, BREAK_FREE = range(3)
@@ -260,6 +261,17 @@ def wants_turbo(obs: RaceObservation, mind: RacerMind, bend: float) -> int:
         if other.present and other.ahead > 0.0 and other.distance < SAVE and not beside:
             return 0
     return 1 if obs.boosting or obs.turbo > mind.boost else 0
+
+
+@kernel
+def lead(match: Race, seat: int) -> float:
+    """Progress ahead of the mean of the others, in units of POINT."""
+    progress, others = 0.0, 0
+    for i in range(ROBOTS):
+        if i != seat and match.robots[i].present:
+            progress += match.racers[i].progress
+            others += 1
+    return (match.racers[seat].progress - progress / others) / POINT if others else 0.0
 
 
 @dataclass(frozen=True)

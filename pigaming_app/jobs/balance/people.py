@@ -7,11 +7,12 @@ from dataclasses import asdict, dataclass
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.people.matches import Place, Trial, places
 from pigaming_app.ai.people.models import PEOPLE
+from pigaming_app.ai.people.series import LEARNING, Series, series
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import ALLIES
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
-from pigaming_app.jobs.terminal.options import AIS, JsonOption, SeedOption, argument, games_and, integer, option
+from pigaming_app.jobs.terminal.options import AIS, JsonOption, SeedOption, argument, flag, games_and, integer, option
 from pigaming_app.jobs.terminal.refusal import refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
 
@@ -32,6 +33,7 @@ class PeopleOptions(JsonOption, SeedOption):
     scale: str | None = option("a trait of them and a factor, such as reaction=1.3", metavar="TRAIT=FACTOR")
     driving: str | None = option("driving style of beginner, player and expert: turn or point", metavar="STYLE")
     minutes: float | None = None
+    auto: bool = flag("series of matches against Auto, from its weakest, a middle and its greatest strength")
 
 
 def run(options: PeopleOptions) -> int:
@@ -46,6 +48,8 @@ def run(options: PeopleOptions) -> int:
         for level in levels:
             find_brain(options.game, level)
         trial = Trial(options.game, options.matches, options.seed, options.variant, options.minutes)
+        if options.auto:
+            return _print_series(list(series(trial, people)), options.json)
         found = places(trial, people, levels, options.scale, options.driving)
     if options.json:
         rows = [{**asdict(place), "share": place.share, "wilson95": place.interval} for place in found]
@@ -53,6 +57,20 @@ def run(options: PeopleOptions) -> int:
     else:
         alone = trial.rules.team_mode == ALLIES
         print("\n".join(table(found, "points" if alone else "wins")))
+    return 0
+
+
+def _print_series(found: Sequence[Series], as_json: bool) -> int:
+    """Wins after the first matches, and in each match, by person and first strength."""
+    if as_json:
+        rows = [{**asdict(one), "share": one.share, "wilson95": one.interval} for one in found]
+        print(json.dumps({"series": rows}))
+        return 0
+    print(f"{'from':14}{f'wins after {LEARNING}':>20}   match by match")
+    for one in found:
+        low, high = one.interval
+        after = f"{100 * one.share:.1f} [{100 * low:.0f}, {100 * high:.0f}]"
+        print(f"{one.person:10}{one.first + 1:4}{after:>20}   {' '.join(f'{100 * won:.0f}' for won in one.wins)}")
     return 0
 
 

@@ -15,6 +15,7 @@ from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.features.registry import draw_arena
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.arena_cache import load_cached
+from pigaming_app.scenes.flow.auto import AutoStrengths
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, change_rules, last_choice, playable_arenas
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
@@ -167,7 +168,8 @@ class MatchSetupPage(Page):
         """The setup selected now."""
         now = self.chosen
         seats, minutes = self.seats.seats(), float(self._minutes)
-        return Setup(self.game.name, now.arena, seats, minutes, self.seed, now.variant, now.goal)
+        setup = Setup(self.game.name, now.arena, seats, minutes, self.seed, now.variant, now.goal)
+        return self.context.shared(AutoStrengths).resolved(setup, self.seats.devices())
 
     def _row(self, name: str) -> LitImage:
         """Render a row."""

@@ -10,12 +10,15 @@ from functools import partial
 
 import pygame
 
-from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.auto import NAME as AUTO
+from pigaming_app.ai.game_ai import LEVELS, STAND_IN
 from pigaming_app.ai.registry import AIS
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.auto import AutoStrengths
+from pigaming_app.scenes.flow.brain_names import rivals
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.match_choice import choice_summary, last_choice
@@ -45,9 +48,9 @@ class Lobby:
     def __init__(self, context: Context, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
         self.context, self.game = context, game
         team_mode = games()[game].variants[last_choice(context, game).variant].team_mode
-        self.seats = LobbySeats(
-            context.settings.strength, team_mode=team_mode, rivals=AIS[game].rivals, mat=context.robots
-        )
+        offered, last = rivals(game), context.settings.strength
+        strength = last if last in offered else STAND_IN
+        self.seats = LobbySeats(strength, team_mode=team_mode, rivals=offered, mat=context.robots)
         for seat, place in enumerate(self.seats.places):
             place.real = seat + 1 in context.settings.real and not context.robots_problem
         for seat, driver in enumerate(drivers):
@@ -172,7 +175,7 @@ class Lobby:
         for style in AIS[self.game].driving:
             for color in (*PLAYERS, None):
                 yield partial(card.driving, words(f"lobby.drive_{style}"), PICTURES[style], color)
-        for strength in LEVELS:
+        for strength in (AUTO, *LEVELS):
             yield partial(card.strength, *level_words(words, strength), None)
 
     # ---- input
@@ -230,15 +233,21 @@ class Lobby:
         if self.seats.places[seat].ready:
             self.seats.places[seat].ready = False
         else:
-            self.seats.leave(seat)
+            self._empty(seat)
         self._update_countdown()
         return None
 
     def _leave(self, device: Device) -> None:
         seat = self.seats.seat_of(device)
         if seat is not None:
-            self.seats.leave(seat)
+            self._empty(seat)
             self.context.sounds.play("back")
+
+    def _empty(self, seat: int) -> None:
+        """A person leaves: the next one at the device may be another."""
+        if device := self.seats.places[seat].device:
+            self.context.shared(AutoStrengths).forget(device)
+        self.seats.leave(seat)
 
     def _add_ai(self) -> None:
         """Add one AI; if every seat is taken, remove as many as possible. The countdown begins again."""
@@ -283,7 +292,7 @@ class Lobby:
 
     def _save_strength(self) -> None:
         """Save the AI strength as the default of the next lobby, unless only this game offers it."""
-        if self.seats.strength in LEVELS:
+        if self.seats.strength in (AUTO, *LEVELS):
             self.context.settings.strength = self.seats.strength
 
     def _swap(self, seat: int) -> None:
@@ -302,7 +311,7 @@ class Lobby:
     def _unplugged(self, device: Device) -> None:
         seat = self.seats.seat_of(device)
         if seat is not None:
-            self.seats.leave(seat)
+            self._empty(seat)
             key = "lobby.phone_gone" if device.kind == "phone" else "lobby.unplugged"
             self._say(self.context.words(key, player=seat + 1), "back")
 

@@ -8,6 +8,7 @@ from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.features.replays import replay_of
+from pigaming_app.scenes.flow.auto import AutoStrengths
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.play.drivers import Drivers, new_seed
@@ -82,6 +83,9 @@ class Sequel:
         if self.noted or match.state.tick == 0 or (match.over and rounds and not rounds.done):
             return
         self.noted = True
+        if match.over:
+            auto = self.scene.context.shared(AutoStrengths)
+            auto.learn(match, self.drivers.devices, [*self.drivers.assisted])
         seconds = sum(outcome.seconds for outcome in rounds.outcomes) if rounds else 0.0
         if not (rounds and match.over):
             seconds += match.seconds
@@ -95,12 +99,16 @@ class Sequel:
     def rematch(self, context: Context, setup: Setup, devices: Sequence[Device | None]) -> Scene:
         """The same match with another seed, from the first round."""
         rounds = Rounds(self.rounds.best_of) if self.rounds else None
-        return self.scene.again(with_people(setup, devices), devices, rounds)
+        return self._again(setup, devices, rounds)
 
     def next_round(self) -> Scene:
         """The next round, with the same seats."""
         devices = self.drivers.devices
-        return self.scene.again(with_people(self.match.setup, devices), devices, self.rounds)
+        return self._again(self.match.setup, devices, self.rounds)
+
+    def _again(self, setup: Setup, devices: Sequence[Device | None], rounds: Rounds | None) -> Scene:
+        again = self.scene.context.shared(AutoStrengths).resolved(with_people(setup, devices), devices)
+        return self.scene.again(again, devices, rounds)
 
     def scenes(self) -> tuple[EndedMatch, AfterMatch]:
         """The match, or the rounds played, and the scene that follows: the results, or the awards of people and what

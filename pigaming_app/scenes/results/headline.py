@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from pigaming_app.ai.brain.effort import AUTO
 from pigaming_app.ai.brain_files import display_name
 from pigaming_app.ai.game_ai import STAND_IN
 from pigaming_app.ai.registry import AIS
@@ -62,11 +63,14 @@ def headline(words: Words, ended: EndedMatch) -> str:
         return words(f"results.{kind}name_wins", name=ended.names[seat])
     if kind != "ai_":
         return words(f"results.{kind}wins", player=seat + 1)
-    name = (
-        lit_stars(brain)
-        or f"({words(f'lobby.{brain}').lower() if brain in AIS[setup.game].rivals else display_name(brain)})"
-    )
-    return words("results.ai_wins", player=seat + 1, name=name)
+    return words("results.ai_wins", player=seat + 1, name=lit_stars(brain) or f"({_of_ai(words, setup.game, brain)})")
+
+
+def _of_ai(words: Words, game: str, brain: str) -> str:
+    """The name of an AI that is no level, within a sentence."""
+    if brain in AUTO:
+        return words("match.auto")
+    return words(f"lobby.{brain}").lower() if brain in AIS[game].rivals else display_name(brain)
 
 
 def _entrant(words: Words, ended: EndedMatch, seat: int) -> str:

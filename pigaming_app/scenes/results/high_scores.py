@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import pygame
 
+from pigaming_app.ai.brain.effort import AUTO
 from pigaming_app.ai.registry import level_of
 from pigaming_app.games.arenas import score_name
 from pigaming_app.games.game import ALLIES, RecordKind, Setup
@@ -55,7 +56,7 @@ def counts(setup: Setup, seat: int) -> bool:
         return True
     opponents = [other.brain for other in setup.seats if other.brain != "off" and other.team != own.team]
     return bool(opponents) and all(
-        brain == "human" or brain in STRONG or level_of(brain) >= STRONG_LEVEL for brain in opponents
+        brain == "human" or brain in STRONG or brain in AUTO or level_of(brain) >= STRONG_LEVEL for brain in opponents
     )
 
 
@@ -66,8 +67,8 @@ def contest(setup: Setup, seat: int | None = None) -> ScoreTable:
     mates = [other for other in setup.seats if other.brain != "off" and other.team == own.team]
     side = sum(other.brain == "human" for other in mates) if len(mates) > 1 else 0
     length = setup.goal if games()[setup.game].variants[setup.variant].goals else setup.minutes
-    arena = score_name(setup.game, setup.arena)
-    return ScoreTable(setup.game, arena, "", False, setup.variant, length, max(1, len(people)), side)
+    arena, auto = score_name(setup.game, setup.arena), any(other.brain in AUTO for other in setup.seats)
+    return ScoreTable(setup.game, arena, "", False, setup.variant, length, max(1, len(people)), side, auto)
 
 
 def table_of(contest: ScoreTable, achievement: RecordKind) -> ScoreTable:
@@ -243,4 +244,6 @@ def conditions(words: Words, contest: ScoreTable) -> str:
         parts.append(words("best.team"))
     elif contest.side:
         parts.append(words("best.against", side=contest.side, others=contest.people - contest.side))
+    if contest.auto:
+        parts.append(words("best.auto"))
     return "  ·  ".join(parts)

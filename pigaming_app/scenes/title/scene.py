@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import pygame
 
 from pigaming_app.scenes.features.registry import idle_page, menu
+from pigaming_app.scenes.flow.auto import AutoStrengths
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_goal, tagline
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
@@ -69,6 +70,7 @@ class Title:
         self.since, self.chores = 0.0, self._do_chores()
         if self.context.kiosk:
             self.context.driving.forget_one_button()
+            self.context.shared(AutoStrengths).forget()
         self.context.idle = 0.0
         self._begin_music(not self.context.quiet)
         self.focus.set_spots(self._spots())

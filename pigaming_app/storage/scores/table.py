@@ -29,6 +29,7 @@ class ScoreTable:
     length: Annotated[float, between(0, 1000)] = 0  # minutes; laps or pallets in a game with a goal
     people: Annotated[int, between(1, 99)] = 1  # in the match
     side: Annotated[int, between(0, 99)] = 0  # people on the own team; 0: everyone played alone
+    auto: bool = False  # against AIs that followed the strength of people
 
     def at_least(self, score: int, other: int) -> bool:
         """True if `score` is as good as `other`, or better."""

@@ -8,9 +8,10 @@ import pytest
 from pigaming_app.ai.brain.traits import NUMBERS
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.learning.rollout import Batch
-from pigaming_app.ai.people.matches import Trial, places, victory
+from pigaming_app.ai.people.matches import Trial, places
 from pigaming_app.ai.people.models import PEOPLE
 from pigaming_app.ai.registry import AIS, BRAINS, find_brain, make_brain
+from pigaming_app.games.match import victory
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.sim.kernel import can_compile

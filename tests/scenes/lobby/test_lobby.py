@@ -115,15 +115,17 @@ def test_ais_come_one_by_one_and_go_all_at_once(arcade: Arcade) -> None:
 
 
 def test_directions_make_the_ais_stronger_and_that_is_remembered(arcade: Arcade) -> None:
-    arcade.press(Button.Y, Button.RIGHT)
-    assert arcade.shown(Lobby).seats.places[0].strength == "level4"
-    assert arcade.context.settings.strength == "level4"
-    assert Lobby(arcade.context, "pitanks").seats.strength == "level4"
+    arcade.press(Button.Y)
+    assert arcade.shown(Lobby).seats.places[0].strength == "auto"
+    arcade.press(Button.RIGHT)
+    assert arcade.shown(Lobby).seats.places[0].strength == "level1"
+    assert arcade.context.settings.strength == "level1"
+    assert Lobby(arcade.context, "pitanks").seats.strength == "level1"
 
 
 def test_the_other_ais_follow_the_strongest_one_and_play(arcade: Arcade) -> None:
     arcade.press(Button.FIRE, Button.Y, Button.DOWN)
-    for wanted in ("level4", "level5", "q1", "q2", "fsm", "classic", "classic"):
+    for wanted in (*LEVELS, "q1", "q2", "fsm", "classic", "classic"):
         arcade.press(Button.RIGHT)
         assert arcade.shown(Lobby).seats.places[1].strength == wanted
         arcade.frame(draw=True)
@@ -164,13 +166,13 @@ def test_a_mouse_alone_can_have_ais_play(arcade: Arcade) -> None:
     assert kinds(arcade) == "A.A."
     x, y = card_rect(0).topleft
     arcade.click(x + 414 - 60, y + 538)
-    assert arcade.shown(Lobby).seats.places[0].strength == "level4"
-    assert arcade.shown(Lobby).seats.places[2].strength == "level3"
+    assert arcade.shown(Lobby).seats.places[0].strength == "level1"
+    assert arcade.shown(Lobby).seats.places[2].strength == "auto"
     arcade.click(*card_rect(2).center)
     assert kinds(arcade) == "A..."
     arcade.click(*card_rect(2).center)
     arcade.stack.apply(arcade.stack.top.handle(InputEvent(Button.START, Device("mouse"))))
-    assert [seat.brain for seat in arcade.shown(MatchSetupPage).seats.seats()] == ["level4", "off", "level4", "off"]
+    assert [seat.brain for seat in arcade.shown(MatchSetupPage).seats.seats()] == ["level1", "off", "level1", "off"]
 
 
 def test_when_nobody_is_there_the_title_comes_back(arcade: Arcade) -> None:
