@@ -29,9 +29,7 @@ class Estimate:
     def update(self, effort: float, won: float) -> None:
         """Learn from a match. `effort`: of the opponents at its end, 0..1; `won`: the person's share of the victory."""
         last = len(AUTO) - 1
-        met = min(
-            max(effort * last, 0.5), last - 0.5
-        )  # the greatest is never too easy, the least never too hard
+        met = min(max(effort * last, 0.5), last - 0.5)  # the greatest is never too easy, the least never too hard
         easy, hard = TOO_EASY**won, TOO_HARD ** (1.0 - won)
         weights = [
             belief * (easy if k < met + 0.5 else 1.0) * (hard if k > met - 0.5 else 1.0)

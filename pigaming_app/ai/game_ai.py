@@ -27,8 +27,9 @@ class GameAI:
     driving: Mapping[str, Driving] = field(default_factory=lambda: USUAL_DRIVING)  # styles, in the lobby's order
     chauffeur: str = LEVELS[-1]  # drives for one button
     boosts: bool = False  # the one button is the turbo too, where there may be nothing to fire
-    auto: tuple[BrainKind, BrainKind] | None = None  # the ends between which strength follows people; None: no Auto
-    lead: Callable[[Any, int], float] | None = None  # kernel, points by which a seat is ahead; default: of the match
+    # an easy and a hard brain, whose minds differ in single floats after `reset`: Auto is between them; None: no Auto
+    auto: tuple[BrainKind, BrainKind] | None = None
+    lead: Callable[[Any, int], float] | None = None  # kernel: points by which a seat is ahead; default: of the match
     person: Callable[[Traits], BrainKind] | None = None  # what a person sees and wants; `ai/people` adds the hands
 
     def __post_init__(self) -> None:
@@ -39,6 +40,8 @@ class GameAI:
             raise ValueError(f"kinds: {wrong[0]} is no BrainKind")
         if self.chauffeur not in self.kinds:
             raise ValueError(f"chauffeur: {self.chauffeur} is not in kinds")
+        if self.auto and (self.auto[0].think, self.auto[0].mind) != (self.auto[1].think, self.auto[1].mind):
+            raise ValueError("auto: two brains that differ in more than numbers")
         if not self.rivals or {*self.rivals} - self.brains.keys():
             raise ValueError(f"rivals: not all of {', '.join(self.rivals) or 'none'} are in kinds")
         if not {TURN, POINT} <= {*self.driving} <= {TURN, POINT, HELPED_TURN, HELPED_POINT, ONE_BUTTON}:

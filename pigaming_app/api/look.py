@@ -6,7 +6,7 @@ from pigaming_app.scenes.views.simple import SimpleView
 from pigaming_app.scenes.views.sprites.robot import robot
 from pigaming_app.scenes.views.style import STYLE
 from pigaming_app.ui.draw import GlowCanvas, dim, regular_polygon
-from pigaming_app.ui.draw.sprites import Batch, Sprite, light_sprite, put, turning_sprite
+from pigaming_app.ui.draw.sprites import Batch, light_sprite, put, turning_sprite
 
 __all__ = [
     "STYLE",
@@ -16,7 +16,6 @@ __all__ = [
     "GlowCanvas",
     "Lesson",
     "SimpleView",
-    "Sprite",
     "dim",
     "light_sprite",
     "put",

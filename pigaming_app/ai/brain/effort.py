@@ -42,13 +42,16 @@ def between(easy: BrainKind, hard: BrainKind, lead: Lead | None = None) -> tuple
     """
     if (easy.think, easy.mind) != (hard.think, hard.mind):
         raise ValueError(f"{easy.name} and {hard.name} are not of one kind")
-    starts = [number / (len(AUTO) - 1) for number in range(len(AUTO))]
-    return tuple(_between(name, start, easy, hard, lead or margin) for name, start in zip(AUTO, starts, strict=True))
-
-
-def _between(name: str, start: float, easy: BrainKind, hard: BrainKind, lead: Lead) -> BrainKind:
     knobs = tuple(_differences(_fresh(easy, 1), _fresh(hard, 1)))
+    think, mind = _make_think(easy.think, knobs, lead or margin), _mind_record(easy.mind)
 
+    def kind(name: str, start: float) -> BrainKind:
+        return BrainKind(name, mind, think, _make_reset(easy, hard, knobs, start), easy.weights)
+
+    return tuple(kind(name, number / (len(AUTO) - 1)) for number, name in enumerate(AUTO))
+
+
+def _make_reset(easy: BrainKind, hard: BrainKind, knobs: tuple[Path, ...], start: float) -> Callable[[Any, int], None]:
     def reset(mind: Any, seed: int) -> None:
         easy.begin(mind.inner, seed)
         other, effort = _fresh(hard, seed), mind.effort
@@ -56,7 +59,7 @@ def _between(name: str, start: float, easy: BrainKind, hard: BrainKind, lead: Le
         for i, path in enumerate(knobs):
             effort.easy[i], effort.hard[i] = _value(mind.inner, path), _value(other, path)
 
-    return BrainKind(name, _mind_record(easy.mind), _make_think(easy.think, knobs, lead), reset, easy.weights)
+    return reset
 
 
 @kernel

@@ -45,10 +45,11 @@ def set_rules(rules: PiTanksRules, setup: Setup) -> None:
         rules.protection = 0
     if setup.variant == "classic":
         rules.turbo = 0
+    if setup.variant in ("party", "pickups"):
+        rules.camping = 4 * HZ
     if setup.variant == "party":
         rules.penalty = 0
         rules.knockout, rules.protection = KNOCKOUT, PARTY_PROTECTION
-        rules.camping = 4 * HZ
         rules.bounty_lead = 3
         rules.finale = 20 * HZ
         rules.overtime = round(OVERTIME * HZ)

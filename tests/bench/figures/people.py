@@ -2,10 +2,12 @@
 
 from dataclasses import fields
 
+from pigaming_app.ai.brain.effort import AUTO
 from pigaming_app.ai.brain.traits import NUMBERS, Traits
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.people.matches import Place, Trial, places
 from pigaming_app.ai.people.models import PEOPLE
+from pigaming_app.ai.people.series import FIRSTS, Series, series
 from tests.bench.figures import as_markdown
 from tests.bench.figures.duels import some
 
@@ -39,18 +41,35 @@ def shown(value: float | bool) -> str:
 
 
 def wins(share: float) -> list[list[str]]:
-    """Shares of wins in %, by game and person; masher by the rules of which wins decide between people and AIs."""
+    """Shares of wins in %, by game and person."""
     count, minutes = some(400, share)
     rows = [["", "", *(f"`{level}`" for level in LEVELS)]]
     for game, title in GAMES.items():
-        names = ("masher", *PEOPLE) if game in ("pitanks", "football") else tuple(PEOPLE)
+        names = people_of(game)
         found = places(Trial(game, count, minutes=minutes), names, LEVELS)
         for name in names:
             rows.append([title, f"`{name}`", *(percent(place) for place in found if place.person == name)])
     return rows
 
 
-def percent(place: Place) -> str:
+def auto(share: float) -> list[list[str]]:
+    """Wins in % against Auto, after the matches in which it learns, by game, person and first strength."""
+    count, minutes = some(800, share)
+    rows = [["", "", *(f"from `{AUTO[first]}`" for first in FIRSTS)]]
+    for game, title in GAMES.items():
+        names = people_of(game)
+        found = list(series(Trial(game, count, minutes=minutes), names))
+        for name in names:
+            rows.append([title, f"`{name}`", *(percent(one) for one in found if one.person == name)])
+    return rows
+
+
+def people_of(game: str) -> tuple[str, ...]:
+    """The people whose wins in a game count: masher where wins decide between people and AIs."""
+    return ("masher", *PEOPLE) if game in ("pitanks", "football") else tuple(PEOPLE)
+
+
+def percent(place: Place | Series) -> str:
     low, high = place.interval
     return f"{100 * place.share:.0f} ({100 * low:.0f}–{100 * high:.0f})"
 

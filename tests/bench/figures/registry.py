@@ -39,6 +39,7 @@ MEASURED = {
         FOOTBALL, f"{FAIR} football --variant V --matches 960 --brains {LEVEL5}", fairness.football, 4
     ),
     "people": Measured(PEOPLE, f"{MAIN} people GAME --seed 0", people.wins, 20),
+    "auto": Measured(PEOPLE, f"{MAIN} people GAME --auto --matches 800", people.auto, 20),
     "sensitivity": Measured(
         PEOPLE, f"{MAIN} people pitanks level1 --people beginner --scale reaction=0.7 --seed 0", people.sensitivity, 10
     ),
