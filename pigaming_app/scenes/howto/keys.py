@@ -6,17 +6,24 @@ import pygame
 
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.sim.world import Action
-from pigaming_app.ui.draw import ARROWS, BODY, FOCUS, HAIR, MIST, THIN, button, button_width, cut_box, dim, icon
+from pigaming_app.ui.draw import BODY, FOCUS, MIST, button, button_width, cut_box, dim
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.widgets.key_caps import (
+    CAP,
+    PITCH,
+    PLACES,
+    RADIUS,
+    draw_steering_key,
+    draw_stick,
+    steering_signs,
+)
 
 STEERS = re.compile(r"go|turn|^\S+$")  # steps that steer, or a brain
-CAP, PITCH = 44, 50  # px: a steering key, and from one to the next
 PRESSED = 0.25  # deflection from which a steering key is lit
-RADIUS, WAY = 44, 22  # px: of a stick, and the way of its knob
+WAY = 22  # px, the way of a stick's knob
 APART = 24  # px between the steering keys and the others
-PLACES = ((0, 0), (-1, 1), (0, 1), (1, 1))  # column and row of the steering keys: up, left, down, right
 
 
 def draw_keys(screen: pygame.Surface, context: Context, script: str, action: Action, middle: tuple[int, int]) -> None:
@@ -31,7 +38,7 @@ def draw_keys(screen: pygame.Surface, context: Context, script: str, action: Act
     left = x - (wide + sum(APART + button_width(label) for label, _ in shown) - APART) / 2
     if steers and moves:
         pressed = (action.linear, -action.angular, -action.linear, action.angular)
-        for sign, (column, row), share in zip(_signs(moves), PLACES, pressed, strict=True):
+        for sign, (column, row), share in zip(steering_signs(moves), PLACES, pressed, strict=True):
             at = left + PITCH * (column + 1.5), y + PITCH * (row - 0.5)
             steering_key(sign, share > PRESSED).draw(screen, *at)
     elif steers:
@@ -43,22 +50,13 @@ def draw_keys(screen: pygame.Surface, context: Context, script: str, action: Act
         left += button_width(label) + APART
 
 
-def _signs(moves: str) -> list[str]:
-    """The signs on the four steering keys: up, left, down, right; arrows if they are no single letters."""
-    return list(moves) if len(moves) == len(ARROWS) else ["↑", "←", "↓", "→"]
-
-
 @cached
 def steering_key(sign: str, on: bool) -> LitImage:
     """A steering key, centred on (0, 0)."""
-    layer, color, outline = Layer(-CAP / 2, -CAP / 2, CAP, CAP), _color(on), cut_box(-CAP / 2, -CAP / 2, CAP, CAP, 8)
+    layer = Layer(-CAP / 2, -CAP / 2, CAP, CAP)
     if on:
-        layer.glow.fill(outline, dim(FOCUS, 0.35))
-    layer.glow.line(outline, color, THIN, True)
-    if sign in ARROWS:
-        icon(layer.canvas.crisp, ARROWS[sign], 0, 0, 12, color, 5)
-    else:
-        layer.canvas.text(sign, 28, 0, 0, color, "head", "c")
+        layer.glow.fill(cut_box(-CAP / 2, -CAP / 2, CAP, CAP, 8), dim(FOCUS, 0.35))
+    draw_steering_key(layer, sign, 0, 0, _color(on))
     return layer.render()
 
 
@@ -76,7 +74,7 @@ def key_cap(label: str, on: bool) -> LitImage:
 def stick() -> LitImage:
     """The socket of a stick, centred on (0, 0)."""
     layer = Layer(-RADIUS, -RADIUS, 2 * RADIUS, 2 * RADIUS)
-    layer.glow.ring(0, 0, RADIUS, MIST, THIN).ring(0, 0, 6, MIST, HAIR)
+    draw_stick(layer, 0, 0, MIST)
     return layer.render()
 
 

@@ -11,15 +11,14 @@ import pygame
 from pigaming_app.games.arenas import own_arenas, score_name
 from pigaming_app.games.game import ALLIES, PAIRS, Game, Setup, Variant
 from pigaming_app.games.registry import games
-from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.features.registry import draw_arena
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.arena_cache import load_cached
-from pigaming_app.scenes.flow.auto import AutoStrengths
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, change_rules, last_choice, playable_arenas
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import match_setup_view as choice
+from pigaming_app.scenes.lobby.begin import begin, chosen_setup, minutes_of
 from pigaming_app.scenes.lobby.dealt import deal, first_state, start_positions
 from pigaming_app.scenes.lobby.seats import EMPTY, LobbySeats
 from pigaming_app.scenes.pages.page import Hints, Page
@@ -153,23 +152,11 @@ class MatchSetupPage(Page):
 
     def _begin(self) -> StackOperation:
         """Push the match, or return None while the preloader is busy."""
-        from pigaming_app.scenes.play.scene import match_of
-
-        if not self.context.preloader.ready(self.game.name, self.chosen.arena):
-            return None
-        setup = self._setup()
-        rounds = Rounds(self.chosen.rounds) if self.chosen.rounds > 1 else None
-        seats = self.seats
-        return Push(
-            match_of(self.context, setup, seats.devices(), seats.real(), game_choice=self.game_choice, rounds=rounds)
-        )
+        return begin(self.context, self._setup(), self.chosen.rounds, self.seats, self.game_choice)
 
     def _setup(self) -> Setup:
         """The setup selected now."""
-        now = self.chosen
-        seats, minutes = self.seats.seats(), float(self._minutes)
-        setup = Setup(self.game.name, now.arena, seats, minutes, self.seed, now.variant, now.goal)
-        return self.context.shared(AutoStrengths).resolved(setup, self.seats.devices())
+        return chosen_setup(self.context, self.game, self.chosen, self.seats, self.seed)
 
     def _row(self, name: str) -> LitImage:
         """Render a row."""
@@ -181,7 +168,8 @@ class MatchSetupPage(Page):
         if name == "goal":
             return choice.chips(sizes, self._goal_name(), tuple(map(str, self.variant.goals)), str(now.goal))
         if name == "minutes":
-            return choice.chips(sizes, words("setup.minutes"), tuple(map(str, self.minutes)), str(self._minutes))
+            minutes = str(minutes_of(game, now))
+            return choice.chips(sizes, words("setup.minutes"), tuple(map(str, self.minutes)), minutes)
         if name == "rounds":
             return choice.short_chips(words("setup.rounds"), self._round_labels(), game.rounds.index(now.rounds))
         if name == "rules":
@@ -222,11 +210,6 @@ class MatchSetupPage(Page):
         """The choices of minutes; of a match of several rounds only one."""
         return self.variant.minutes if self.chosen.rounds == 1 else (self.game.round_minutes,)
 
-    @property
-    def _minutes(self) -> int:
-        """The minutes of the match, or of one of its rounds."""
-        return self.chosen.minutes if self.chosen.rounds == 1 else self.game.round_minutes
-
     def _round_labels(self) -> tuple[str, ...]:
         return tuple(self.context.words(f"setup.rounds_{count}") for count in self.game.rounds)
 
@@ -246,7 +229,7 @@ class MatchSetupPage(Page):
             return self._go()
         if name in ("goal", "minutes"):
             values = self.variant.goals if name == "goal" else self.minutes
-            now = self.chosen.goal if name == "goal" else self._minutes
+            now = self.chosen.goal if name == "goal" else minutes_of(self.game, self.chosen)
             chip = choice.chip_at(len(values), at[0] - self.rows[name].left)
             if chip is not None:
                 self._change(name, chip - values.index(now))

@@ -1,8 +1,8 @@
 """The lobby: FIRE joins, FIRE again means ready. AIs fill empty seats on request; teams are one press away.
 
-When all people are ready and at least two robots take part, match setup opens after a short countdown, during which
-others can still join. A seated device controls its own seat, a free one can only join (see `access`); the mouse acts on
-the element under the pointer.
+When all people are ready and at least two robots take part, the match begins after a short countdown, during which
+others can still join. START opens match setup instead. A seated device controls its own seat, a free one can only join
+(see `access`); the mouse acts on the element under the pointer.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -23,11 +23,14 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.match_choice import choice_summary, last_choice
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
+from pigaming_app.scenes.flow.used_keys import UsedKeys
 from pigaming_app.scenes.lobby import seat_card as card
+from pigaming_app.scenes.lobby.begin import begin, chosen_setup
 from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, LobbySeats
 from pigaming_app.scenes.lobby.view import CODE, LobbyPage, LobbyState, level_words, problem, spots
+from pigaming_app.scenes.play.drivers import new_seed
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.ui.draw import PLAYERS
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
@@ -133,7 +136,7 @@ class Lobby:
         if self.now.starting is not None:
             self.now.starting -= seconds
             if self.now.starting <= 0.0:
-                return self._go()
+                return self._play()
         if self._code_is_due():
             return self._open_code()
         self._prewarm()
@@ -205,11 +208,12 @@ class Lobby:
         if seat is None:
             self._say(self.context.words("lobby.full"), "error")
         else:
+            self.context.shared(UsedKeys).forget(device)
             self.now.seated[seat] = 0.0
             self.context.sounds.play("join", seat)
 
     def _begin(self, device: Device) -> StackOperation:
-        """START: everyone counts as ready. In an empty lobby the device joins instead."""
+        """START: match setup; everyone counts as ready. In an empty lobby the device joins instead."""
         if not self.seats.robots and device.kind != "mouse":
             self._fire(device)
             return None
@@ -217,12 +221,19 @@ class Lobby:
         if message := problem(self.seats, self.context.words):
             self._say(message, "error")
             return None
-        return self._go()
-
-    def _go(self) -> StackOperation:
         self.now.starting = None
         self.context.sounds.play("accept")
         return Push(MatchSetupPage(self.context, self.game, self.seats, game_choice))
+
+    def _play(self) -> StackOperation:
+        """Begin the match with the last choice of arena and rules, as soon as it is loaded."""
+        chosen = last_choice(self.context, self.game)
+        setup = chosen_setup(self.context, games()[self.game], chosen, self.seats, new_seed())
+        match = begin(self.context, setup, chosen.rounds, self.seats, game_choice)
+        if match:
+            self.now.starting = None
+            self.context.sounds.play("accept")
+        return match
 
     def _back(self, device: Device) -> StackOperation:
         """BACK: revoke readiness, then leave the seat, then return to the title."""

@@ -89,7 +89,7 @@ class LobbyPage:
         if self.seats.team_mode == FREE:
             hints.append((Button.X, "lobby.hint_alone" if self.seats.teams else "lobby.hint_teams"))
         return self.context.prompts(
-            [*hints, (Button.START, "lobby.hint_begin")], device=lambda: self.access.hint_device
+            [*hints, (Button.START, "lobby.hint_setup")], device=lambda: self.access.hint_device
         )
 
     @property

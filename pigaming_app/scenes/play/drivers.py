@@ -16,6 +16,7 @@ from pigaming_app.ai.game_ai import ONE_BUTTON, STAND_IN
 from pigaming_app.ai.registry import make_brain, make_person
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.used_keys import UsedKeys
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.ui.draw import PLAYERS
@@ -76,6 +77,7 @@ class Drivers:
         self.assisted: set[int] = set()
         self.access = Access(context, lambda: self.devices)
         self.idle, self.quiet = IdleSeats(), 0.0
+        self.used = context.shared(UsedKeys)
         self._joining = HoldTimers(context.controls, TAKE_SECONDS)
         for seat in self.people:
             self._sit(seat, self.devices[seat])
@@ -158,6 +160,7 @@ class Drivers:
                     self.people.append(seat)
                     self.assisted.add(seat)
                 self.quiet = 0.0
+                self.used.forget(event.device)
                 self.assign(seat, event.device)
 
     def replace_idle(self, seconds: float) -> None:
@@ -190,6 +193,7 @@ class Drivers:
         """FIRE on a free device: take an unclaimed seat at once, any other after holding."""
         claimed = self.idle.claims.values()
         if vacant := [seat for seat in self.replaced if seat not in claimed]:
+            self.used.forget(event.device)
             self.assign(vacant[0], event.device)
         elif self.takeable:
             self._joining.begin(event)
@@ -212,6 +216,7 @@ class Drivers:
         """The state of a device for this tick."""
         mat = self.context.mat
         drive = (mat and mat.stick(seat, seat == self.people[0])) or self.context.controls.drive(device)
+        self.used.note(device, drive)
         if drive.fire or drive.turbo or drive.linear or drive.angular:
             self.quiet = 0.0
             self.idle.touch(seat)

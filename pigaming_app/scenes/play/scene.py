@@ -2,6 +2,7 @@
 
 - `Drivers`: who drives which seat
 - `Opening`: the countdown, and what is shown and prepared meanwhile
+- `FirstKeys`: the keys that new players have not used yet
 - `MatchRunner`: ticks, pictures, sounds
 - `Ending`: from the last tick to the next scene
 - `Sequel`: the note in the day log, and the scenes that follow
@@ -20,6 +21,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.play.drivers import Drivers
 from pigaming_app.scenes.play.ending import Ending
+from pigaming_app.scenes.play.first_keys import FirstKeys
 from pigaming_app.scenes.play.opening import Opening
 from pigaming_app.scenes.play.pause import Pause, Robots, SimulatedRobots
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
@@ -66,6 +68,7 @@ class MatchScene:
         self.devices, self.access = self.drivers.devices, self.drivers.access
         self.robots: Robots = SimulatedRobots()
         self.opening = Opening(context, self.runner, self.devices)
+        self.first_keys = FirstKeys(context, self.match, self.devices, rounds is not None)
         self.sequel = Sequel(self)
         self.ending = Ending(context, self.runner, rounds, self.sequel.scenes)
         self.restart_allowed = after is None
@@ -102,6 +105,7 @@ class MatchScene:
 
     def update(self, seconds: float) -> StackOperation:
         self.runner.notice.update(seconds)
+        self.first_keys.update(seconds)
         if self.restart_requested:
             return Swap(self.sequel.rematch(self.context, self.setup, self.devices))
         if self.match.over and not self.ending.begun:
@@ -133,6 +137,7 @@ class MatchScene:
             self.ending.draw_sign(screen)
         else:
             self.opening.draw(screen)
+            self.first_keys.draw(screen)
         if not (self.preparing or self.held or self.match.over):
             self.runner.draw_hints(screen, self.devices)
         self.drivers.draw(screen)

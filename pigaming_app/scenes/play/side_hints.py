@@ -6,7 +6,7 @@ import pygame
 
 from pigaming_app.scenes.views.background import LEFT
 from pigaming_app.sim.world import WIDTH
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, THIN, button, button_width, cut_box, text_width
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, THIN, Color, button, button_width, cut_box, text_width
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import wrap
@@ -16,7 +16,7 @@ from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 ROOM = 136  # px of the 160 px between the arena and the edge of the picture
 X = LEFT + WIDTH + (1920 - LEFT - WIDTH) // 2  # middle of the right margin; the left one is at 1920 - X
 TOP, LINE, GAP = 170, 50, 44  # px, before scaling: top of the column, line pitch, gap between hints
-MAX_LABEL, LABEL_PITCH = 8, 42  # letters of a label on one line; px from one line of a longer one to the next
+MAX_LABEL, LABEL_PITCH = 7, 42  # letters of a label on one line; px from one line of a longer one to the next
 MAX_LINE = 230  # px, length of a line before scaling
 MAX_SCALE = 0.8  # maximum scale, relative to hints elsewhere
 
@@ -48,7 +48,7 @@ def boxes(prompts: tuple[tuple[str, str], ...]) -> list[pygame.Rect]:
     """The rectangle of each hint."""
     k, y, rects = scale_to_fit(prompts), float(TOP), []
     for label, text in prompts:
-        high = k * (_key_height(label) + LINE * len(wrap(text, BODY, MAX_LINE)))
+        high = k * (key_size(label)[1] + LINE * len(wrap(text, BODY, MAX_LINE)))
         rects.append(pygame.Rect(X - ROOM // 2, round(y), ROOM, round(high)))
         y += high + k * GAP
     return rects
@@ -57,7 +57,7 @@ def boxes(prompts: tuple[tuple[str, str], ...]) -> list[pygame.Rect]:
 def scale_to_fit(prompts: tuple[tuple[str, str], ...]) -> float:
     """The scale at which the widest hint fits."""
     lines = [text_width(line, BODY, "body") for _, text in prompts for line in wrap(text, BODY, MAX_LINE)]
-    labels = [button_width(line) for label, _ in prompts for line in _label_lines(label)]
+    labels = [key_size(label)[0] for label, _ in prompts]
     return min(MAX_SCALE, ROOM / max(*lines, *labels))
 
 
@@ -65,13 +65,14 @@ def _label_lines(label: str) -> list[str]:
     """The lines of a label on a key; a long one is broken at its space, or in the middle with a hyphen."""
     if len(label) <= MAX_LABEL:
         return [label]
-    half = len(label) // 2
-    return label.split(" ", 1) if " " in label else [f"{label[:half]}-", label[half:]]
+    half, parts = len(label) // 2, label.split(" ", 1)
+    return parts if max(map(len, parts)) <= MAX_LABEL else [f"{label[:half]}-", label[half:]]
 
 
-def _key_height(label: str) -> int:
-    """Height of a key with its label, px before scaling."""
-    return 60 + LABEL_PITCH * (len(_label_lines(label)) - 1)
+def key_size(label: str) -> tuple[float, int]:
+    """Width and height of a key with its label, px before scaling."""
+    lines = _label_lines(label)
+    return max(map(button_width, lines)), 60 + LABEL_PITCH * (len(lines) - 1)
 
 
 @cached
@@ -82,22 +83,22 @@ def column(prompts: tuple[tuple[str, str], ...]) -> LitImage:
     for (label, text), box in zip(prompts, places, strict=True):
         for ink in (layer.canvas.glow, layer.canvas.soft, layer.canvas.crisp):
             ink.set_transform(box.centerx - layer.at[0], box.top - layer.at[1], 0.0, k)
-        _draw_key(layer, label)
+        draw_key(layer, label, ICE)
         for i, line in enumerate(wrap(text, BODY, MAX_LINE)):
-            layer.canvas.body(line, 0, _key_height(label) + LINE * (i + 0.5), MIST, "c")
+            layer.canvas.body(line, 0, key_size(label)[1] + LINE * (i + 0.5), MIST, "c")
     return layer.render()
 
 
-def _draw_key(layer: Layer, label: str) -> None:
-    """Draw a button, or a key with a label of two lines."""
+def draw_key(layer: Layer, label: str, color: Color) -> None:
+    """Draw a button, or a key with a label of two lines, below (0, 0)."""
     lines = _label_lines(label)
     if len(lines) == 1:
-        button(layer.canvas, -button_width(label) / 2, 30, label)
+        button(layer.canvas, -button_width(label) / 2, 30, label, color)
         return
-    w = max(map(button_width, lines))
-    layer.canvas.glow.line(cut_box(-w / 2, 2, w, _key_height(label) - 4, 10), ICE, THIN, True)
+    w = key_size(label)[0]
+    layer.canvas.glow.line(cut_box(-w / 2, 2, w, key_size(label)[1] - 4, 10), color, THIN, True)
     for i, line in enumerate(lines):
-        layer.canvas.crisp.text(line, BODY, 0, 30 + LABEL_PITCH * i, ICE, "head", "c")
+        layer.canvas.crisp.text(line, BODY, 0, 30 + LABEL_PITCH * i, color, "head", "c")
 
 
 @cached

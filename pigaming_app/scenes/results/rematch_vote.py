@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 import pygame
 
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.used_keys import UsedKeys
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, THIN, badge, cut_box, dim, icon, text_width
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
@@ -34,7 +35,7 @@ class RematchVote:
             seat = self.devices.index(device)
         elif missing := [seat for seat in self.humans if not self.here(seat)]:
             seat = missing[0]
-            self.devices[seat] = device
+            self._sit(seat, device)
         elif not self.humans:
             seat = self.seats[0]
         else:
@@ -51,9 +52,13 @@ class RematchVote:
         if device in self.devices or not self.takeable:
             return False
         seat = self.takeable[0]
-        self.devices[seat] = device
+        self._sit(seat, device)
         self.humans.append(seat)
         return self._count(seat)
+
+    def _sit(self, seat: int, device: Device) -> None:
+        self.devices[seat] = device
+        self.context.shared(UsedKeys).forget(device)
 
     def _count(self, seat: int) -> bool:
         new = seat not in self.votes

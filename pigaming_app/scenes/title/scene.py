@@ -12,6 +12,7 @@ from pigaming_app.scenes.flow.auto import AutoStrengths
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_goal, tagline
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
+from pigaming_app.scenes.flow.used_keys import UsedKeys
 from pigaming_app.scenes.title.kiosk_unlock import KioskUnlock
 from pigaming_app.scenes.title.language import LanguageName
 from pigaming_app.scenes.title.logo import dot_of, logo
@@ -25,7 +26,7 @@ from pigaming_app.ui.draw.frame_budget import Steps, Unfinished, budget, drop_pa
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
 from pigaming_app.ui.i18n import NAMES
-from pigaming_app.ui.input.events import Button, InputEvent
+from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.memory import return_freed_blocks, settle
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import (
@@ -88,7 +89,7 @@ class Title:
                 self.focus.set_spots(self._spots())
         self.game = self.focus.name if self.focus.name in self.tiles.names else self.game
         chosen = self.focus.activated(event)
-        return self._open(chosen) if chosen else None
+        return self._open(chosen, event.device) if chosen else None
 
     def update(self, seconds: float) -> StackOperation:
         """Animate; start attract mode when idle."""
@@ -177,20 +178,21 @@ class Title:
         yield
         settle()
 
-    def _open(self, name: str) -> StackOperation:
+    def _open(self, name: str, device: Device) -> StackOperation:
         if name == "language":
             self.language.next()
             return None
-        scene = self._scene(name)
+        scene = self._scene(name, device)
         self.context.sounds.play("accept")
         return Push(scene) if scene else Quit()
 
-    def _scene(self, name: str) -> Scene | None:
-        """The page of a menu item; imported late, so that the title appears at once."""
+    def _scene(self, name: str, device: Device) -> Scene | None:
+        """The page of a menu item; imported late, so that the title appears at once. `device`: seated in a lobby."""
         if name in self.tiles.names:
             from pigaming_app.scenes.lobby.scene import Lobby
 
-            return Lobby(self.context, name)
+            self.context.shared(UsedKeys).forget(device)
+            return Lobby(self.context, name, [device] if device.kind != "mouse" else [])
         if name in self.menu:
             return self.menu[name].open(self.context, self.game)
         if name == "options":

@@ -6,6 +6,7 @@ from typing import Any
 
 import pygame
 
+from pigaming_app.scenes.flow.used_keys import FIRE, STEER, TURBO
 from pigaming_app.scenes.views.lesson import Lesson
 from pigaming_app.scenes.views.preview import fitted, robots, walls
 from pigaming_app.scenes.views.view import MatchView, ViewOptions
@@ -37,6 +38,7 @@ class GameScreens:
     - `plan(canvas, arena, left, top, scale)`: what a preview shows besides, such as the lines of a pitch; (left, top)
       is the corner of the arena on the canvas.
     - `deal(canvas, arena, state)`: what the seed of a match deals, over its preview, in px of the arena; the robots.
+    - `first_keys`: the keys that new players are shown until they have used them, in this order.
     - `confetti(canvas, placed, size, shape, color)`: a piece of it at the celebration.
     - `team_colors`: winners have the colour of their team, not their own.
     - `lessons`: by text key of their captions (table `howto.lessons`), in pages of four.
@@ -58,6 +60,7 @@ class GameScreens:
     awards: Mapping[str, str] = field(default_factory=dict)
     plan: Callable[[GlowCanvas, Arena, float, float, float], object] | None = None
     deal: Callable[[GlowCanvas, Arena, Any], object] = robots
+    first_keys: tuple[str, ...] = (STEER, FIRE, TURBO)
 
     @property
     def page_count(self) -> int:

@@ -163,7 +163,6 @@ def join(walker: TourWalker, game: str) -> None:
     choose(walker, game)
     walker.wait_until(lambda: walker.shows("Lobby"))
     walker.wait(0.5)
-    walker.press("space")
 
 
 def lobby(walker: TourWalker, game: str) -> None:
@@ -173,7 +172,7 @@ def lobby(walker: TourWalker, game: str) -> None:
     walker.wait(3.0)
     walker.press("d", "a")
     walker.wait(1.0)
-    walker.press("space")
+    walker.press("return")
 
 
 def setup(walker: TourWalker, game: str) -> None:
@@ -260,7 +259,7 @@ def leave(walker: TourWalker, game: str) -> None:
     walker.set_screen(f"{game}: lobby")
     walker.press("space", pause=0.5)
     walker.wait_until(lambda: walker.shows("Lobby"))
-    walker.press("space")
+    walker.press("return")
     walker.set_screen(f"{game}: setup")
     walker.wait_until(lambda: walker.shows("MatchSetupPage"))
 

@@ -8,8 +8,11 @@ from pigaming_app.ai.brain.driving import FORESIGHT, TURN_GAIN
 from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.ai.game_ai import HELPED_POINT, POINT
 from pigaming_app.ai.race.racer import HAND3, act
+from pigaming_app.games.game import Game
 from pigaming_app.games.race.observation import observe
+from pigaming_app.games.registry import games
 from pigaming_app.scenes.attract.scene import Attract
+from pigaming_app.scenes.flow.match_choice import last_choice
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.ladder.choice import LadderChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
@@ -25,6 +28,7 @@ from pigaming_app.scenes.results.scene import LATE, Results
 from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.scores import LETTERS
+from pigaming_app.storage.settings import Choice
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.letter_picker import LetterPicker
 from tests.bench.open_day.hands import PadHands, PhoneHands
@@ -97,7 +101,7 @@ class Visit:
             stage.one_presses(stage.rng.choice((Button.LEFT, Button.RIGHT)))
 
     def lobby(self) -> None:
-        """Everybody joins and is ready; somebody who is alone wants an AI."""
+        """Everybody joins and is ready; somebody who is alone wants an AI, somebody a shorter match."""
         stage, lobby = self.stage, self.stage.lobby
         assert lobby is not None
         seated = lobby.seats.devices()
@@ -106,6 +110,8 @@ class Visit:
             stage.all_press(Button.FIRE, absent)
         elif lobby.seats.robots < 2:
             stage.one_presses(Button.Y)
+        elif long_rows(last_choice(lobby.context, lobby.game), games()[lobby.game]):
+            stage.one_presses(Button.START)
         else:
             waiting = [player for player in stage.players if not self._is_ready(player)]
             stage.all_press(Button.FIRE, waiting)
@@ -118,13 +124,10 @@ class Visit:
     def setup(self) -> None:
         """Change something; then make it a short match, since others wait, and start."""
         stage, page = self.stage, self.stage.top
-        choice, variant = page.chosen, page.variant
         if stage.now - stage.changed < 3.0:
             stage.one_presses(stage.rng.choice((Button.DOWN, Button.RIGHT)))
             return
-        long = {"minutes": choice.rounds == 1 and choice.minutes > max(MINUTES, min(variant.minutes))}
-        long["goal"] = bool(variant.goals) and choice.goal > max(GOAL, min(variant.goals))
-        rows = [row for row, is_long in long.items() if is_long and row in page.rows]
+        rows = [row for row in long_rows(page.chosen, page.game) if row in page.rows]
         if not rows:
             stage.one_presses(Button.START)
         elif stage.focus(page.focus, rows[0]):
@@ -245,6 +248,14 @@ class Visit:
     def leave_page(self) -> None:
         """An unexpected page is left."""
         self.stage.one_presses(Button.BACK)
+
+
+def long_rows(choice: Choice, game: Game) -> list[str]:
+    """The rows of match setup that make a match too long for those who wait."""
+    variant = game.variants[choice.variant]
+    long = {"minutes": choice.rounds == 1 and choice.minutes > max(MINUTES, min(variant.minutes))}
+    long["goal"] = bool(variant.goals) and choice.goal > max(GOAL, min(variant.goals))
+    return [row for row, is_long in long.items() if is_long]
 
 
 def where_to_go(action: Any, robot: Any, turn_rate: float) -> tuple[float, float]:

@@ -18,6 +18,7 @@ from pigaming_app.scenes.lobby.seat_card import DRIVE_Y, ROW_Y
 from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, LobbySeats
 from pigaming_app.scenes.lobby.view import card_rect, level_words
 from pigaming_app.scenes.mat.mat import SessionMat
+from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
@@ -32,6 +33,10 @@ def _prepared(arcade: Arcade) -> None:
 
 def kinds(arcade: Arcade) -> str:
     return letters(arcade.shown(Lobby).seats)
+
+
+def brains(match: MatchScene) -> list[str]:
+    return [seat.brain for seat in match.setup.seats]
 
 
 def letters(seats: LobbySeats) -> str:
@@ -80,7 +85,7 @@ def test_one_person_alone_who_is_ready_gets_three_ais_until_a_second_one_joins(a
     assert kinds(arcade) == "HH.."
     arcade.press(Button.FIRE, device=KEYS[1])
     arcade.wait(lobby.COUNTDOWN + 0.2)
-    assert letters(arcade.shown(MatchSetupPage).seats) == "HH.."
+    assert brains(arcade.shown(MatchScene)) == ["human", "human", "off", "off"]
 
 
 def test_one_press_leaves_one_ai_and_there_is_time_for_it(arcade: Arcade) -> None:
@@ -91,10 +96,10 @@ def test_one_press_leaves_one_ai_and_there_is_time_for_it(arcade: Arcade) -> Non
     arcade.wait(lobby.COUNTDOWN_ALONE - 0.3)
     assert kinds(arcade) == "HA.."
     arcade.wait(0.5)
-    assert letters(arcade.shown(MatchSetupPage).seats) == "HA.."
+    assert brains(arcade.shown(MatchScene)) == ["human", "level3", "off", "off"]
 
 
-def test_start_begins_at_once_and_the_unready_count_as_ready(arcade: Arcade) -> None:
+def test_start_opens_match_setup_at_once_and_the_unready_count_as_ready(arcade: Arcade) -> None:
     arcade.press(Button.START)
     assert kinds(arcade) == "H..."
     arcade.press(Button.FIRE, device=KEYS[1])

@@ -75,7 +75,7 @@ def test_the_lobby_opens_with_the_code_and_phones_join_on_it(open_to_phones: Arc
     assert [place.ready for place in lobby.seats.places[:2]] == [True, True]
     for _ in range(90):
         arcade.frame()
-    arcade.shown(MatchSetupPage)
+    arcade.shown(MatchScene)
 
 
 def test_a_pad_or_key_joins_through_the_code_at_once(open_to_phones: Arcade) -> None:

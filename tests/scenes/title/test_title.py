@@ -20,7 +20,7 @@ from pigaming_app.ui.draw.surface_cache import surfaces
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.focus import Focus
-from tests.scenes.arcade import Arcade
+from tests.scenes.arcade import KEYS, Arcade
 from tests.ui.input.virtual_pad import VirtualPad
 
 
@@ -33,11 +33,18 @@ def title(arcade: Arcade) -> Title:
     return arcade.shown(Title)
 
 
-def test_fire_opens_the_lobby_of_the_game_and_back_returns(arcade: Arcade) -> None:
-    arcade.press(Button.FIRE)
-    assert arcade.shown(Lobby).game == "pitanks"
-    arcade.press(Button.BACK)
+def test_fire_opens_the_lobby_of_the_game_with_a_seat_and_back_returns(arcade: Arcade) -> None:
+    arcade.press(Button.FIRE, device=KEYS[1])
+    lobby = arcade.shown(Lobby)
+    assert lobby.game == "pitanks"
+    assert lobby.seats.devices() == [KEYS[1], None, None, None]
+    arcade.press(Button.BACK, Button.BACK, device=KEYS[1])
     title(arcade)
+
+
+def test_a_click_on_a_game_opens_its_lobby_without_anybody(arcade: Arcade) -> None:
+    arcade.click(*title(arcade).focus.rect("race").center)
+    assert arcade.shown(Lobby).seats.robots == 0
 
 
 def test_the_row_below_leads_to_how_to_play_options_and_out(arcade: Arcade) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 import pygame
 
 from pigaming_app.games.race.state import LINES, Race
+from pigaming_app.scenes.flow.used_keys import STEER, TURBO
 from pigaming_app.scenes.views.game_screens import GameScreens, Placed
 from pigaming_app.scenes.views.lesson import Actor, Lesson
 from pigaming_app.scenes.views.preview import fitted, robots
@@ -130,5 +131,13 @@ LESSONS = {
 }
 
 SCREENS = GameScreens(
-    RaceView, tile, "hint_recover", preview, chequer, lessons=LESSONS, lesson_pages=("standard", "party"), deal=deal
+    RaceView,
+    tile,
+    "hint_recover",
+    preview,
+    chequer,
+    lessons=LESSONS,
+    lesson_pages=("standard", "party"),
+    deal=deal,
+    first_keys=(STEER, TURBO),
 )
