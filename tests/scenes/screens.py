@@ -73,6 +73,8 @@ from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
 from pigaming_app.scenes.play.scene import MatchScene
+from pigaming_app.scenes.playtest.consent import ConsentPage
+from pigaming_app.scenes.playtest.page import PlayTestPage
 from pigaming_app.scenes.replays.page import ReplaysPage
 from pigaming_app.scenes.results.awards.ceremony import Ceremony
 from pigaming_app.scenes.results.awards.moment import AwardsMoment
@@ -376,6 +378,17 @@ def phones_page(arcade: Arcade, trouble: str = "") -> Scene:
     return page
 
 
+def consent(arcade: Arcade, ages: Sequence[int]) -> Scene:
+    """Keyboards on as many seats, with these age bands; all but the last have agreed."""
+    page = ConsentPage(arcade.context, "factory")
+    for device, age in zip(KEYS, ages, strict=False):
+        page.seats.join(device)
+        page.ages[device] = age
+    for seat in range(len(ages) - 1):
+        page.seats.places[seat].ready = True
+    return page
+
+
 def lobby_with_phones(arcade: Arcade, game: str) -> Scene:
     return lobby(with_phones(arcade), game, 0, 0)
 
@@ -549,6 +562,9 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "pause with phones": lambda arcade: Pause(match(with_phones(arcade)), KEYS[0]),
     "still there": lambda arcade: StillThere(match(arcade)),
     "replays": lambda arcade: ReplaysPage(arcade.context),
+    "play test": lambda arcade: PlayTestPage(arcade.context),
+    "consent": partial(consent, ages=(0, 1, 2, 3)),
+    "consent of nobody": partial(consent, ages=()),
     "devices": lambda arcade: DeviceTable(
         arcade.context, KEYS, Access(arcade.context, lambda: KEYS), lambda device: POINT
     ),

@@ -11,7 +11,14 @@ from pigaming_app.ui.widgets.setting_row import CENTRE
 from tests.scenes.arcade import Arcade
 from tests.scenes.screens import SCREENS
 
-PAGES = ("operator", "operator day", "robots menu", "arena and radio", *(f"options {section}" for section in SECTIONS))
+PAGES = (
+    "operator",
+    "operator day",
+    "robots menu",
+    "arena and radio",
+    "play test",
+    *(f"options {section}" for section in SECTIONS),
+)
 SHARED = ("kind", "quiet_until", "fullscreen", "board")  # rows with the picture of the one above them
 
 

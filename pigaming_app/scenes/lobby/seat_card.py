@@ -170,7 +170,7 @@ def strength(text: str, stars: str, color: kit.Color | None) -> LitImage:
 @cached
 def driving(text: str, picture: str, color: kit.Color | None) -> LitImage:
     """Driving style, its picture and name. `color`: see `strength`, also for the other rows."""
-    layer, x, size = _row(text, DRIVE_Y, color, 76)
+    layer, x, size = choice_row(text, DRIVE_Y, color, 76)
     kit.icon(layer.glow, picture, x + 28, DRIVE_Y, 27, kit.ICE, kit.THIN)
     layer.canvas.crisp.text(text, size, x + 76, DRIVE_Y, kit.ICE, "head")
     return layer.render()
@@ -179,7 +179,7 @@ def driving(text: str, picture: str, color: kit.Color | None) -> LitImage:
 @cached
 def team(text: str, number: int, color: kit.Color | None) -> LitImage:
     """Team number and team bars."""
-    layer, x, size = _row(text, ROW_Y, color, 44)
+    layer, x, size = choice_row(text, ROW_Y, color, 44)
     for i in range(number + 1):
         layer.glow.line([(x + 14 * i, ROW_Y - 17), (x + 14 * i, ROW_Y + 17)], kit.ICE, kit.LINE)
     layer.canvas.crisp.text(text, size, x + 44, ROW_Y, kit.ICE, "head")
@@ -189,7 +189,7 @@ def team(text: str, number: int, color: kit.Color | None) -> LitImage:
 @cached
 def side(text: str, number: int, color: kit.Color | None) -> LitImage:
     """Side of the factory with its emblem and colour."""
-    layer, x, size = _row(text, ROW_Y, color, 48)
+    layer, x, size = choice_row(text, ROW_Y, color, 48)
     emblem(layer.glow, number, x + 10, ROW_Y, 24)
     layer.canvas.crisp.text(text, size, x + 48, ROW_Y, TEAMS[number], "head")
     return layer.render()
@@ -198,7 +198,7 @@ def side(text: str, number: int, color: kit.Color | None) -> LitImage:
 @cached
 def real(text: str, on: bool, middle: int, color: kit.Color | None) -> LitImage:
     """Real or simulated robot. `middle`: y of its centre, px."""
-    layer, x, size = _row(text, middle, color, 54, "body")
+    layer, x, size = choice_row(text, middle, color, 54, "body")
     light = kit.GREEN if on else kit.MIST
     layer.glow.ring(x + 18, middle, 18, light, kit.THIN)
     if on:
@@ -207,7 +207,9 @@ def real(text: str, on: bool, middle: int, color: kit.Color | None) -> LitImage:
     return layer.render()
 
 
-def _row(text: str, middle: int, color: kit.Color | None, sign: int, face: str = "head") -> tuple[Layer, float, int]:
+def choice_row(
+    text: str, middle: int, color: kit.Color | None, sign: int, face: str = "head"
+) -> tuple[Layer, float, int]:
     """Row with the arrows that change it, outlined in `color` if selected. `sign`: px for the sign before the text.
     Returns the layer, x of the sign (px) and the font size.
     """

@@ -36,10 +36,12 @@ def folder() -> Path:
     return folders().data / "replays"
 
 
-def paths() -> list[Path]:
-    """All replays, the latest first."""
+def paths(place: Path | None = None) -> list[Path]:
+    """All replays, or those of another folder, the latest first."""
     try:
-        found = [path for path in folder().iterdir() if path.suffix == ".replay" and not path.name.startswith(".")]
+        found = [
+            path for path in (place or folder()).iterdir() if path.suffix == ".replay" and not path.name.startswith(".")
+        ]
     except FileNotFoundError:
         return []
     except OSError as error:
@@ -59,22 +61,27 @@ def saved_at(path: Path) -> datetime:
 
 def save(replay: Replay, now: datetime | None = None) -> Path:
     """Write a replay and delete the oldest ones beyond the limit. Raises StoreError."""
-    path = _free_name(replay, now or datetime.now())
+    path = free_name(folder(), replay, now or datetime.now())
     excess = [path for path in reversed(paths()) if _deletable(path)][: max(0, len(paths()) + 1 - LIMIT)]
     if len(paths()) + 1 - len(excess) > LIMIT:
         raise StoreError("replays.all_kept")
-    try:
-        write_atomic(path, pack(replay))
-    except NotSaved as error:
-        log.warning("%s", error)
-        full = error.errno in (errno.ENOSPC, errno.EDQUOT)
-        raise StoreError("replays.disk_full" if full else "replays.no_writing") from error
+    write(path, replay)
     for old in excess:
         try:
             old.unlink()
         except OSError as error:
             log.warning("%s: %s", old, error)
     return path
+
+
+def write(path: Path, replay: Replay) -> None:
+    """Write a replay. Raises StoreError."""
+    try:
+        write_atomic(path, pack(replay))
+    except NotSaved as error:
+        log.warning("%s", error)
+        full = error.errno in (errno.ENOSPC, errno.EDQUOT)
+        raise StoreError("replays.disk_full" if full else "replays.no_writing") from error
 
 
 def delete(path: Path) -> None:
@@ -95,11 +102,11 @@ def load(path: Path) -> Replay | None:
         return None
 
 
-def _free_name(replay: Replay, now: datetime) -> Path:
-    """A new name of date, game and players."""
+def free_name(place: Path, replay: Replay, now: datetime) -> Path:
+    """A new name of date, game and players in a folder."""
     stem = f"{now:{DATE}}_{replay.setup.game}_{_players(replay.setup.seats)}"
     names = [stem, *(f"{stem}_{number}" for number in range(2, LIMIT + 2))]
-    return next(path for path in (folder() / f"{name}.replay" for name in names) if not os.path.lexists(path))
+    return next(path for path in (place / f"{name}.replay" for name in names) if not os.path.lexists(path))
 
 
 def _players(seats: Sequence[Seat]) -> str:
