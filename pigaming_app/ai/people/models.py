@@ -19,7 +19,7 @@ from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import bell, seeded
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import HZ, Action
 
 BEGINNER = Traits(  # a child of 8 on a keyboard
     reaction=0.6, spread=0.3, decisions=2.5, timing=0.11, aim=0.26, prediction=0.0, lapses=6.0, lapse=1.5,
@@ -75,6 +75,16 @@ def person_brain(name: str, wishes: Callable[[Traits], BrainKind], person: Perso
     return BrainKind(name, _mind_record(inner.mind), _make_think(inner.think), reset, inner.weights)
 
 
+def wisher(wishes: Callable[[Traits], BrainKind], traits: Traits) -> BrainKind:
+    """What a person with these traits would do, in `mind.wish`; the seat's action stays as it is."""
+    inner = wishes(traits)
+
+    def reset(mind: Any, seed: int) -> None:
+        inner.begin(mind.inner, seed)
+
+    return BrainKind("wisher", _wisher_record(inner.mind), _make_wish(inner.think), reset, inner.weights)
+
+
 @cache
 def _mind_record(inner: type) -> type:
     """The record of the mind of a person whose wishes have the record `inner`."""
@@ -83,16 +93,43 @@ def _mind_record(inner: type) -> type:
 
 
 @cache
+def _wisher_record(inner: type) -> type:
+    """The record of the mind of a wisher."""
+    hints = {"wish": Action, "inner": inner}
+    return record(type("WisherMind", (), {"__annotations__": hints, "__module__": __name__}))
+
+
+@cache
 def _make_think(wish: Callable[[Any, int, Any, Any], None]) -> Callable[[Any, int, Any, Any], None]:
     """The decision function of people with these wishes."""
 
     def think(match: MatchState, seat: int, mind: Any, weights: Any) -> None:
         action, wished = match.actions[seat], mind.hands.wish
-        action.linear, action.angular = wished.linear, wished.angular
-        action.fire, action.turbo, action.aim = wished.fire, wished.turbo, wished.aim
+        copy_action(wished, action)
         wish(match, seat, mind.inner, weights)
-        wished.linear, wished.angular = action.linear, action.angular
-        wished.fire, wished.turbo, wished.aim = action.fire, action.turbo, action.aim
+        copy_action(action, wished)
         move(match, seat, mind.hands)
 
     return kernel(think)
+
+
+@cache
+def _make_wish(wish: Callable[[Any, int, Any, Any], None]) -> Callable[[Any, int, Any, Any], None]:
+    """The decision function of a wisher: the brain that wishes finds its last wish in place of the seat's action."""
+
+    def think(match: MatchState, seat: int, mind: Any, weights: Any) -> None:
+        action, wished = match.actions[seat], mind.wish
+        linear, angular, fire, turbo, aim = action.linear, action.angular, action.fire, action.turbo, action.aim
+        copy_action(wished, action)
+        wish(match, seat, mind.inner, weights)
+        copy_action(action, wished)
+        action.linear, action.angular, action.fire, action.turbo, action.aim = linear, angular, fire, turbo, aim
+
+    return kernel(think)
+
+
+@kernel
+def copy_action(source: Action, target: Action) -> None:
+    """Make an action equal to another."""
+    target.linear, target.angular = source.linear, source.angular
+    target.fire, target.turbo, target.aim = source.fire, source.turbo, source.aim

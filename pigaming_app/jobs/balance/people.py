@@ -1,4 +1,7 @@
-"""How often people, as models, win against the AIs: one of them against three, in teams with a mate of their kind."""
+"""How often people, as models, win against the AIs: one of them against three, in teams with a mate of their kind.
+
+`people fit FILES` finds the traits of people in replays.
+"""
 
 import json
 from collections.abc import Iterator, Sequence
@@ -12,19 +15,23 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import ALLIES
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
+from pigaming_app.jobs.balance import fit
 from pigaming_app.jobs.terminal.options import AIS, JsonOption, SeedOption, argument, flag, games_and, integer, option
 from pigaming_app.jobs.terminal.refusal import refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
 
+FIT = "fit"
+
 
 @dataclass(frozen=True, kw_only=True)
 class PeopleOptions(JsonOption, SeedOption):
-    """The game, the people and their opponents."""
+    """The game, the people and their opponents; or `fit` and the files of replays."""
 
-    game: str = argument(games_and(), metavar="GAME")
+    game: str = argument(games_and(FIT), metavar="GAME | fit")
     levels: tuple[str, ...] = argument(
-        f"opponents: {AIS}; default level1 to level5", default=(), nargs="*", metavar="AI"
+        f"opponents: {AIS}; default level1 to level5; after fit: replays", default=(), nargs="*", metavar="AI | FILE"
     )
+    together: bool = flag("fit: the same seat is the same person in all files")
     people: tuple[str, ...] = option(
         f"masher, {', '.join(PEOPLE)}; also twice or more; default all", default=(), action="append", metavar="NAME"
     )
@@ -37,7 +44,9 @@ class PeopleOptions(JsonOption, SeedOption):
 
 
 def run(options: PeopleOptions) -> int:
-    """Play and print the table. Raises Refusal."""
+    """Play and print the table, or fit. Raises Refusal."""
+    if options.game == FIT:
+        return fit.run(options.levels, options.together, options.json)
     require_for_brains(options.levels)
     people, levels = options.people or ("masher", *PEOPLE), options.levels or LEVELS
     with refused(ChoiceError, ArenaError):

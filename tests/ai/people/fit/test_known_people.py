@@ -1,0 +1,35 @@
+"""The proof: people whose traits are known, none of whom the calibration has seen, are found again from their play."""
+
+from math import sqrt
+
+import numpy as np
+import pytest
+
+from pigaming_app.ai.people.fit.calibration import SHARES, calibration, plain, raw_of
+from pigaming_app.ai.people.fit.known import samples_of
+
+PEOPLE, MATCHES, SEED = 24, 16, 2026
+WITHIN = 0.15  # of a trait, or of its whole range where it is a share
+FOUND = {  # traits that half an hour of play tells so well
+    ("pitanks", "turn"): ("decisions", "timing", "tactics"),
+    ("pitanks", "point"): ("decisions", "timing", "stick", "tactics"),
+}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("game", "driving"), FOUND)
+def test_known_people_are_found_within_15_percent(game: str, driving: str) -> None:
+    known = calibration(game, driving)
+    assert known
+    off: dict[str, list[float]] = {name: [] for name in known.traits}
+    outside: dict[str, list[float]] = {name: [] for name in known.traits}
+    for traits, found in samples_of(game, driving, PEOPLE, (MATCHES,), SEED):
+        minutes, numbers = found[MATCHES]
+        for name, raw in known.raw(numbers).items():
+            true, error = getattr(traits, name), known.error(name, minutes)
+            off[name].append(abs(plain(name, raw) - true) / (1.0 if name in SHARES else true))
+            outside[name].append(abs(raw - raw_of(name, true)) > 1.96 * error)
+    middle = {name: float(np.median(values)) for name, values in off.items()}
+    assert all(middle[name] <= WITHIN for name in FOUND[game, driving]), middle
+    beyond = {name: float(np.mean(values)) for name, values in outside.items()}  # 5 % are expected
+    assert max(beyond.values()) <= 0.05 + 4.0 * sqrt(0.05 * 0.95 / PEOPLE), beyond
