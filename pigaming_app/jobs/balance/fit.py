@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.ai.people.fit.calibration import Estimate
+from pigaming_app.ai.people.fit.calibration import FittedTrait
 from pigaming_app.ai.people.fit.people import FittedPerson, GroupMean, NotFitted, fitted, mean_of, play_of
 from pigaming_app.ai.people.fit.wishes import Watched
 from pigaming_app.ai.people.matches import is_person
@@ -131,7 +131,7 @@ def group_lines(groups: Mapping[tuple[str, str, str], GroupMean]) -> Iterator[st
         yield from trait_lines(mean.traits)
 
 
-def trait_lines(traits: Mapping[str, Estimate | None]) -> Iterator[str]:
+def trait_lines(traits: Mapping[str, FittedTrait | None]) -> Iterator[str]:
     """A line for each trait with its interval."""
     for name, found in traits.items():
         told = f"{found.value:.3g} {UNITS[name]:9} [{found.low:.3g}, {found.high:.3g}]" if found else NOT_ENOUGH
@@ -160,6 +160,6 @@ def plain_group(names: tuple[str, str, str], mean: GroupMean) -> dict[str, Any]:
     return known | {"people": mean.people, "minutes": mean.minutes, "traits": plain_traits(mean.traits)}
 
 
-def plain_traits(traits: Mapping[str, Estimate | None]) -> dict[str, dict[str, float] | None]:
+def plain_traits(traits: Mapping[str, FittedTrait | None]) -> dict[str, dict[str, float] | None]:
     """Traits for JSON; null: not enough play."""
     return {name: found._asdict() if found else None for name, found in traits.items()}

@@ -28,7 +28,7 @@ SURE = 1.96  # standard deviations, for 95 %
 MAX_BYTES = 1_000_000
 
 
-class Estimate(NamedTuple):
+class FittedTrait(NamedTuple):
     """A trait, and its interval of 95 %."""
 
     value: float
@@ -36,9 +36,9 @@ class Estimate(NamedTuple):
     high: float
 
 
-def estimate(trait: str, raw: float, error: float) -> Estimate:
+def estimate(trait: str, raw: float, error: float) -> FittedTrait:
     """The trait of a logarithm or share and its standard deviation."""
-    return Estimate(*(plain(trait, raw + step * SURE * error) for step in (0.0, -1.0, 1.0)))
+    return FittedTrait(*(plain(trait, raw + step * SURE * error) for step in (0.0, -1.0, 1.0)))
 
 
 def plain(trait: str, raw: float) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 
 from pigaming_app.ai.brain.traits import Traits
 from pigaming_app.ai.game_ai import POINT, TURN
-from pigaming_app.ai.people.fit.calibration import POOR, Estimate, FitCalibration, calibration, estimate, raw_of
+from pigaming_app.ai.people.fit.calibration import POOR, FitCalibration, FittedTrait, calibration, estimate, raw_of
 from pigaming_app.ai.people.fit.statistics import statistics
 from pigaming_app.ai.people.fit.wishes import Array, Watched, watch
 from pigaming_app.ai.people.models import PEOPLE
@@ -33,7 +33,7 @@ class FittedPerson:
     minutes: float
     raws: Mapping[str, float]
 
-    def estimates(self) -> dict[str, Estimate | None]:
+    def estimates(self) -> dict[str, FittedTrait | None]:
         """Of every trait; None: not enough play to tell."""
         errors = self.errors()
         return {
@@ -63,7 +63,7 @@ class GroupMean:
 
     people: int
     minutes: float
-    traits: Mapping[str, Estimate | None]
+    traits: Mapping[str, FittedTrait | None]
 
 
 def play_of(replay: Replay, seat: int) -> Watched:
@@ -112,7 +112,7 @@ def mean_of(people: Sequence[FittedPerson]) -> GroupMean:
     return GroupMean(len(people), sum(one.minutes for one in people), traits)
 
 
-def _mean(trait: str, people: Sequence[FittedPerson]) -> Estimate | None:
+def _mean(trait: str, people: Sequence[FittedPerson]) -> FittedTrait | None:
     raws = np.array([one.raws[trait] for one in people])
     own = np.array([one.errors()[trait] for one in people])
     apart = float(raws.std(ddof=1)) if len(people) > 1 else 0.0
