@@ -1,7 +1,9 @@
 """Steering help in Robot Race: a person's stick, blended with the stick that follows the fastest line.
 
 The share of the line is small in the middle of the course and large near its edge. It grows with the forward stick, so
-that a released stick stays released; reverse, a turn on the spot, and the way back to a missed line are never changed.
+that a released stick stays released. Along the course, reverse is slow and a turn without forward stick rolls on, so
+that whoever presses keys at random gets round; across it, both are as they are. The way back to a missed line is never
+changed.
 """
 
 from math import atan2, cos, sin, sqrt
@@ -19,6 +21,8 @@ CENTRE_SHARE, EDGE_SHARE = 0.2, 0.9  # of the line's stick
 NEAR = 80.0  # px inside the edge at which the share begins to grow
 INSIDE = 45.0  # px between the edge and the line that is steered for, as the fastest line touches the edge
 SLOWEST = 0.45  # of full speed, to which it slows down before a bend
+ALONG = 0.9  # rad between robot and course, below which a robot drives along it
+BACK, ROLL = 0.3, 0.6  # share of the reverse stick along the course, and forward stick of a turn there
 TURNED = 1.75  # rad between robot and course above which a person is turning round and is left alone
 
 
@@ -34,11 +38,14 @@ def with_help(driving: Driving) -> Driving:
 def helped_stick(match: Race, seat: int, linear: float, angular: float) -> tuple[float, float]:
     """The stick of `seat`, both axes in [-1, 1], after the help in this tick. Reads the match only."""
     robot, racer = match.robots[seat], match.racers[seat]
-    if linear <= 0.0 or racer.missed or racer.lines_reversed or racer.finished:
+    if racer.missed or racer.lines_reversed or racer.finished:
         return linear, angular
     place = CoursePosition()
     locate(match.course, robot.x, robot.y, place)
-    if abs(turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x))) > TURNED:
+    off = abs(turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x)))
+    if off < ALONG and linear <= 0.0:
+        linear = BACK * linear if linear else ROLL * abs(angular)
+    if linear <= 0.0 or off > TURNED:
         return linear, angular
     ideal_linear, ideal_angular = _stick_to_line(match, seat, place)
     soon = CoursePosition()

@@ -2,6 +2,7 @@
 
 from collections import deque
 from math import atan2, pi
+from statistics import mean
 
 import pytest
 
@@ -81,8 +82,51 @@ def test_the_same_novice_without_help_spends_a_quarter_of_the_time_in_the_mud():
 
 @pytest.mark.parametrize("stick", [(0.0, 0.0), (0.0, 1.0), (0.0, -0.5), (-1.0, 0.3), (-0.2, 0.0)])
 @pytest.mark.parametrize("aside", [0.0, 95.0, 160.0])
-def test_without_the_forward_stick_nothing_changes(stick, aside):
-    assert helped_stick(placed(400.0, aside), 0, *stick) == stick
+def test_across_the_course_nothing_changes_without_the_forward_stick(stick, aside):
+    assert helped_stick(placed(400.0, aside, 1.2), 0, *stick) == stick
+
+
+@pytest.mark.parametrize("aside", [0.0, 95.0, 160.0])
+def test_a_released_stick_stays_released(aside):
+    assert helped_stick(placed(400.0, aside), 0, 0.0, 0.0) == (0.0, 0.0)
+
+
+def test_along_the_course_reverse_is_slow_and_a_turn_rolls_on():
+    assert helped_stick(placed(400.0, 0.0), 0, -1.0, 0.3) == pytest.approx((-0.3, 0.3))
+    linear, angular = helped_stick(placed(600.0, 0.0), 0, 0.0, -1.0)
+    assert 0.3 < linear <= 0.6
+    assert angular < 0.0
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("track", one_in(2, TRACKS))
+def test_keys_at_random_get_round_with_help_and_nowhere_without(track):
+    """Laps of `masher` in two minutes, mean of four races, beside three robots of level 1."""
+    laps = {helped: mean(mashed(track, helped, seed) for seed in range(4)) for helped in (True, False)}
+    assert laps[True] > 1.0
+    assert laps[False] < 0.2
+
+
+class Mashed:
+    """`masher`, with or without help."""
+
+    def __init__(self, brain, helped):
+        self.brain, self.helped = brain, helped
+
+    def think(self, state, seat):
+        self.brain.think(state, seat)
+        action = state.actions[seat]
+        if self.helped:
+            linear, angular = helped_stick(state, seat, action.linear, action.angular)
+            set_action(action, linear, angular, action.fire, action.turbo)
+
+
+def mashed(track, helped, seed):
+    match = match_of("race", ["masher", *["level1"] * 3], track, 10.0, seed, "standard", 9)
+    match.sit(0, Mashed(match.brains[0], helped))
+    while match.seconds < 120.0 and not match.over:
+        match.tick()
+    return match.state.racers[0].progress / match.state.course.length
 
 
 def test_the_help_is_weak_in_the_middle_and_strong_at_the_edge():
