@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 import pygame
 
@@ -11,8 +12,8 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
 from pigaming_app.scenes.results.headline import EndedMatch, headline, is_allied, stars, winning_color
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.frame_budget import Steps
-from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.frame_budget import Steps, budget, finished_within
+from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Layer, LitImage, backdrop
 from pigaming_app.ui.draw.text import fit_size
 
 SHORT = 218  # px, line below a title without a winner
@@ -103,6 +104,43 @@ class PageHead:
     def _reach(self, age: float) -> float:
         """Coloured length of the line below the title, px."""
         return (self.length + MARGIN) * (1.0 - (1.0 - min(1.0, (age - self.title_at) / WIPE)) ** 2)
+
+
+class RevealedPage:
+    """A view of the results: its head, and a part for each team, revealed one after the other."""
+
+    def __init__(self, context: Context, ended: EndedMatch, finished: bool) -> None:
+        self.context, self.ended, self.finished = context, ended, finished
+        self.teams = [list(rows) for _, rows in groupby(ended.outcome.rows, key=lambda row: row.team)]
+        self.head = PageHead(context, ended, finished, title_starts(len(self.teams)))
+        self.ready_at = self.head.title_at + 0.4
+        self.parts: list[RevealedPart] = []
+        self._rendering = self._render_parts()
+
+    def prewarm(self, milliseconds: float) -> bool:
+        """Render widgets for at most this many milliseconds; True when all are ready."""
+        return finished_within(self._finish, milliseconds)
+
+    def sounds(self) -> list[tuple[float, str, int | None]]:
+        """Sounds of the reveal: (seconds, name, player)."""
+        return row_sounds([team[0].seat for team in self.teams])
+
+    def draw(self, screen: pygame.Surface, age: float) -> None:
+        """Draw the page `age` seconds after it was opened."""
+        self._finish()
+        screen.blit(backdrop(), (0, 0))
+        self.head.draw(screen, age)
+        for part in self.parts:
+            part.draw(screen, age)
+
+    def _finish(self) -> None:
+        """Render the remaining widgets. Raises Unfinished if the frame budget is exhausted."""
+        for _ in self._rendering:
+            budget.pause()
+
+    def _render_parts(self) -> Steps[None]:
+        """Render one widget per step."""
+        yield from self.head.render_parts()
 
 
 def share_of(lit: LitImage, x: float) -> float:

@@ -1,7 +1,6 @@
 """Rendering of the results page as cached widgets: title, rows, plot, revealed one after the other."""
 
 from collections.abc import Sequence
-from itertools import groupby
 
 import pygame
 
@@ -13,19 +12,17 @@ from pigaming_app.scenes.results.headline import EndedMatch, is_allied
 from pigaming_app.scenes.results.high_scores import clock, contest, format_score, high_score_tables
 from pigaming_app.scenes.results.page_head import (
     FIRST,
-    PageHead,
+    RevealedPage,
     RevealedPart,
-    row_sounds,
     row_starts,
     share_of,
-    title_starts,
 )
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.scenes.views.sprites.stars import HIGH, star_row
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.frame_budget import Steps, budget, finished_within
-from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, span
+from pigaming_app.ui.draw.frame_budget import Steps
+from pigaming_app.ui.draw.layers import Layer, LitImage, span
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.numbers import numeral
@@ -38,40 +35,22 @@ FIGURES = (226, 828)  # px from a row's left edge: left and right limit of the c
 APART_X = 22  # px, minimum gap between columns
 
 
-class ResultsPage:
+class ResultsPage(RevealedPage):
     """The results page without the votes."""
 
     def __init__(self, context: Context, ended: EndedMatch, finished: bool) -> None:
-        self.context, self.ended, self.finished = context, ended, finished
+        super().__init__(context, ended, finished)
         self.outcome, self.setup = outcome, setup = ended.outcome, ended.setup
-        self.teams = [list(rows) for _, rows in groupby(outcome.rows, key=lambda row: row.team)]
         self.by_team = len(self.teams) < len(outcome.rows)
         game = games()[setup.game]
         columns = game.variants[setup.variant].columns or game.columns
         self.columns = ("score", *columns) if game.scored else columns
-        self.title_at = title_starts(len(self.teams))
-        self.ready_at = self.title_at + 0.4
-        self.head = PageHead(context, ended, finished, self.title_at)
         self.stars, self.winners = self.head.stars, self.head.winners
-        self.parts: list[RevealedPart] = []
         self.plot: Plot
-        self._rendering = self._render_parts()
-
-    def prewarm(self, milliseconds: float) -> bool:
-        """Render widgets for at most this many milliseconds; True when all are ready."""
-        return finished_within(self._finish, milliseconds)
-
-    def sounds(self) -> list[tuple[float, str, int | None]]:
-        """Sounds of the reveal: (seconds, name, player)."""
-        return row_sounds([team[0].seat for team in self.teams])
 
     def draw(self, screen: pygame.Surface, age: float) -> None:
-        """Draw the page `age` seconds after it was opened."""
-        self._finish()
-        screen.blit(backdrop(), (0, 0))
-        self.head.draw(screen, age)
-        for part in self.parts:
-            part.draw(screen, age)
+        """Draw the page `age` seconds after it was opened; the plot with its lines as far as they are revealed."""
+        super().draw(screen, age)
         drawn = (age - FIRST) / (self.ready_at - FIRST)
         if 0.0 < drawn < 1.0:
             for at, color in self.plot.heads(drawn):
@@ -84,14 +63,9 @@ class ResultsPage:
 
     # ---- widgets
 
-    def _finish(self) -> None:
-        """Render the remaining widgets. Raises Unfinished if the frame budget is exhausted."""
-        for _ in self._rendering:
-            budget.pause()
-
     def _render_parts(self) -> Steps[None]:
         """Render one widget per step."""
-        yield from self.head.render_parts()
+        yield from super()._render_parts()
         self.parts.append(RevealedPart(self._columns(), 0.1))
         yield
         y = TOP
@@ -105,7 +79,7 @@ class ResultsPage:
         x, w = span(6, 6)
         self.plot = self._plot(x, w)
         if is_allied(self.setup) and self.finished:
-            self.parts.append(RevealedPart(star_row(self.stars, x, TOP, w), self.title_at))
+            self.parts.append(RevealedPart(star_row(self.stars, x, TOP, w), self.head.title_at))
             yield
         self.parts.append(RevealedPart(self.plot.grid(), 0.1))
         yield

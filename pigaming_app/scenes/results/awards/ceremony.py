@@ -1,10 +1,7 @@
 """The ceremony, first view of the results: places, names, and an award for everybody."""
 
 from collections.abc import Mapping, Sequence
-from itertools import groupby
 from math import isfinite
-
-import pygame
 
 from pigaming_app.games.game import Row
 from pigaming_app.games.rounds import Rounds
@@ -14,13 +11,13 @@ from pigaming_app.scenes.results.awards.award import Award, Player, awarded, own
 from pigaming_app.scenes.results.awards.feats import Feats
 from pigaming_app.scenes.results.awards.praise import places, praises
 from pigaming_app.scenes.results.headline import EndedMatch, is_allied
-from pigaming_app.scenes.results.page_head import PageHead, RevealedPart, row_sounds, row_starts, title_starts
+from pigaming_app.scenes.results.page_head import RevealedPage, RevealedPart, row_starts
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.sprites.stars import STARS, draw_star
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.frame_budget import Steps, budget, finished_within
+from pigaming_app.ui.draw.frame_budget import Steps
 from pigaming_app.ui.draw.icons import ICONS
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import Words
 
@@ -33,7 +30,7 @@ W = RIGHT - LEFT
 OTHER = "medal"  # icon in place of an unknown one
 
 
-class Ceremony:
+class Ceremony(RevealedPage):
     """A page of `Results`. `feats`: of each seat, if they were recorded; `rounds`: those that led to the outcome."""
 
     def __init__(
@@ -44,39 +41,13 @@ class Ceremony:
         feats: Mapping[int, Feats],
         rounds: Rounds | None = None,
     ) -> None:
-        self.context, self.ended, self.finished = context, ended, finished
-        self.teams = [list(rows) for _, rows in groupby(ended.outcome.rows, key=lambda row: row.team)]
+        super().__init__(context, ended, finished)
         self.places, self.awards = places(ended.outcome), awards_of(ended, feats, rounds)
         self.praises = praises(context.words, ended, self.awards, feats)
-        self.head = PageHead(context, ended, finished, title_starts(len(self.teams)))
-        self.ready_at = self.head.title_at + 0.4
-        self.parts: list[RevealedPart] = []
-        self._rendering = self._render_parts()
-
-    def prewarm(self, milliseconds: float) -> bool:
-        """Render widgets for at most this many milliseconds; True when all are ready."""
-        return finished_within(self._finish, milliseconds)
-
-    def sounds(self) -> list[tuple[float, str, int | None]]:
-        """Sounds of the reveal: (seconds, name, player)."""
-        return row_sounds([team[0].seat for team in self.teams])
-
-    def draw(self, screen: pygame.Surface, age: float) -> None:
-        """Draw the page `age` seconds after it was opened."""
-        self._finish()
-        screen.blit(backdrop(), (0, 0))
-        self.head.draw(screen, age)
-        for part in self.parts:
-            part.draw(screen, age)
-
-    def _finish(self) -> None:
-        """Render the remaining widgets. Raises Unfinished if the frame budget is exhausted."""
-        for _ in self._rendering:
-            budget.pause()
 
     def _render_parts(self) -> Steps[None]:
         """Render one widget per step."""
-        yield from self.head.render_parts()
+        yield from super()._render_parts()
         count = len(self.ended.outcome.rows)
         high = min(MOST, (HEIGHT - GAP * (count - 1)) // count)
         y = TOP + (HEIGHT - high * count - GAP * (count - 1)) // 2
