@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
+from pigaming_app.ai.brain.effort import AUTO
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer, NoWeights, SimpleMind, act_randomly, stand_still
 from pigaming_app.ai.brain.thoughts import Thoughts
 from pigaming_app.ai.explanations import classic, fsm, gunner, racer, tables
@@ -15,6 +16,7 @@ from pigaming_app.ai.pitanks.fsm import think as fsm_think
 from pigaming_app.ai.pitanks.gunner import think as gunner_think
 from pigaming_app.ai.qlearning.table import think as table_think
 from pigaming_app.ai.race.racer import think as racer_think
+from pigaming_app.ai.registry import AIS
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import OURS
 from pigaming_app.games.simple import MatchState
@@ -52,6 +54,8 @@ def explain_of(kind: BrainKind, game: str) -> Explain | None:
     """The function that explains a brain of a game, with the arguments of its `think`; None if nothing does."""
     if kind.explain:
         return kind.explain
+    if kind.name in AUTO and (ends := AIS[game].auto) and (inner := explain_of(ends[0], game)):
+        return lambda match, seat, mind, weights: inner(match, seat, mind.inner, weights)
     if game in SUBJECTS and kind.mind is mind_record(ENCODINGS[game]):
         return make_explain(ENCODINGS[game])
     return BY_THINK.get(kind.think)

@@ -65,9 +65,9 @@ def thoughts(match: Match, seat: int = 0) -> Thoughts:
 
 
 def line_ups() -> Iterator[tuple[str, list[str]]]:
-    """All brains of each game, four at a time; the last few with one made by hand."""
+    """All brains of each game and two of Auto, four at a time; the last few with one made by hand."""
     for game in BRAINS:
-        names = [name for other, name in ALL if other == game]
+        names = [*(name for other, name in ALL if other == game), "auto1", "auto9"]
         for k in range(0, len(names), ROBOTS):
             yield game, [*names[k:], *by_hand(game) * ROBOTS][:ROBOTS]
 
