@@ -39,7 +39,7 @@ STRENGTHS = (
 )
 
 
-EASIEST = Strength(0.1, 80, 1.1, turbo=False, passes=True, form=0.4)
+EASIEST = Strength(0.09, 90, 1.3, turbo=False, passes=True, form=0.4)
 HARDEST = Strength(0.85, 14, 0.12, turbo=False, passes=True, form=0.4)
 
 
