@@ -26,7 +26,7 @@ from pigaming_app.storage.safe_mode import is_safe
 
 T = TypeVar("T")
 RULES, SCREENS, EDITOR = "", "screens", "editor"  # parts; the rules are in `__init__`
-ABOVE = ("ai", "network", "training", SCREENS, EDITOR)  # parts that do not determine how a match plays out
+ABOVE = ("ai", "network", "training", "exploits", SCREENS, EDITOR)  # parts that do not determine how a match plays out
 
 LOADING = 20.0  # s, for one part
 
