@@ -1,6 +1,18 @@
 """All blocks by name."""
 
-from tests.bench.figures import Derived, Measured, derived, duels, fairness, networks, people, robots, seeds, speed
+from tests.bench.figures import (
+    Derived,
+    Measured,
+    derived,
+    duels,
+    exploits,
+    fairness,
+    networks,
+    people,
+    robots,
+    seeds,
+    speed,
+)
 
 OPPONENTS, NETWORKS, HARDWARE = "docs/opponents.md", "docs/networks.md", "docs/hardware.md"
 FOOTBALL, THESIS, PEOPLE = "docs/football.md", "docs/thesis.md", "docs/people.md"
@@ -43,6 +55,7 @@ MEASURED = {
     "sensitivity": Measured(
         PEOPLE, f"{MAIN} people pitanks level1 --people beginner --scale reaction=0.7 --seed 0", people.sensitivity, 10
     ),
+    "exploits": Measured(OPPONENTS, f"{MAIN} exploits GAME --hands HANDS --matches 200", exploits.wins, 20),
     "network": Measured(NETWORKS, f"{BENCH}network_wins net --matches {networks.EACH}", networks.wins, 10),
     "racer": Measured(NETWORKS, f"{BENCH}network_races {networks.RACER}", networks.races, 4),
     "seeds": Measured("docs/qlearning.md", SEEDS, seeds.table, 13),
