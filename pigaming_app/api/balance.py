@@ -1,4 +1,4 @@
-"""Tricks that a person might find, for `main.py exploits`. No pygame."""
+"""Tricks that a person might find, for `main.py exploits GAME`. No pygame."""
 
 from pigaming_app.ai.brain.kind import NoWeights
 from pigaming_app.ai.brain.traits import Traits

@@ -17,6 +17,7 @@ ALLOWED = {
     ("brain", "factory"): "its explanations of this game, and the signs of its crates",
     ("gym", "factory"): "its rewards of this game",
     ("balance", "learning"): "its compiled loops",
+    ("balance", "factory"): "tricks in this game",
     ("events", "learning"): "its compiled loops, for `event run --headless`",
 }
 
