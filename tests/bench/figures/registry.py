@@ -26,6 +26,7 @@ DERIVED = {
     "games": Derived(THESIS, derived.games_in_numbers),
     "bound": Derived(OPPONENTS, derived.makespan_bound),
     "traits": Derived(PEOPLE, people.traits),
+    "tricks": Derived(OPPONENTS, exploits.tricks),
 }
 MEASURED = {
     "speed": Measured("README.md", f"{MAIN} bench pitanks", speed.table, 3),
@@ -55,7 +56,6 @@ MEASURED = {
     "sensitivity": Measured(
         PEOPLE, f"{MAIN} people pitanks level1 --people beginner --scale reaction=0.7 --seed 0", people.sensitivity, 10
     ),
-    "exploits": Measured(OPPONENTS, f"{MAIN} exploits GAME --hands HANDS --matches 200", exploits.wins, 20),
     "network": Measured(NETWORKS, f"{BENCH}network_wins net --matches {networks.EACH}", networks.wins, 10),
     "racer": Measured(NETWORKS, f"{BENCH}network_races {networks.RACER}", networks.races, 4),
     "seeds": Measured("docs/qlearning.md", SEEDS, seeds.table, 13),
