@@ -5,11 +5,13 @@ from itertools import pairwise
 
 import pytest
 
+from pigaming_app.ai.brain.effort import AUTO
 from pigaming_app.ai.brain.traits import NUMBERS
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.people.matches import Trial, places
 from pigaming_app.ai.people.models import PEOPLE
+from pigaming_app.ai.people.series import series
 from pigaming_app.ai.registry import AIS, BRAINS, find_brain, make_brain
 from pigaming_app.games.match import victory
 from pigaming_app.games.registry import games
@@ -145,3 +147,14 @@ def test_every_trait_can_be_scaled():
     for trait in NUMBERS:
         before = PEOPLE["player"].traits
         assert getattr(before.scaled(trait, 1.1), trait) == pytest.approx(1.1 * getattr(before, trait))
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not can_compile(), reason="needs the extra train")
+@pytest.mark.parametrize("game", repeated(games()))
+def test_auto_suits_everybody_after_three_matches(game):
+    """A short form of the table in docs/people.md: 20 series, hence wider bounds than the 30 to 50 % of the tuning."""
+    names = EVERYBODY if game in ("pitanks", "football") else EVERYBODY[1:]
+    for one in series(Trial(game, 160), names, (0, len(AUTO) - 1)):
+        assert 0.2 < one.share < 0.6, (one.person, one.first, one.wins)
+        assert one.interval[0] < one.share < one.interval[1]
