@@ -13,7 +13,7 @@ from pigaming_app.api.networks import Encoding, NetworkSenses, Sight, Subject, e
 from pigaming_app.api.rules import HEIGHT, HZ, RADIUS, ROBOTS, WIDTH, kernel, record
 
 from .physics import can_catch
-from .rules import lead_of, side_of
+from .rules import charge_of, lead_of, side_of
 from .state import DT, LEFT, MIDDLE, Football
 
 GROUPS = (
@@ -77,7 +77,7 @@ def encode_self(match: Football, seat: int, sign: float, ahead_x: float, ahead_y
     inputs[MOTION + 4] = whole(10.0 * me.turbo)
     if match.ball.holder == seat + 1:
         inputs[FEET] = whole(1.0)
-        inputs[FEET + 1] = whole(match.ball.charge / rules.charge)
+        inputs[FEET + 1] = whole(charge_of(match))
         inputs[FEET + 2] = whole((rules.hold - match.ball.charge) / rules.hold)
     inputs[FEET + 3] = whole(1.0 if player.armed and not player.cooldown else 0.0)
     inputs[PLACE] = whole(sign * (2.0 * me.x / WIDTH - 1.0))

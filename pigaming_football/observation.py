@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from pigaming_app.api.rules import HEIGHT, ROBOTS, WIDTH, kernel, record, turn_to
 
-from .rules import lead_of, side_of
+from .rules import charge_of, lead_of, side_of
 from .state import DT, LEFT, MIDDLE, Football
 
 FREE, OWN, MATE, OPPONENT = range(4)  # `Observation.held`
@@ -81,7 +81,7 @@ def observe(match: Football, seat: int, senses: Any, obs: Observation) -> None:
         obs.held = OPPONENT
         if ball.holder == seat + 1:
             obs.held = OWN
-            obs.charge = min(1.0, ball.charge / match.rules.charge)
+            obs.charge = min(1.0, charge_of(match))
         elif side_of(match.robots[ball.holder - 1]) == side:
             obs.held = MATE
     obs.can_catch = 1 if player.armed and not player.cooldown else 0

@@ -1,9 +1,9 @@
 """Rules of Robot Football: put the ball into the other team's goal.
 
 Robots push the ball. FIRE catches one at the robot's front; the longer it is held, for at most two seconds, the harder
-it is shot when the button is released. A robot that holds the ball is a little slower, and loses it to anything that
-the ball bumps into. A goal counts once the ball's centre is over the line, for the robot of the scoring team that
-touched it last; an own goal counts for the other team.
+it is shot when the button is released. For a team that is behind a shot charges faster, goal by goal. A robot that
+holds the ball is a little slower, and loses it to anything that the ball bumps into. A goal counts once the ball's
+centre is over the line, for the robot of the scoring team that touched it last; an own goal counts for the other team.
 
 After a goal the robots play on from where they are. Real robots cannot be moved by the rules, so the ball returns to
 the middle two seconds later, and rolls to the team that conceded. A ball that rests in reach of nobody for five
@@ -272,11 +272,24 @@ def use_feet(match: Football) -> None:
 
 
 @kernel
+def charge_of(match: Football) -> float:
+    """The charge of the held ball, full from 1 on."""
+    ball, rules = match.ball, match.rules
+    return ball.charge * (1.0 + rules.catch_up * behind(match, ball.holder - 1)) / rules.charge
+
+
+@kernel
+def behind(match: Football, k: int) -> int:
+    """Goals by which the team of robot k is behind, up to those that speed up its shots."""
+    return min(max(0, -lead_of(match, side_of(match.robots[k]))), match.rules.most_behind)
+
+
+@kernel
 def shoot(match: Football) -> None:
     """Shoot the held ball away from its holder."""
     ball, rules = match.ball, match.rules
     k = ball.holder - 1
-    share = ball.charge / rules.charge if ball.charge < rules.charge else 1.0
+    share = min(1.0, charge_of(match))
     speed = (rules.weakest + (rules.strongest - rules.weakest) * share) / rules.mass
     angle = match.robots[k].heading + ball.grip
     lose(match)

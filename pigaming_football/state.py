@@ -30,6 +30,8 @@ class Rules(SimpleRules):
     held_speed: float = 0.8  # factor of a robot's speed while it holds the ball
     hold: int = 2 * HZ  # after which the ball is shot by itself
     charge: int = round(0.8 * HZ)  # until a shot has its full strength
+    catch_up: float = 0.5  # by which it charges faster for each goal that its team is behind
+    most_behind: int = 3  # goals that count for it
     weakest: float = 380.0  # momentum of a shot
     strongest: float = 850.0
     cooldown: int = round(0.4 * HZ)  # after a shot or a lost ball

@@ -108,6 +108,17 @@ def ring(ink: GlowCanvas, color: Color, left: int) -> None:
         ink.arc(0, 0, 34, math.tau * (0.75 - left / 48), math.tau * 0.75, color, STYLE.line)
 
 
+@light_sprite(96, 0.9)
+def hurry(ink: GlowCanvas, team: int, goals: int) -> None:
+    """The glow round a ball that charges faster, for a team that is `goals` behind."""
+    for r in range(66, 36, -2):
+        ink.disc(0, 0, r, dim(STYLE.teams[team], 0.16 * goals * (1.0 - r / 68.0)))
+    for k in range(3 * goals):
+        turn = math.tau * k / (3 * goals)
+        ends = [(r * math.cos(turn), r * math.sin(turn)) for r in (46, 58)]
+        ink.line(ends, STYLE.teams[team], STYLE.line)
+
+
 @light_sprite(60, 0.9)
 def kick_off_arrow(ink: GlowCanvas, right: bool) -> None:
     """A chevron on the side to which the ball will roll."""

@@ -7,7 +7,7 @@ from typing import Any
 
 from pigaming_app.api.look import STYLE, Batch, SimpleView, put
 
-from ..rules import side_of
+from ..rules import behind, charge_of, side_of
 from ..state import Football
 from . import ceremony, sprites
 from .ball_track import FADES, BallTrack
@@ -65,6 +65,9 @@ class FootballView(SimpleView):
                 yield partial(sprites.ring, STYLE.players[seat], 48 * charge // CHARGES)
             for level in range(1, 5):
                 yield partial(sprites.aim, level, seat)
+        for team in (0, 1):
+            for goals in range(1, 4):
+                yield partial(sprites.hurry, team, goals)
         for left in range(0, 49, 4):
             yield partial(sprites.ring, STYLE.ice, left)
 
@@ -121,8 +124,10 @@ class FootballView(SimpleView):
             put(top, sprites.ball(0, 0, ball.worth > 1), *self.on_canvas(ball.x, ball.y))
 
     def draw_charge(self, under: Batch, state: Football, seat: int, x: float, y: float) -> None:
-        """The ring that fills with the charge, and the line of the shot."""
-        share = min(1.0, state.ball.charge / state.rules.charge)
+        """The ring that fills with the charge, the line of the shot, and rays if the team is catching up."""
+        if goals := behind(state, seat):
+            put(under, sprites.hurry(side_of(state.robots[seat]), goals), *self.on_canvas(x, y))
+        share = min(1.0, charge_of(state))
         ring = 48 * math.ceil(CHARGES * share) // CHARGES
         put(under, sprites.ring(STYLE.players[seat], max(3, ring)), *self.on_canvas(x, y))
         heading = state.robots[seat].heading + state.ball.grip

@@ -139,6 +139,22 @@ def test_the_longer_the_charge_the_harder_the_shot():
     assert speeds[2] == speeds[3] == pytest.approx(850.0)
 
 
+@pytest.mark.parametrize("seat", range(4))
+@pytest.mark.parametrize("lead", range(-5, 3))
+def test_a_shot_charges_faster_by_half_for_each_goal_behind_up_to_three(seat, lead):
+    """A charge is full after 40 ticks, and adds 470 px/s to the 380 of the weakest shot."""
+    football = state()
+    put_robot(football, seat, 700.0, 450.0)
+    put_ball(football, 765.0, 450.0)
+    football.robots[seat if lead > 0 else 1 - seat % 2].score += abs(lead)
+    advance(football, 9, fire=(seat,))
+    assert football.ball.holder == seat + 1
+    advance(football, 1)
+    faster = 1.0 + 0.5 * min(max(0, -lead), 3)
+    charged = min(1.0, 9 * faster / 40)
+    assert hypot(football.ball.vx, football.ball.vy) == pytest.approx(380.0 + 470.0 * charged, abs=5.0)
+
+
 def test_a_ball_held_for_two_seconds_is_shot_and_not_caught_again_before_the_button_was_up():
     football = state(present=(0,))
     put_robot(football, 0, 1200.0, 200.0)
