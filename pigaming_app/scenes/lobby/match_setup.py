@@ -9,13 +9,13 @@ from dataclasses import replace
 import pygame
 
 from pigaming_app.games.arenas import own_arenas, score_name
-from pigaming_app.games.game import ALLIES, PAIRS, Game, Setup, Variant
+from pigaming_app.games.game import ALLIES, Game, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.features.registry import draw_arena
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.arena_cache import load_cached
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_choice import arena_title, change_rules, last_choice, playable_arenas
+from pigaming_app.scenes.flow.match_choice import arena_title, change_arena, change_rules, last_choice, playable_arenas
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import match_setup_view as choice
 from pigaming_app.scenes.lobby.begin import begin, chosen_setup, minutes_of
@@ -186,7 +186,7 @@ class MatchSetupPage(Page):
         now, game = self.chosen, self.game
         before = replace(now)
         if name == "arena":
-            now.arena = self.arenas[(self.arenas.index(now.arena) + delta) % len(self.arenas)]
+            change_arena(game, now, self.arenas[(self.arenas.index(now.arena) + delta) % len(self.arenas)])
             self.slide, self.direction = 0.0, delta
         elif name == "goal":
             now.goal = step_clamped(self.variant.goals, now.goal, delta)
@@ -274,8 +274,8 @@ class MatchSetupPage(Page):
         k = min((PICTURE.w - 2 * MARGIN) / WIDTH, (PICTURE.h - 2 * MARGIN) / HEIGHT)
         x0, y0 = PICTURE.centerx - k * WIDTH / 2, PICTURE.centery - k * HEIGHT / 2
         choice.draw_things(screen, self.things, (x0 + dx, y0), k)
-        if dealt := deal(self._setup(), *PICTURE.size):
-            screen.blit(dealt.image, (PICTURE.x + dx, PICTURE.y), special_flags=pygame.BLEND_PREMULTIPLIED)
+        dealt = deal(self._setup(), *PICTURE.size)
+        screen.blit(dealt.image, (PICTURE.x + dx, PICTURE.y), special_flags=pygame.BLEND_PREMULTIPLIED)
         starts = start_positions(self._setup())
         for i, _ in self._lineup():
             stage = int((self.age * 0.7 + 0.25 * i) % 1.0 * 1.5 * effects.WAVE_STEPS)
@@ -286,8 +286,6 @@ class MatchSetupPage(Page):
                     (round(x0 + dx + k * starts[i][0] + wave.dx), round(y0 + k * starts[i][1] + wave.dy)),
                     special_flags=pygame.BLEND_RGB_ADD,
                 )
-            if self.variant.team_mode in (PAIRS, ALLIES):  # start positions depend on the team
-                choice.mark(i).draw(screen, round(x0 + dx + k * starts[i][0]), round(y0 + k * starts[i][1]))
         screen.set_clip(None)
 
 

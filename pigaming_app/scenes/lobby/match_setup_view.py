@@ -165,14 +165,6 @@ def lineup(seats: tuple[tuple[int, str], ...]) -> LitImage:
 
 
 @cached
-def mark(seat: int) -> LitImage:
-    """Start position marker of a seat, centred on (0, 0)."""
-    layer = Layer(-24, -24, 48, 48)
-    kit.badge(layer.glow, seat, 0, 0, 17)
-    return layer.render()
-
-
-@cached
 def focus_outline(height: int) -> LitImage:
     """Additional highlight of the focused row, drawn over its outline; top left at (0, 0)."""
     layer = Layer(0, 0, W, height)
