@@ -15,6 +15,7 @@ from pigaming_app.games.registry import OURS, games
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.arena import parse as parse_arena
 from pigaming_app.sim.things.spec import ThingSpec, written
+from pigaming_app.sim.toml_table import TomlTable
 from pigaming_app.storage.plugins.parts import data_folders
 from pigaming_app.storage.settings import folders
 
@@ -37,6 +38,21 @@ def shipped_arenas(game: str) -> list[str]:
     """The names of the arenas that come with a game, its default first."""
     names = sorted(path.stem for path in _folder(game).glob("*.toml"))
     return sorted(names, key=lambda name: name != games()[game].arena)
+
+
+def default_goal(game: str, variant: str, arena: str) -> int:
+    """The goal of a match unless another one is chosen: that of the arena, if it comes with the game and has one."""
+    offered = games()[game].variants[variant]
+    return (offered.goals and _goal_of(game, arena)) or offered.default_goal
+
+
+@lru_cache(maxsize=64)
+def _goal_of(game: str, name: str) -> int:
+    """The goal in the file of an arena that comes with a game; 0: none."""
+    read = games()[game].goal_of
+    if read is None or name not in shipped_arenas(game):
+        return 0
+    return read(TomlTable.parse(read_source(_folder(game) / f"{name}.toml")))
 
 
 def own_arenas(game: str) -> list[str]:

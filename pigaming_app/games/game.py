@@ -137,6 +137,7 @@ class Game:
     records: Callable[[Any, int], Mapping[str, int]] = simple.own_points  # by `record_kinds`; only those achieved
     times: Callable[[Any, int], tuple[float, ...]] = simple.no_times
     goal: str = ""  # unit of `goals`: laps, pallets
+    goal_of: Callable[[TomlTable], int] | None = None  # the default one of a match in an arena; 0: that of the variant
     rounds: tuple[int, ...] = (1,)  # the choices: the number of rounds of which most decide a match
     round_minutes: int = 1  # length of a round
     surprise: Callable[[int], str] | None = None  # the text of an arena file, from a seed

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from pigaming_app.games.arenas import arenas
+from pigaming_app.games.arenas import arenas, default_goal
 from pigaming_app.games.game import ALLIES, ALONE, PAIRS, Game, Seat, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.sim.world import HZ, ROBOTS
@@ -48,12 +48,13 @@ def make_setup(
     minutes = float(offered.default_minutes if minutes is None else minutes)
     if not MIN_MINUTES <= minutes <= MAX_MINUTES:
         raise ChoiceError(f"{minutes:g} minutes; possible are {MIN_MINUTES:g} to {MAX_MINUTES:g}")
-    goal = offered.default_goal if goal is None else goal
+    arena = arena or arenas(game)[0]
+    goal = default_goal(game, variant, arena) if goal is None else goal
     if goal != offered.default_goal and goal not in offered.goals:
         possible = f"{offered.goals[0]} to {offered.goals[-1]} {rules.goal}" if offered.goals else "time alone"
         raise ChoiceError(f"a goal of {goal}; {game} is played for {possible}")
     one, two, three, four = (Seat(brain, team) for brain, team in zip(brains, teams, strict=True))
-    return Setup(game, arena or arenas(game)[0], (one, two, three, four), minutes, seed, variant, goal)
+    return Setup(game, arena, (one, two, three, four), minutes, seed, variant, goal)
 
 
 def check_teams(rules: Game, variant: Variant, playing: Sequence[int]) -> None:

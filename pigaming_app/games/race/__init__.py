@@ -6,6 +6,7 @@ from pigaming_app.games.race.rules import judge
 from pigaming_app.games.race.start import (
     VARIANTS,
     faults,
+    laps_of,
     ranking_key,
     read,
     records,
@@ -38,6 +39,7 @@ GAME = Game(
     times=times,
     rules=rules_of,
     goal="laps",
+    goal_of=laps_of,
     reroute=reroute,
     timed=True,
     scored=False,

@@ -4,6 +4,7 @@ A track file has, besides its title:
 
 [track]
 lines = [0.2, 0.46, 0.71, 0.97]  # the four lines, in driving order, as fractions of a lap
+laps = 4                 # optional, of a match unless others are chosen
 
 [[corner]]               # of the centre line, in driving order; a lap begins at the start of the first arc
 at = [112, 116]          # px
@@ -73,6 +74,7 @@ def read(table: TomlTable) -> Layout:
     """Parse a track: a course and four lines. Raises FieldError."""
     table.only("title", "track", "corner", "thing")
     course, things = read_course(table), read_things(table)
+    laps_of(table)
     lines = _lines(table.table("track"), course, taped(course, things))
     solid = tuple(wall_capsules(things, WALLS))
     spans = line_round(course, RaceRules().speed, RaceRules().turn_rate, solid, lines)[1]
@@ -84,9 +86,14 @@ def read(table: TomlTable) -> Layout:
     )
 
 
+def laps_of(table: TomlTable) -> int:
+    """The laps of a match on a track unless others are chosen; 0: those of its rules. Raises FieldError."""
+    return round(table.table("track").number("laps", 0.0, 0.0, float(MAX_LAPS)))
+
+
 def _lines(table: TomlTable, course: Course, tapes: Sequence[float]) -> tuple[float, ...]:
     """Positions of the lines, px along the course, after each tape has moved the nearest one. Raises FieldError."""
-    table.only("lines")
+    table.only("lines", "laps")
     shares = table.numbers("lines", LINES, 0.0, 1.0)
     gaps = [(shares[(i + 1) % LINES] - shares[i]) % 1.0 for i in range(LINES)]
     if 1.0 in shares:
@@ -122,6 +129,7 @@ def faults(table: TomlTable) -> Iterator[FieldError]:
     """All that makes a track unplayable, as far as it can be found without the fastest line, which takes a second."""
     try:
         table.only("title", "track", "corner", "thing")
+        laps_of(table)
         (course, found), things = examined(read_corners(table)), read_things(table)
         yield from found
         lines = _lines(table.table("track"), course, taped(course, things) if not found else ())

@@ -12,7 +12,7 @@ import pygame
 
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.registry import new_match
-from pigaming_app.games.arenas import arenas
+from pigaming_app.games.arenas import arenas, default_goal
 from pigaming_app.games.game import FREE, Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.attract.clip import Clip
@@ -139,7 +139,9 @@ class DemoMatch:
             teams = (0, 1, 0, 1)
         one, two, three, four = (Seat(secrets.choice(LEVELS), team) for team in teams)
         arena, seats = secrets.choice(arenas(game)), (one, two, three, four)
-        setup = Setup(game, arena, seats, MINUTES, new_seed(), rules.default.name, rules.default.default_goal)
+        setup = Setup(
+            game, arena, seats, MINUTES, new_seed(), rules.default.name, default_goal(game, rules.default.name, arena)
+        )
         self.runner = MatchRunner(context, new_match(setup), loud=False)
         self.prewarmed = False
         self.over = 0.0

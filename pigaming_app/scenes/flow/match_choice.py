@@ -4,8 +4,8 @@ import logging
 from collections.abc import Iterator
 from functools import lru_cache
 
-from pigaming_app.games.arenas import arenas, own_arenas, score_name, shipped_arenas
-from pigaming_app.games.game import Game, Variant
+from pigaming_app.games.arenas import arenas, default_goal, own_arenas, score_name, shipped_arenas
+from pigaming_app.games.game import Game
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.arena_cache import load_cached
 from pigaming_app.scenes.flow.context import Context
@@ -66,16 +66,25 @@ def last_choice(context: Context, game: str) -> Choice:
     arena = last.arena if there else first_arena(game)
     rounds = last.rounds if last.rounds in rules.rounds else rules.rounds[0]
     choice = Choice(arena=arena, minutes=last.minutes, variant=variant.name, goal=last.goal, rounds=rounds)
-    fit_choice(variant, choice)
+    fit_choice(rules, choice)
     return choice
 
 
-def fit_choice(variant: Variant, choice: Choice) -> None:
-    """Set the minutes and the goal to the variant's defaults where it does not offer the chosen ones."""
+def change_arena(game: Game, choice: Choice, name: str) -> None:
+    """Choose an arena; the goal changes to its default where that differs from that of the one before."""
+    before, after = (default_goal(game.name, choice.variant, arena) for arena in (choice.arena, name))
+    choice.arena = name
+    if after != before:
+        choice.goal = after
+
+
+def fit_choice(game: Game, choice: Choice) -> None:
+    """Set the minutes and the goal to the defaults of rules and arena where these do not offer the chosen ones."""
+    variant = game.variants[choice.variant]
     if choice.minutes not in variant.minutes:
         choice.minutes = variant.default_minutes
     if choice.goal not in variant.goals:
-        choice.goal = variant.default_goal
+        choice.goal = default_goal(game.name, variant.name, choice.arena)
 
 
 def change_rules(game: Game, choice: Choice, name: str) -> None:
@@ -84,9 +93,10 @@ def change_rules(game: Game, choice: Choice, name: str) -> None:
     choice.variant = name
     if after.default_minutes != before.default_minutes:
         choice.minutes = after.default_minutes
-    if after.default_goal != before.default_goal:
-        choice.goal = after.default_goal
-    fit_choice(after, choice)
+    goals = [default_goal(game.name, rules.name, choice.arena) for rules in (before, after)]
+    if goals[1] != goals[0]:
+        choice.goal = goals[1]
+    fit_choice(game, choice)
 
 
 def choose_kiosk_rules(settings: Settings) -> None:

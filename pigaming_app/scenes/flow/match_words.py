@@ -1,5 +1,6 @@
 """Rule numbers that a player should know, as texts: match length, protection, turbo."""
 
+from pigaming_app.games.arenas import default_goal
 from pigaming_app.games.game import Game, Seat, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.sim.world import DT, HZ
@@ -26,7 +27,9 @@ def tagline(words: Words, game: str, goal: int) -> str:
 def last_goal(settings: Settings, game: str) -> int:
     """The laps or pallets of the last match."""
     choice, variant = settings.choice(game), last_variant(settings, game)
-    return choice.goal if choice.goal in variant.goals else variant.default_goal
+    if choice.goal in variant.goals:
+        return choice.goal
+    return default_goal(game, variant.name, choice.arena or games()[game].arena)
 
 
 def last_minutes(settings: Settings, game: str) -> int:

@@ -1,16 +1,24 @@
 """Courses: location along them, and invalid files, which are refused with key and reason."""
 
+import re
 from math import cos, hypot, pi, sin
 from random import Random
+from statistics import median
 
 import pytest
 
 from pigaming_app import ASSETS
-from pigaming_app.games.arenas import arenas, load, parse
+from pigaming_app.ai.learning.line_ups import LineUps
+from pigaming_app.games.arenas import arenas, default_goal, load, parse, shipped_arenas
 from pigaming_app.games.race.circuit import Corner, course_of
 from pigaming_app.games.race.course import POINTS, CoursePosition, distance_ahead, locate, point_at
+from pigaming_app.games.race.start import VARIANTS
+from pigaming_app.games.setup import make_setup
 from pigaming_app.sim.arena import ArenaError
+from pigaming_app.sim.kernel import can_compile
+from pigaming_app.sim.world import DT
 from tests.games.rails import place_on
+from tests.matches import setup_of
 
 TRACKS = arenas("race")
 RING = (  # a ring of straights of 400 and 200 px, and quarter circles of 150 px
@@ -135,7 +143,7 @@ HEAD = '[title]\nen = "A"\npt = "A"\n[track]\nlines = [0.1, 0.3, 0.5, 0.7]\n'
 @pytest.mark.parametrize(
     ("change", "key", "reason"),
     [
-        (("[track]\nlines", "[track]\nlane = 1\nlines"), "track.lane", "unknown key; possible are lines"),
+        (("[track]\nlines", "[track]\nlane = 1\nlines"), "track.lane", "unknown key; possible are lines, laps"),
         (("lines = [", "lines = [0.1, "), "track.lines", "a list of 4 numbers is needed"),
         (("lines = [0.", "lines = [1."), "track.lines[1]", "but 0 to 1 are possible"),
         (("lines = [", "lines = [1, 0.2, 0.4, 0.6] # "), "track.lines", "write 0"),
@@ -217,3 +225,28 @@ def test_lines_go_from_edge_to_edge_and_robots_wait_55_px_behind_them(track):
         assert distance_ahead(course, place.along, line) == pytest.approx(55, abs=0.1)
         assert place.aside == pytest.approx(0, abs=0.1)
         assert (cos(start.heading), sin(start.heading)) == pytest.approx((place.tangent_x, place.tangent_y), abs=1e-6)
+
+
+@pytest.mark.parametrize("track", shipped_arenas("race"))
+def test_the_laps_of_a_match_follow_its_track(track):
+    (laps,) = re.findall(r"^laps = (\d)$", load("race", track).source, re.MULTILINE)
+    for variant in ("standard", "party"):
+        assert make_setup("race", ["idle"] * 2, track, None, 1, variant, None, ["idle"]).goal == int(laps)
+    assert make_setup("race", ["idle"] * 2, track, None, 1, None, None, ["idle"], 7).goal == 7
+
+
+def test_other_tracks_have_the_laps_of_the_rules():
+    goals = [make_setup("race", ["idle"] * 2, "surprise-5", None, 1, one, None, ["idle"]).goal for one in VARIANTS]
+    assert goals == [3, 5]
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not can_compile(), reason="needs numba")
+@pytest.mark.parametrize("track", shipped_arenas("race"))
+@pytest.mark.parametrize("variant", list(VARIANTS))
+def test_a_child_alone_drives_a_default_race_in_60_to_90_s(track, variant):
+    """Medians of its models, so that one in mud for a minute does not count."""
+    goal = default_goal("race", variant, track)
+    setups = [setup_of("race", "beginner", track, 10.0, seed, variant, goal) for seed in range(60)]
+    ends = LineUps("race", ["beginner"], True).played(setups)
+    assert 60.0 <= median(end.racers[0].finish * DT for end in ends) <= 90.0
