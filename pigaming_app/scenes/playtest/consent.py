@@ -26,13 +26,13 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.labels import black_out, blit_sprite, call_to_action, pulse
 from pigaming_app.ui.widgets.player_card import MIDDLE, H, W, ask_bar, ready_bar
 
-TEXT_Y, TEXT_PITCH, TOP, CALL_Y = 212, 46, 286, 922  # px
+TEXT_Y, TEXT_PITCH, TOP, CALL_Y = 206, 44, 288, 925  # px
 
 
 class ConsentPage(Page):
     """`agreed`: the age band of each device, once all have agreed; `ages`: those chosen so far."""
 
-    title, idle, prompts_y = "playtest.title", 120.0, 992
+    title, idle, prompts_y = "playtest.title", 120.0, 995
 
     def __init__(self, context: Context, game: str) -> None:
         mode = games()[game].variants[last_choice(context, game).variant].team_mode

@@ -5,14 +5,14 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from pigaming_app.ai.people.fit.calibration import SHARES, calibration, plain, raw_of
+from pigaming_app.ai.people.fit.calibration import FITTED, SHARES, calibration, plain, raw_of
 from pigaming_app.ai.people.fit.known import samples_of
 
 PEOPLE, MATCHES, SEED = 24, 16, 2026
 WITHIN = 0.15  # of a trait, or of its whole range where it is a share
 FOUND = {  # traits that half an hour of play tells so well
-    ("pitanks", "turn"): ("decisions", "timing", "tactics"),
-    ("pitanks", "point"): ("decisions", "timing", "stick", "tactics"),
+    ("pitanks", "turn"): ("reaction", "decisions", "timing", "aim", "prediction", "tactics"),
+    ("pitanks", "point"): FITTED,
 }
 
 
