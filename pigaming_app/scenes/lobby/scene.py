@@ -45,15 +45,19 @@ CODE_SECONDS = 12.0  # s without input until the large QR code is shown
 POINTER_SECONDS = 4.0  # s for which the mouse focus stays visible after a movement
 
 
+def empty_seats(context: Context, game: str, mat: bool = False) -> LobbySeats:
+    """The seats of a match by the rules chosen last, with the AIs chosen last where the game offers them."""
+    team_mode = games()[game].variants[last_choice(context, game).variant].team_mode
+    offered, last = rivals(game), context.settings.strength
+    return LobbySeats(last if last in offered else STAND_IN, team_mode=team_mode, rivals=offered, mat=mat)
+
+
 class Lobby:
     """The lobby of a game. `drivers`: initial driver of each seat, a device, an AI strength or None."""
 
     def __init__(self, context: Context, game: str, drivers: Sequence[Device | str | None] = ()) -> None:
         self.context, self.game = context, game
-        team_mode = games()[game].variants[last_choice(context, game).variant].team_mode
-        offered, last = rivals(game), context.settings.strength
-        strength = last if last in offered else STAND_IN
-        self.seats = LobbySeats(strength, team_mode=team_mode, rivals=offered, mat=context.robots)
+        self.seats = empty_seats(context, game, context.robots)
         for seat, place in enumerate(self.seats.places):
             place.real = seat + 1 in context.settings.real and not context.robots_problem
         for seat, driver in enumerate(drivers):

@@ -6,16 +6,14 @@ of all of them there is no play test.
 
 import pygame
 
-from pigaming_app.ai.registry import AIS
-from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.device_words import steering
-from pigaming_app.scenes.flow.match_choice import last_choice
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
-from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, PLACES, LobbySeats
+from pigaming_app.scenes.lobby.scene import empty_seats
+from pigaming_app.scenes.lobby.seats import AI, EMPTY, HUMAN, PLACES
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.playtest import pictures
 from pigaming_app.scenes.playtest.replays import AGES
@@ -35,9 +33,7 @@ class ConsentPage(Page):
     title, idle, prompts_y = "playtest.title", 120.0, 995
 
     def __init__(self, context: Context, game: str) -> None:
-        mode = games()[game].variants[last_choice(context, game).variant].team_mode
-        self.game = game
-        self.seats = LobbySeats(context.settings.strength, team_mode=mode, rivals=AIS[game].rivals)
+        self.game, self.seats = game, empty_seats(context, game)
         self.ages: dict[Device, int] = {}
         self.agreed: dict[Device, str] = {}
         super().__init__(context, gate=Access(context, self.seats.devices))
