@@ -13,6 +13,7 @@ WITHIN = 0.15  # of a trait, or of its whole range where it is a share
 FOUND = {  # traits that half an hour of play tells so well
     ("pitanks", "turn"): ("reaction", "decisions", "timing", "aim", "prediction", "tactics"),
     ("pitanks", "point"): FITTED,
+    ("race", "turn"): ("decisions", "timing", "tactics"),
 }
 
 
