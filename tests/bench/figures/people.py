@@ -1,5 +1,6 @@
 """Tables of people as models: their traits, their wins against the levels, and what these hang on."""
 
+from collections.abc import Sequence
 from dataclasses import fields
 
 from pigaming_app.ai.brain.effort import AUTO
@@ -8,6 +9,8 @@ from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.people.matches import Place, Trial, places
 from pigaming_app.ai.people.models import PEOPLE
 from pigaming_app.ai.people.series import FIRSTS, Series, series
+from pigaming_app.games.registry import games
+from pigaming_app.jobs.balance.fairness import Fairness, FairnessOptions, measured
 from tests.bench.figures import as_markdown
 from tests.bench.figures.duels import some
 
@@ -25,6 +28,7 @@ UNITS = {
     "tactics": "knowledge of the game",
     "turbo": "turbo and mines",
 }
+EQUAL = ("level3", "level5")  # of all four seats
 LEANT = (("beginner", "level1"), ("player", "level3"))  # whose wins are measured with other traits
 
 
@@ -67,6 +71,27 @@ def auto(share: float) -> list[list[str]]:
 def people_of(game: str) -> tuple[str, ...]:
     """The people whose wins in a game count: masher where wins decide between people and AIs."""
     return ("masher", *PEOPLE) if game in ("pitanks", "football") else tuple(PEOPLE)
+
+
+def seats(share: float) -> list[list[str]]:
+    """Of four equal AIs: least and most wins of a seat or team in an arena, ties, and what a lead is worth."""
+    count, minutes = some(800, share)
+    rows = [["", "", "wins, least and most", "ties", "behind at half time wins", "first to lead wins", "changes"]]
+    for game, title in GAMES.items():
+        teams = games()[game].default.teams
+        for level in EQUAL:
+            options = FairnessOptions(game=game, seats=level, matches=count, minutes=minutes)
+            rows.append([title, f"`{level}`", *lead_figures(measured(options, teams))])
+    return rows
+
+
+def lead_figures(found: Sequence[Fairness]) -> list[str]:
+    """The cells of a game: of its arenas, and of all matches, which come last."""
+    *each, total = found
+    shares = [100 * share for one in each for share in one.shares]
+    ties = 100 * total.ties / total.matches
+    course = f"{ties:.1f} %", f"{100 * total.turned:.0f} %", f"{100 * total.first:.0f} %", f"{total.changes:g}"
+    return [f"{min(shares):.0f}–{max(shares):.0f} %", *course]
 
 
 def percent(place: Place | Series) -> str:

@@ -53,6 +53,7 @@ MEASURED = {
     ),
     "people": Measured(PEOPLE, f"{MAIN} people GAME --seed 0", people.wins, 20),
     "auto": Measured(PEOPLE, f"{MAIN} people GAME --auto --matches 800", people.auto, 20),
+    "seats": Measured(PEOPLE, f"{MAIN} fairness GAME --seats LEVEL --matches 800", people.seats, 25),
     "sensitivity": Measured(
         PEOPLE, f"{MAIN} people pitanks level1 --people beginner --scale reaction=0.7 --seed 0", people.sensitivity, 10
     ),
