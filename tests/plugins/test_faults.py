@@ -22,7 +22,7 @@ from pigaming_app.jobs.cli import main
 sys.exit(main(sys.argv[1:]))
 """
 PLAY = "play tag --headless --speed max --minutes 0.1 --seats level5,level1"
-DUEL = "duel tag level5 idle --matches 2 --minutes 0.1"
+DUEL = "duel tag level5 idle --matches 2 --minutes 0.3"
 LEAGUE = "league tag level5 idle --matches 2 --minutes 0.1"
 BENCH = "bench tag"
 TRAIN = "train ppo tag --updates 1 --set matches=16 --out tag.npz"

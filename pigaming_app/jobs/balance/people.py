@@ -15,7 +15,6 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import ALLIES
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
-from pigaming_app.jobs.balance import fit
 from pigaming_app.jobs.terminal.options import AIS, JsonOption, SeedOption, argument, flag, games_and, integer, option
 from pigaming_app.jobs.terminal.refusal import refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
@@ -46,6 +45,8 @@ class PeopleOptions(JsonOption, SeedOption):
 def run(options: PeopleOptions) -> int:
     """Play and print the table, or fit. Raises Refusal."""
     if options.game == FIT:
+        from pigaming_app.jobs.balance import fit  # needs NumPy
+
         return fit.run(options.levels, options.together, options.json)
     require_for_brains(options.levels)
     people, levels = options.people or ("masher", *PEOPLE), options.levels or LEVELS

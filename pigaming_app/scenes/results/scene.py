@@ -45,8 +45,8 @@ SceneFactory = Callable[
 ]  # scene that follows a match, for these devices
 
 
-class RevealedPage(Protocol):
-    """The page without the votes."""
+class ResultsView(Protocol):
+    """A view of the results, without the votes."""
 
     ready_at: float  # s, when it is complete
 
@@ -89,10 +89,10 @@ class Results:
         self.ended = EndedMatch(setup, outcome, tuple(devices))
         self.ballot = RematchVote(context, seats, self.ended.humans, devices)
         self.ceremony = Ceremony(context, self.ended, finished, feats or {}, rounds)
-        self.numbers: RevealedPage = (
+        self.numbers: ResultsView = (
             PodiumPage(context, self.ended, finished, rounds) if rounds else ResultsPage(context, self.ended, finished)
         )
-        self.page: RevealedPage = self.ceremony
+        self.page: ResultsView = self.ceremony
         own = [None if seat in ai_assisted else device for seat, device in enumerate(devices)]
         self.claims = qualifying(context, outcome, setup, own) if finished or rounds else []
         self.initials = Initials(context, self.claims, self._tables)

@@ -27,7 +27,7 @@ def ground():
 def test_a_match_of_networks_on_the_mat_plays_to_its_end(game, ground, tmp_path):
     arena, path = jobs()[list(games()).index(game)].arena, tmp_path / "mine.npz"
     path.write_bytes(encode(random_network(1, game)))
-    run = on_mat(MatMatch(game, arena, 30.0, 7, 0.05, brain=str(path), carried=True), ground)
+    run = on_mat(MatMatch(game, arena, 30.0, 8, 0.05, brain=str(path), carried=True), ground)
     assert run.deepest_mm < TARGETS["wall_entry_mm"]
     assert 3.0 <= run.seconds - run.paused < 4.0
 
