@@ -39,8 +39,8 @@ STRENGTHS = (
 )
 
 
-EASIEST = Strength(0.09, 90, 1.3, turbo=False, passes=True, form=0.4)
-HARDEST = Strength(0.85, 14, 0.12, turbo=False, passes=True, form=0.4)
+EASIEST = Strength(0.08, 90, 1.3, turbo=True, passes=True, form=0.4)
+HARDEST = Strength(1.0, 5, 0.04, turbo=True, passes=True, form=0.01)
 
 
 def _footballer(name: str, strength: Strength) -> BrainKind:

@@ -21,7 +21,7 @@ MOST = 6.0  # points of a lead that count
 CHANGE = 0.003  # of effort, per second and point
 PERIOD = 10  # ticks between changes
 AUTO = tuple(f"auto{number}" for number in range(1, 10))  # brains that follow people, the weakest start first
-REACH = 0.3  # of their effort, up and down from the start
+REACH = 0.3  # of their effort, up and down from the start; the strongest start does not ease
 
 
 @record
@@ -55,7 +55,8 @@ def _make_reset(easy: BrainKind, hard: BrainKind, knobs: tuple[Path, ...], start
     def reset(mind: Any, seed: int) -> None:
         easy.begin(mind.inner, seed)
         other, effort = _fresh(hard, seed), mind.effort
-        effort.now, effort.least, effort.most = start, max(0.0, start - REACH), min(1.0, start + REACH)
+        effort.now, effort.most = start, min(1.0, start + REACH)
+        effort.least = max(0.0, start - min(REACH, 1.0 - start))
         for i, path in enumerate(knobs):
             effort.easy[i], effort.hard[i] = _value(mind.inner, path), _value(other, path)
 

@@ -22,7 +22,7 @@ STRENGTHS = (
     weaker(speed=0.62, hesitation=0.9, noise=0.06, delay=0.2, rules=2),
 )
 EASIEST = weaker(speed=0.26, hesitation=5.0, noise=0.35, delay=0.45, slip=0.03, rules=2)
-HARDEST = weaker(speed=0.8, hesitation=0.4, noise=0.04, delay=0.15, slip=0.0, rules=2)
+HARDEST = weaker(speed=1.0, hesitation=0.0, noise=0.0, delay=0.1, slip=0.0, rules=2)
 LEVELS = tuple(BrainKind(f"level{n}", PlannerMind, think, reset) for n, reset in enumerate(STRENGTHS, start=1))
 PLANNER = BrainKind("planner", PlannerMind, think, make_reset())
 

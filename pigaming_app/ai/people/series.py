@@ -53,10 +53,11 @@ def series(trial: Trial, persons: Sequence[str], firsts: Sequence[int] = FIRSTS)
     line_ups = LineUps(trial.game, [*persons, *AUTO], can_compile())
     for person in persons:
         for first in firsts:
-            yield _played(trial, person, first, line_ups)
+            yield played(trial, person, first, line_ups)
 
 
-def _played(trial: Trial, person: str, first: int, line_ups: LineUps) -> Series:
+def played(trial: Trial, person: str, first: int, line_ups: LineUps) -> Series:
+    """The series of one person from a first strength; the line-ups have it and AUTO."""
     runs = max(1, trial.matches // LENGTH)
     estimates, wins, strengths = [Estimate(first) for _ in range(runs)], [], []
     for number in range(LENGTH):

@@ -21,7 +21,7 @@ EASIEST, HARDEST = (
     shipped_brain(name, "pitanks", NETWORK, handicap={**handicap, "turns": TURNS})
     for name, handicap in {
         "easiest": {"delay": 0.4, "error": 0.25, "thrift": 1.0, "speed": 0.4, "reluctance": 9.5},
-        "hardest": {"delay": 0.2, "error": 0.2, "thrift": 0.5, "speed": 0.85, "reluctance": -8.0},
+        "hardest": {"delay": 0.0, "error": 0.0, "thrift": 0.1, "speed": 1.0, "reluctance": -9.5},
     }.items()
 )
 LEVELS = tuple(

@@ -25,7 +25,7 @@ DRIVERS = (
     driver(speed=0.87, line=1.0, spread=4.0, delay=0.05, mistakes=0.0, foresight=380.0, alert=1.0),
 )
 EASIEST = driver(speed=0.4, line=0.85, spread=14.0, delay=0.3, mistakes=0.01, foresight=180.0, alert=0.05)
-HARDEST = driver(speed=0.98, line=1.0, spread=3.0, delay=0.05, mistakes=0.0, foresight=400.0, alert=1.0)
+HARDEST = driver(form=0.01, care=0.02, line=1.0, spread=2.0, delay=0.05, mistakes=0.0, foresight=400.0, alert=1.0)
 LEVELS = tuple(racer(f"level{number}", driver) for number, driver in enumerate(DRIVERS, start=1))
 NET = shipped_brain("net", "race", NETWORK)
 
