@@ -35,6 +35,8 @@ PLACEHOLDERS = (
     Placeholder(r"\bJOB\b", "duel", NAME),
     Placeholder(r"\bBRAIN\b", "net", NAME),
     Placeholder(r"path/to/file\.toml", "mine.toml", NAME),
+    Placeholder(r"--hands HANDS\b", "--hands player", NAME),
+    Placeholder(r"--seats LEVEL\b", "--seats level3", NAME),
     Placeholder(r"--variant V\b", "--variant party", NAME),
     Placeholder(r"--arena A\b", "--arena islands", NAME),
     Placeholder(r"\bB,B,B,B\b", "level3,level3,level3,level3", NAME),
