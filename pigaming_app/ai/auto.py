@@ -9,7 +9,7 @@ from pigaming_app.ai.brain.effort import AUTO
 
 NAME = "auto"  # in the lobby and in the settings
 FIRST = 3  # strength of somebody unknown, 0..8
-TOO_EASY, TOO_HARD = 0.11, 0.2  # factors of belief after a victory and after a defeat: even at 42 wins of 100
+TOO_EASY, TOO_HARD = 0.14, 0.2  # factors of belief after a victory and after a defeat: even at 45 wins of 100
 FORGETTING = 0.03  # share of belief that is spread evenly after each match, since people learn and change places
 
 

@@ -29,6 +29,7 @@ class Effort:
     """Present effort with its bounds, and the numbers of the brain at both ends."""
 
     now: float  # 0: as the easy brain .. 1: as the hard one
+    floor: float  # as hard as this it plays at least, if its effort is less
     least: float
     most: float
     easy: Annotated[list[float], KNOBS]
@@ -55,8 +56,8 @@ def _make_reset(easy: BrainKind, hard: BrainKind, knobs: tuple[Path, ...], start
     def reset(mind: Any, seed: int) -> None:
         easy.begin(mind.inner, seed)
         other, effort = _fresh(hard, seed), mind.effort
-        effort.now, effort.most = start, min(1.0, start + REACH)
-        effort.least = max(0.0, start - min(REACH, 1.0 - start))
+        effort.now, effort.least, effort.most = start, max(0.0, start - REACH), min(1.0, start + REACH)
+        effort.floor = max(0.0, start - min(REACH, 1.0 - start))
         for i, path in enumerate(knobs):
             effort.easy[i], effort.hard[i] = _value(mind.inner, path), _value(other, path)
 
@@ -89,6 +90,14 @@ def follow(effort: Effort, lead: float, seconds: float) -> None:
     now = effort.now - CHANGE * points * seconds
     now = now if now > effort.least else effort.least
     effort.now = now if now < effort.most else effort.most
+
+
+@kernel
+def knob(effort: Effort, i: int) -> float:
+    """Number i at the present effort."""
+    now: float = effort.now if effort.now > effort.floor else effort.floor
+    value: float = effort.easy[i] + now * (effort.hard[i] - effort.easy[i])
+    return value
 
 
 @cache
@@ -124,11 +133,11 @@ def _turn(path: Path, i: int, others: Callable[[Any, Effort], None]) -> Callable
     first, last = path[0], path[-1]
 
     def own(mind: Any, effort: Effort) -> None:
-        mind[last] = effort.easy[i] + effort.now * (effort.hard[i] - effort.easy[i])
+        mind[last] = knob(effort, i)
         others(mind, effort)
 
     def inner(mind: Any, effort: Effort) -> None:
-        getattr(mind, first)[last] = effort.easy[i] + effort.now * (effort.hard[i] - effort.easy[i])
+        getattr(mind, first)[last] = knob(effort, i)
         others(mind, effort)
 
     return kernel(own if len(path) == 1 else inner)

@@ -40,7 +40,7 @@ class Handicap:
     thrift: Share = 0.0  # cost of a shot that it has in mind, in points
     speed: Annotated[float, between(0.1, 1.0)] = 1.0  # share of full speed that it drives at most
     form: Annotated[float, between(0.0, 0.9)] = 0.0  # share of that which it may lack on a bad day, drawn by match
-    reluctance: Annotated[float, between(-10.0, 10.0)] = 0.0  # logits by which it prefers not to shoot, if above 0
+    reluctance: Annotated[float, between(-20.0, 20.0)] = 0.0  # logits by which it prefers not to shoot, if above 0
     turns: float = 0.0  # s, at most, for which it goes for one opponent before the next has its turn; 0: no turns
 
 

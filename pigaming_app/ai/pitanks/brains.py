@@ -20,8 +20,8 @@ HANDICAPS = tuple(
 EASIEST, HARDEST = (
     shipped_brain(name, "pitanks", NETWORK, handicap={**handicap, "turns": TURNS})
     for name, handicap in {
-        "easiest": {"delay": 0.4, "error": 0.25, "thrift": 1.0, "speed": 0.4, "reluctance": 9.5},
-        "hardest": {"delay": 0.0, "error": 0.0, "thrift": 0.1, "speed": 1.0, "reluctance": -9.5},
+        "easiest": {"delay": 0.4, "error": 0.25, "thrift": 1.0, "speed": 0.4, "reluctance": 11.0},
+        "hardest": {"delay": 0.0, "error": 0.0, "thrift": 0.1, "speed": 1.0, "reluctance": -11.0},
     }.items()
 )
 LEVELS = tuple(
