@@ -52,7 +52,7 @@ def main(words: Sequence[str] | None = None) -> None:
     if chosen.write:
         file = file_of(chosen.game, chosen.driving)
         file.parent.mkdir(exist_ok=True)
-        file.write_text(json.dumps(to_plain(found), indent=0) + "\n", encoding="utf-8")
+        file.write_text(json.dumps(to_plain(found), separators=(",", ":")) + "\n", encoding="utf-8")
     print("\n".join(table(found)))
 
 
