@@ -7,5 +7,5 @@
 from pigaming_app.games.game import Game, LadderMatches, Variant
 from pigaming_app.storage.plugins.found import API
 
-MODULES = ("rules", "arenas", "brains", "networks", "learning", "look", "editor", "environments", "balance")
+MODULES = ("rules", "arenas", "brains", "networks", "learning", "look", "editor", "environments")
 __all__ = ["API", "Game", "LadderMatches", "Variant"]

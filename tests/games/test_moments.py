@@ -59,7 +59,7 @@ def test_three_points_within_six_seconds_are_a_streak(times: list[float], streak
 
 @pytest.mark.parametrize(("gap", "close"), [(0.9, True), (1.1, False)])
 def test_a_race_is_close_by_time(gap: float, close: bool) -> None:
-    laps = [20.0, 40.0, 60.0]
-    found = moments(finished("race", {0: laps, 3: [20.0, 40.0, 60.0 + gap], 1: [30.0]}))
+    laps = [20.0, 40.0, 60.0, 80.0, 100.0]
+    found = moments(finished("race", {0: laps, 3: [*laps[:-1], 100.0 + gap], 1: [30.0]}))
     assert [moment.seat for moment in found if moment.kind == CLOSE] == ([0] if close else [])
     assert all(moment.lead == pytest.approx(gap) for moment in found if moment.kind == CLOSE)
