@@ -39,11 +39,13 @@ class Effort:
 def between(easy: BrainKind, hard: BrainKind, lead: Lead | None = None) -> tuple[BrainKind, ...]:
     """The brains AUTO between two that differ in numbers only. `lead`: by which points; default: `margin`.
 
-    Raises ValueError for brains that differ in more.
+    Raises ValueError for brains that differ in more, or in more than KNOBS numbers.
     """
     if (easy.think, easy.mind) != (hard.think, hard.mind):
         raise ValueError(f"{easy.name} and {hard.name} are not of one kind")
     knobs = tuple(_differences(_fresh(easy, 1), _fresh(hard, 1)))
+    if len(knobs) > KNOBS:
+        raise ValueError(f"{easy.name} and {hard.name} differ in more than {KNOBS} numbers")
     think, mind = _make_think(easy.think, knobs, lead or margin), _mind_record(easy.mind)
 
     def kind(name: str, start: float) -> BrainKind:
