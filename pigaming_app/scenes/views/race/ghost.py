@@ -11,6 +11,7 @@ against the rules, and dropped if it violates them. One file per track, named af
 import hashlib
 import logging
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -98,8 +99,9 @@ def ghost_of(line: int, seconds: float, crossed: Sequence[float], track: Sequenc
 
 
 def file_of(folder: Path, arena: Arena) -> Path:
-    """File of a track's ghost; a different track of the same name has a different file."""
-    digest = hashlib.sha256(arena.source.encode()).hexdigest()[:8]
+    """File of a track's ghost; a different track of the same name has a different file, however many its laps."""
+    track = re.sub(r"(?m)^laps = .*\n", "", arena.source)
+    digest = hashlib.sha256(track.encode()).hexdigest()[:8]
     return folder / FOLDER / f"{arena.name}-{digest}.json"
 
 
