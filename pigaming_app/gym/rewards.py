@@ -13,8 +13,6 @@ from pigaming_app.sim.kernel import kernel
 from pigaming_app.storage.optional import optional
 from pigaming_app.storage.plugins.parts import parts
 
-# ------------------------------------------------------------------------------------------------------------- PiTanks
-
 
 @kernel
 def tally_pitanks(match: Any, seat: int, senses: Any, totals: Any) -> None:
@@ -25,36 +23,12 @@ def tally_pitanks(match: Any, seat: int, senses: Any, totals: Any) -> None:
     totals[5] = sign(ahead) if match.over else 0.0
 
 
-# ---------------------------------------------------------------------------------------------------------- Robot Race
-
-
-@kernel
-def tally_race(match: Any, seat: int, senses: Any, totals: Any) -> None:
-    """Laps covered, with fractions; complete laps, the rank (fewer is better), the finish, and the win."""
-    racer = match.racers[seat]
-    totals[0], totals[1] = racer.progress / match.course.length, match.robots[seat].score
-    totals[2], totals[3] = -racer.rank, racer.finished
-    totals[4] = (1.0 if racer.rank == 1 else -1.0) if match.over or racer.finished else 0.0
-
-
-@kernel
-def has_finished(match: Any, seat: int) -> int:
-    """1 if the match is over, or over for this seat."""
-    return 1 if match.over or match.racers[seat].finished else 0
-
-
 TALLIES: Mapping[str, Tallies] = {
     "pitanks": Tallies(
         ("hits", "taken", "shots", "points", "lead", "win"),
         {"hits": 1.0, "taken": -1.0, "win": 5.0},
         tally_pitanks,
     ),
-    "race": Tallies(
-        ("progress", "laps", "places", "finish", "win"),
-        {"progress": 10.0, "win": 5.0},
-        tally_race,
-        has_finished,
-    ),
-    **({"factory": optional("gym.factory").TALLIES} if "factory" in OURS else {}),
+    **{game: room.TALLIES for game in OURS if (room := optional(f"gym.{game}"))},
     **parts("training", "TALLIES", Tallies),
 }  # by game

@@ -6,7 +6,6 @@ CORE = (
     "numpy",
     "pigaming_app.scenes.lobby.scene",
     "pigaming_app.scenes.play.scene",
-    "pigaming_app.scenes.views.race.mud",
     "pigaming_app.scenes.options.page",
 )
 

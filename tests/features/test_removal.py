@@ -19,6 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {feature.name: feature.rooms for feature in every_feature()}
 TILES = [*games(), "howto", "ladder", "events", "lab", "editor", "replays", "options"]
 CORE_GAMES = [game for game in games() if game not in ROOMS]
+CORE_JOBS = ("play pitanks --headless --minutes 0.05 --seats level3,level2,off,off", "doctor")
 WOVEN = {"events", "mat"}  # offer more than a tile
 NEEDED_BY = {"events": {"events", "ladder"}, "learning": {"lab"}, "brain": {"lab"}}
 
@@ -38,7 +39,7 @@ def without(rooms: Sequence[str], home: Path, *words: str) -> "subprocess.Comple
 
 def test_every_feature_is_there() -> None:
     assert tuple(feature.name for feature in features()) == NAMES
-    assert {*ROOMS} - {*NAMES} == {"learning", "gym", "bench", "bundle", "onnx", "factory", "balance"}
+    assert {*ROOMS} - {*NAMES} == {"learning", "gym", "bench", "bundle", "onnx", "factory", "race", "balance"}
     for feature in every_feature():
         places = [ROOT / "pigaming_app" / room.replace(".", "/") for room in feature.rooms]
         assert all(place.is_dir() or place.with_suffix(".py").is_file() for place in places), feature.name
@@ -68,7 +69,7 @@ def test_the_arcade_runs_without_all_of_them(tmp_path: Path) -> None:
 
 def test_jobs_of_the_core_run_and_those_of_features_are_refused(tmp_path: Path) -> None:
     rooms = tuple(room for of_one in ROOMS.values() for room in of_one)
-    ran = without(rooms, tmp_path, "play pitanks --headless --minutes 0.05 --seats level3,level2,off,off", "doctor")
+    ran = without(rooms, tmp_path, *CORE_JOBS)
     assert (ran.returncode, ran.stderr) == (0, "")
     assert ran.stdout.splitlines()[-1] == "All is well."
     event, onnx = "event new cup.json", "play --seats a.onnx"
@@ -77,6 +78,22 @@ def test_jobs_of_the_core_run_and_those_of_features_are_refused(tmp_path: Path) 
     assert (refused.returncode, refused.stdout) == (2, "")
     told = re.findall(r"^PiGaming: .* (?:in|of) this installation(?:; there are .*)?$", refused.stderr, re.M)
     assert len(told) == len(lines) == refused.stderr.count("\n")
+
+
+@pytest.mark.parametrize("game", [game for game in games() if game in ROOMS])
+def test_jobs_refuse_a_game_that_is_missing_and_play_another(game: str, tmp_path: Path) -> None:
+    ran = without(ROOMS[game], tmp_path, *CORE_JOBS)
+    assert (ran.returncode, ran.stderr) == (0, "")
+    assert ran.stdout.splitlines()[-1] == "All is well."
+    out = "train ppo --out a.npz", "train qlearning --out a.npz"
+    jobs = ["play", "people", "exploits", "fairness", "league", "bench", *out]
+    jobs = [f"{job} {game}" for job in jobs] + [f"duel {game} level1 level2"]
+    jobs += [f"event new cup.json --format grandprix --entrants ANA,BEA --game {game}"]
+    refused = without(ROOMS[game], tmp_path, *jobs)
+    assert (refused.returncode, refused.stdout) == (2, "")
+    there = ", ".join(other for other in games() if other != game)
+    told = [line.startswith(f"PiGaming: no game '{game}'; there are {there}") for line in refused.stderr.splitlines()]
+    assert told == [True] * len(jobs), refused.stderr
 
 
 @pytest.mark.parametrize("feature", every_feature(), ids=ROOMS)

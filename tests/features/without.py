@@ -110,6 +110,9 @@ def tour(played: Sequence[str]) -> None:
                     app.stack.top.on_enter()
                     frames(app, 3)
                     home(app)
+        cleared = OptionsPage(app.context, section="games")
+        cleared.held()
+        assert cleared.cleared
         attract: Any = idle_page(app.context)
         for make in [next(attract.shows) for _ in range(len(games()) * 3)] if attract else ():
             if show := make():

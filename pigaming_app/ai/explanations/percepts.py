@@ -2,13 +2,12 @@
 
 from collections.abc import Iterator, Sequence
 
-from pigaming_app.ai.brain.thoughts import BULLET, MATE, OPPONENT, PRIZE, WAY
-from pigaming_app.ai.networks import pitanks, race
+from pigaming_app.ai.brain.thoughts import BULLET, MATE, OPPONENT, PRIZE
+from pigaming_app.ai.networks import pitanks
 from pigaming_app.ai.networks.pitanks_things import MINE_NEAR
 from pigaming_app.ai.networks.subject import Sight, Subject, distance_of
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.games.registry import OURS as GAMES
-from pigaming_app.games.simple import MatchState
 from pigaming_app.storage.optional import optional
 from pigaming_app.storage.plugins.parts import Registry
 
@@ -33,19 +32,6 @@ def in_pitanks(match: PiTanks, inputs: Sequence[float]) -> Iterator[Sight]:
         yield Sight("mines", BULLET, MINE_NEAR * (1.0 - inputs[k + 2]), inputs[k], inputs[k + 1])
 
 
-def in_race(match: MatchState, inputs: Sequence[float]) -> Iterator[Sight]:
-    """Robots, and the point of the fastest line some way ahead."""
-    for k in range(race.OTHERS, race.OILS, race.OTHER):
-        if any(inputs[k : k + race.OTHER]) and abs(inputs[k + 2]) < 1.0:
-            place = (1.0, race.NEAR * inputs[k + 1], 200.0 * inputs[k + 2])
-            yield Sight("near" if k == race.OTHERS else "others", OPPONENT, *place)
-    for i in (3, 5):
-        k = race.COURSE + 6 * i
-        if abs(inputs[k]) < 1.0 and abs(inputs[k + 1]) < 1.0:
-            place = (1.0, 450.0 * inputs[k], (1.2 * race.AHEAD[i] + 40.0) * inputs[k + 1])
-            yield Sight("course", WAY, *place)
-
-
 OURS = {
     "pitanks": Subject(
         {
@@ -64,22 +50,6 @@ OURS = {
         in_pitanks,
         pitanks.PLACE,
     ),
-    "race": Subject(
-        {
-            "course": ("place", "way", "course"),
-            "near": ("first",),
-            "others": ("second", "third"),
-            "oil": ("oil",),
-            "pads": ("pad", "box"),
-            "self": ("motion", "powers"),
-            "score": ("race",),
-        },
-        race.DRIVES,
-        race.TURNS,
-        "item",
-        in_race,
-    ),
+    **{game: room.SUBJECT for game in GAMES if (room := optional(f"ai.explanations.{game}"))},
 }
-if "factory" in GAMES:
-    OURS["factory"] = optional("ai.explanations.factory").SUBJECT
 SUBJECTS = Registry(OURS, "network", "SUBJECT", Subject)  # by game

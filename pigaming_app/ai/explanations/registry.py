@@ -6,7 +6,7 @@ from typing import Any
 from pigaming_app.ai.brain.effort import AUTO
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer, NoWeights, SimpleMind, act_randomly, stand_still
 from pigaming_app.ai.brain.thoughts import Thoughts
-from pigaming_app.ai.explanations import classic, fsm, gunner, racer, tables
+from pigaming_app.ai.explanations import classic, fsm, gunner, tables
 from pigaming_app.ai.explanations.networks import make_explain
 from pigaming_app.ai.explanations.percepts import SUBJECTS
 from pigaming_app.ai.networks.policy import mind_record
@@ -15,7 +15,6 @@ from pigaming_app.ai.pitanks.classic import think as classic_think
 from pigaming_app.ai.pitanks.fsm import think as fsm_think
 from pigaming_app.ai.pitanks.gunner import think as gunner_think
 from pigaming_app.ai.qlearning.table import think as table_think
-from pigaming_app.ai.race.racer import think as racer_think
 from pigaming_app.ai.registry import AIS
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import OURS
@@ -43,11 +42,11 @@ BY_THINK: dict[Any, Explain] = {
     classic_think: classic.explain,
     fsm_think: fsm.explain,
     gunner_think: gunner.explain,
-    racer_think: racer.explain,
     table_think: tables.explain,
 }
-if "factory" in OURS:
-    BY_THINK |= optional("ai.explanations.factory").BY_THINK
+for game in OURS:
+    if room := optional(f"ai.explanations.{game}"):
+        BY_THINK |= room.BY_THINK
 
 
 def explain_of(kind: BrainKind, game: str) -> Explain | None:

@@ -1,10 +1,11 @@
 """Tasks by game: the games that PPO learns."""
 
-from pigaming_app.ai.ppo import pitanks, race
 from pigaming_app.ai.ppo.task import Task
+from pigaming_app.games.registry import OURS
+from pigaming_app.storage.optional import optional
 from pigaming_app.storage.plugins.parts import parts
 
 TASKS: dict[str, Task] = {
-    **{task.game: task for task in (pitanks.TASK, race.TASK)},
+    **{game: room.TASK for game in OURS if (room := optional(f"ai.ppo.{game}"))},
     **parts("training", "TASK", Task),
 }

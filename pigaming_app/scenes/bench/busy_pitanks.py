@@ -100,3 +100,6 @@ class BusyPiTanks:
             mine = state.mines[i]
             mine.alive, mine.age = 30 * HZ, state.tick
             mine.x, mine.y = 200.0 + 160 * i, 820.0 - 90 * i
+
+
+BUSY = BusyPiTanks

@@ -11,12 +11,12 @@ from typing import Any, Protocol
 
 import pygame
 
-from pigaming_app.scenes.bench.busy_drivers import BusyDrivers, BusyFactory
-from pigaming_app.scenes.bench.busy_pitanks import BusyPiTanks
-from pigaming_app.scenes.bench.busy_race import BusyRace
+from pigaming_app.games.registry import OURS
+from pigaming_app.scenes.bench.busy_drivers import BusyDrivers
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import DT
+from pigaming_app.storage.optional import optional
 from pigaming_app.ui.i18n import Words
 
 PARTICLES = 200
@@ -43,16 +43,14 @@ class AllEffects:
     calm: bool = False
 
 
-BUSY: dict[str, Callable[[str], BenchmarkMatch]] = {
-    "pitanks": lambda variant: BusyPiTanks(variant=variant),
-    "factory": BusyFactory,
-    "race": lambda variant: BusyRace(variant=variant),
-}  # by rule set
+BUSY: dict[str, Callable[..., BenchmarkMatch]] = {
+    game: room.BUSY for game in OURS if (room := optional(f"scenes.bench.busy_{game}"))
+}  # by game; each takes the `variant`
 
 
 def busy_match(game: str, variant: str) -> BenchmarkMatch:
     """The most laborious match of a game."""
-    return BUSY.get(game, partial(BusyDrivers, game))(variant)
+    return BUSY.get(game, partial(BusyDrivers, game))(variant=variant)
 
 
 def frame_times(game: str, variant: str, frames: int) -> list[float]:

@@ -17,7 +17,7 @@ from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
 from pigaming_app.scenes.options import pictures
 from pigaming_app.scenes.options.games_page import GamesPage
 from pigaming_app.scenes.pages.settings_page import SettingsPage
-from pigaming_app.scenes.views.race.ghost import delete_ghosts
+from pigaming_app.scenes.views.registry import SCREENS, shown_games
 from pigaming_app.scenes.views.rumble import TAKEN
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import read_large
@@ -66,15 +66,16 @@ class OptionsPage(SettingsPage):
             pictures.sketch(screen, name, chosen, self.age)
 
     def held(self) -> StackOperation:
-        """Clear the high scores and ghosts."""
+        """Clear the high scores, and what games keep besides."""
         self.context.scores.reset()
         self.cleared = True
         self.context.sounds.play("accept")
         self.save(lambda: self.context.scores.save(folders().data))
-        try:
-            delete_ghosts(folders().data)
-        except OSError as trouble:
-            log.warning("%s", trouble)
+        for game in shown_games():
+            try:
+                SCREENS[game].forget(folders().data)
+            except OSError as trouble:
+                log.warning("%s", trouble)
         return None
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import pygame
@@ -45,6 +46,7 @@ class GameScreens:
     - `lesson_pages`: rule set of each page, if there is more than one.
     - `awards`: icons (keys of ICONS) of the awards for the most of a statistic, by its name, after a minus sign for the
       least; else a medal. Their texts are `awards.NAME`, and for the last place `awards.NAME_praise`.
+    - `forget(folder)`: deletes what it keeps in the data folder besides scores, as they are cleared; may raise OSError.
     - `signs`: icons (keys of ICONS) that stand for wishes and topics of its AIs in F4, by name; else a circle.
     """
 
@@ -61,6 +63,7 @@ class GameScreens:
     plan: Callable[[GlowCanvas, Arena, float, float, float], object] | None = None
     deal: Callable[[GlowCanvas, Arena, Any], object] = robots
     first_keys: tuple[str, ...] = (STEER, FIRE, TURBO)
+    forget: Callable[[Path], object] = lambda folder: None
 
     @property
     def page_count(self) -> int:

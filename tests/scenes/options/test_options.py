@@ -104,6 +104,9 @@ def test_high_scores_go_only_when_a_button_is_held_for_two_seconds(arcade: Arcad
     arcade.context.kiosk = kiosk
     arcade.open(OptionsPage(arcade.context, operator=True))
     arcade.context.scores.add(TABLE, "ANA", 7, datetime(2026, 5, 1, 12))
+    ghost = home / "data" / "ghosts" / "classic-408db7c8.json"
+    ghost.parent.mkdir(parents=True)
+    ghost.write_text("{}")
     with VirtualPad() as pad:
         arcade.frame()
         go(arcade, "reset")
@@ -114,10 +117,19 @@ def test_high_scores_go_only_when_a_button_is_held_for_two_seconds(arcade: Arcad
         arcade.wait(CLEAR - 0.1, draw=True)
         pad.release("a")
         arcade.wait(1.0)
+        assert ghost.is_file()
         assert arcade.context.scores.best(TABLE), "taps, and a hold that is too short"
         pad.press("a")
         arcade.wait(CLEAR + 0.1)
     assert not arcade.context.scores.best(TABLE)
+    assert not Scores.load(home / "data")[0].tables()
+    assert not ghost.exists()
+
+
+def test_a_ghost_that_cannot_be_deleted_leaves_the_scores_cleared(arcade: Arcade, home: Path) -> None:
+    arcade.context.scores.add(TABLE, "ANA", 7, datetime(2026, 5, 1, 12))
+    (home / "data" / "ghosts" / "a folder.json").mkdir(parents=True)
+    OptionsPage(arcade.context, section="games").held()
     assert not Scores.load(home / "data")[0].tables()
 
 

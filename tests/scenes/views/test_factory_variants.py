@@ -24,7 +24,7 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.bench.busy_drivers import BusyFactory
+from pigaming_app.scenes.bench.busy_factory import BusyFactory
 from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.factory import contest, countdowns, star_panel
 from pigaming_app.scenes.views.factory.hud import CALLS

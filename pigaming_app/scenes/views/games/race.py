@@ -11,6 +11,7 @@ from pigaming_app.scenes.views.game_screens import GameScreens, Placed
 from pigaming_app.scenes.views.lesson import Actor, Lesson
 from pigaming_app.scenes.views.preview import fitted, robots
 from pigaming_app.scenes.views.race.background import GLOW, earth
+from pigaming_app.scenes.views.race.ghost import delete_ghosts
 from pigaming_app.scenes.views.race.lines import draw_line, draw_signed, frame, line_signs
 from pigaming_app.scenes.views.race.track import draw_track
 from pigaming_app.scenes.views.race.view import RaceView
@@ -140,4 +141,5 @@ SCREENS = GameScreens(
     lesson_pages=("standard", "party"),
     deal=deal,
     first_keys=(STEER, TURBO),
+    forget=delete_ghosts,
 )

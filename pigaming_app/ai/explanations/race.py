@@ -1,18 +1,22 @@
-"""Explanation of the race brain: its line, the robots in the way and its speed.
+"""Explanations of Robot Race. Of the brain: its line, the robots in the way and its speed.
 
-All values come from the brain's memory, its last observation and its own functions; nothing is decided twice.
+All values come from the brain's memory, its last observation and its own functions; nothing is decided twice. Of
+networks: topics of their inputs, and the places of perceived things.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import atan2, pi
 
 from pigaming_app.ai.brain.kind import NoWeights
-from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, Percept, Thoughts, blend, clamp, towards
+from pigaming_app.ai.brain.thoughts import GOAL, OPPONENT, WAY, Percept, Thoughts, blend, clamp, towards
+from pigaming_app.ai.networks import race as network
+from pigaming_app.ai.networks.subject import Sight, Subject
 from pigaming_app.ai.race import overtaking, racer
 from pigaming_app.ai.race.overtaking import CLEAR, EDGE, FAR, lane_cost, leader_speed
 from pigaming_app.ai.race.racer import RacerMind
 from pigaming_app.games.race.observation import OTHERS, CourseFeature, RaceObservation
 from pigaming_app.games.race.state import Race
+from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.world import ROBOTS, Action
 
@@ -161,3 +165,36 @@ def _rose(obs: RaceObservation, mind: RacerMind, x: float, y: float) -> list[flo
     wanted = towards(turn_to(atan2(y - obs.y, x - obs.x) - obs.heading))
     close = [other for other in obs.others if other.present and other.distance < NEAR]
     return blend(wanted, *(towards(other.bearing, -clamp(1.5 - 1.5 * other.distance / NEAR)) for other in close))
+
+
+BY_THINK = {racer.think: explain}
+
+
+def in_race(match: MatchState, inputs: Sequence[float]) -> Iterator[Sight]:
+    """Robots, and the point of the fastest line some way ahead."""
+    for k in range(network.OTHERS, network.OILS, network.OTHER):
+        if any(inputs[k : k + network.OTHER]) and abs(inputs[k + 2]) < 1.0:
+            place = (1.0, network.NEAR * inputs[k + 1], 200.0 * inputs[k + 2])
+            yield Sight("near" if k == network.OTHERS else "others", OPPONENT, *place)
+    for i in (3, 5):
+        k = network.COURSE + 6 * i
+        if abs(inputs[k]) < 1.0 and abs(inputs[k + 1]) < 1.0:
+            place = (1.0, 450.0 * inputs[k], (1.2 * network.AHEAD[i] + 40.0) * inputs[k + 1])
+            yield Sight("course", WAY, *place)
+
+
+SUBJECT = Subject(
+    {
+        "course": ("place", "way", "course"),
+        "near": ("first",),
+        "others": ("second", "third"),
+        "oil": ("oil",),
+        "pads": ("pad", "box"),
+        "self": ("motion", "powers"),
+        "score": ("race",),
+    },
+    network.DRIVES,
+    network.TURNS,
+    "item",
+    in_race,
+)

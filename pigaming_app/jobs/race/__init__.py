@@ -1,0 +1,1 @@
+"""Robot Race needs no job."""
