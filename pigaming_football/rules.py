@@ -1,16 +1,16 @@
 """Rules of Robot Football: put the ball into the other team's goal.
 
 Robots push the ball. FIRE catches one at the robot's front; the longer it is held, for at most two seconds, the harder
-it is shot when the button is released. For a team that is behind a shot charges faster, goal by goal. A robot that
-holds the ball is a little slower, and loses it to anything that the ball bumps into. A goal counts once the ball's
-centre is over the line, for the robot of the scoring team that touched it last; an own goal counts for the other team.
+it is shot when the button is released. A robot that holds the ball is a little slower, and loses it to anything that
+the ball bumps into. A goal counts once the ball's centre is over the line, for the robot of the scoring team that
+touched it last; an own goal counts for the other team. A goal of the team that is behind counts two.
 
 After a goal the robots play on from where they are. Real robots cannot be moved by the rules, so the ball returns to
 the middle two seconds later, and rolls to the team that conceded. A ball that rests in reach of nobody for five
 seconds, or gets nowhere for nine, is dropped anew.
 
-By the cup rules the next goal wins if the score is level at the end. By the party rules it does as well, the ball is
-lighter and livelier, and now and then golden: it counts two.
+If the score is level at the end, the next goal wins. By the cup rules every goal counts one; by the party rules the
+ball is lighter and livelier, and now and then golden: it counts two for either team.
 """
 
 from math import cos, sin, sqrt
@@ -230,9 +230,16 @@ def score(match: Football) -> None:
         if before >= 0 and before != last and side_of(match.robots[before]) != conceded:
             match.players[before].assists += 1
     if last >= 0:
-        match.robots[last].score += ball.worth
+        match.robots[last].score += worth_for(match, last)
     speed = match.rules.kick_off
     take_out(match, 0.5 * WIDTH, MIDDLE, match.rules.celebration, -speed if conceded == LEFT else speed)
+
+
+@kernel
+def worth_for(match: Football, k: int) -> int:
+    """Points of a goal of robot k with the present ball: more if its team is behind."""
+    worth, catch_up = match.ball.worth, match.rules.catch_up
+    return max(worth, catch_up) if lead_of(match, side_of(match.robots[k])) < 0 else worth
 
 
 # ------------------------------------------------------------------------------------------------------------- holding
@@ -274,14 +281,7 @@ def use_feet(match: Football) -> None:
 @kernel
 def charge_of(match: Football) -> float:
     """The charge of the held ball, full from 1 on."""
-    ball, rules = match.ball, match.rules
-    return ball.charge * (1.0 + rules.catch_up * behind(match, ball.holder - 1)) / rules.charge
-
-
-@kernel
-def behind(match: Football, k: int) -> int:
-    """Goals by which the team of robot k is behind, up to those that speed up its shots."""
-    return min(max(0, -lead_of(match, side_of(match.robots[k]))), match.rules.most_behind)
+    return match.ball.charge / match.rules.charge
 
 
 @kernel

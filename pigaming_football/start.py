@@ -13,8 +13,8 @@ from .state import MIDDLE, Football, Rules
 OVERTIME = 60.0  # s, at most
 VARIANTS = Variant.by_name(
     *(
-        Variant(name, (2, 3, 5), minutes, team_mode="pairs", teams=(0, 1, 0, 1), overtime=overtime)
-        for name, minutes, overtime in (("standard", 3, 0.0), ("cup", 3, OVERTIME), ("party", 2, OVERTIME))
+        Variant(name, (2, 3, 5), minutes, team_mode="pairs", teams=(0, 1, 0, 1), overtime=OVERTIME)
+        for name, minutes in (("standard", 3), ("cup", 3), ("party", 2))
     )
 )
 
@@ -39,7 +39,9 @@ def rules_of(setup: Setup) -> Rules:
     rules = Rules()
     rules.ticks = round(setup.minutes * 60 * HZ)
     rules.overtime = round(VARIANTS[setup.variant].overtime * HZ)
-    if setup.variant == "party":
+    if setup.variant == "cup":
+        rules.catch_up = 1
+    elif setup.variant == "party":
         rules.mass, rules.friction, rules.bounce, rules.robot_bounce = 0.85, 140.0, 0.9, 0.7
         rules.golden = 0.25
     return rules

@@ -30,8 +30,6 @@ class Rules(SimpleRules):
     held_speed: float = 0.8  # factor of a robot's speed while it holds the ball
     hold: int = 2 * HZ  # after which the ball is shot by itself
     charge: int = round(0.8 * HZ)  # until a shot has its full strength
-    catch_up: float = 0.5  # by which it charges faster for each goal that its team is behind
-    most_behind: int = 3  # goals that count for it
     weakest: float = 380.0  # momentum of a shot
     strongest: float = 850.0
     cooldown: int = round(0.4 * HZ)  # after a shot or a lost ball
@@ -41,7 +39,8 @@ class Rules(SimpleRules):
     near: float = 60.0  # between robot and ball: the ball is in reach
     lonely: int = 5 * HZ  # of rest in reach of nobody, after which the ball is dropped anew
     jammed: int = 9 * HZ  # without getting anywhere, after which it is dropped anew elsewhere
-    golden: float = 0.0  # probability that a ball counts two goals
+    catch_up: int = 2  # points of a goal of the team that is behind
+    golden: float = 0.0  # probability that a ball counts two points for either team
 
 
 @record
@@ -67,7 +66,7 @@ class Ball:
     charge: int  # ticks for which it has been held
     touched: int  # 1 + seat of the last robot to touch it since it was dropped; NOBODY
     before: int  # the last one before, of either team
-    worth: int  # goals for which it counts
+    worth: int  # points of a goal with it, unless the team is behind
     anchor_x: float  # where it was when it last got anywhere
     anchor_y: float
     still: int  # ticks since then

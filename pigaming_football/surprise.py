@@ -10,7 +10,7 @@ from .pitch import faults
 
 TRIES = 500  # most pitches can be played
 GRID = 10  # px: every coordinate is a multiple
-GOALS, CUTS = (130, 260), (90, 200)  # px: width; what is cut off the corners
+GOALS, CUTS = (190, 340), (90, 200)  # px: width; what is cut off the corners
 BARE = 0.25  # share of pitches with all corners
 BUMPERS = (1, 3)  # in a quarter of the pitch, at least and most
 THICK, LONG = (40, 90), (0, 160)  # px, of a bumper

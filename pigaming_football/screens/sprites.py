@@ -109,12 +109,12 @@ def ring(ink: GlowCanvas, color: Color, left: int) -> None:
 
 
 @light_sprite(96, 0.9)
-def hurry(ink: GlowCanvas, team: int, goals: int) -> None:
-    """The glow round a ball that charges faster, for a team that is `goals` behind."""
+def rays(ink: GlowCanvas, team: int) -> None:
+    """The glow round a ball that a team holds, and that counts two."""
     for r in range(66, 36, -2):
-        ink.disc(0, 0, r, dim(STYLE.teams[team], 0.16 * goals * (1.0 - r / 68.0)))
-    for k in range(3 * goals):
-        turn = math.tau * k / (3 * goals)
+        ink.disc(0, 0, r, dim(STYLE.teams[team], 0.4 * (1.0 - r / 68.0)))
+    for k in range(8):
+        turn = math.tau * k / 8
         ends = [(r * math.cos(turn), r * math.sin(turn)) for r in (46, 58)]
         ink.line(ends, STYLE.teams[team], STYLE.line)
 

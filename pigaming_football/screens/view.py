@@ -7,7 +7,7 @@ from typing import Any
 
 from pigaming_app.api.look import STYLE, Batch, SimpleView, put
 
-from ..rules import behind, charge_of, side_of
+from ..rules import charge_of, side_of, worth_for
 from ..state import Football
 from . import ceremony, sprites
 from .ball_track import FADES, BallTrack
@@ -49,7 +49,7 @@ class FootballView(SimpleView):
 
     def samples(self) -> Iterator[Callable[[], object]]:
         for color in STYLE.teams:
-            for goal in ("football.goal", "football.own_goal"):
+            for goal in ("football.goal", "football.double_goal", "football.own_goal"):
                 yield partial(self.announcement, self.word(goal), color)
         yield from ceremony.samples(self)
         yield sprites.shadow
@@ -66,8 +66,7 @@ class FootballView(SimpleView):
             for level in range(1, 5):
                 yield partial(sprites.aim, level, seat)
         for team in (0, 1):
-            for goals in range(1, 4):
-                yield partial(sprites.hurry, team, goals)
+            yield partial(sprites.rays, team)
         for left in range(0, 49, 4):
             yield partial(sprites.ring, STYLE.ice, left)
 
@@ -124,9 +123,9 @@ class FootballView(SimpleView):
             put(top, sprites.ball(0, 0, ball.worth > 1), *self.on_canvas(ball.x, ball.y))
 
     def draw_charge(self, under: Batch, state: Football, seat: int, x: float, y: float) -> None:
-        """The ring that fills with the charge, the line of the shot, and rays if the team is catching up."""
-        if goals := behind(state, seat):
-            put(under, sprites.hurry(side_of(state.robots[seat]), goals), *self.on_canvas(x, y))
+        """The ring that fills with the charge, the line of the shot, and rays if a goal counts two."""
+        if worth_for(state, seat) > 1:
+            put(under, sprites.rays(side_of(state.robots[seat])), *self.on_canvas(x, y))
         share = min(1.0, charge_of(state))
         ring = 48 * math.ceil(CHARGES * share) // CHARGES
         put(under, sprites.ring(STYLE.players[seat], max(3, ring)), *self.on_canvas(x, y))
@@ -196,7 +195,8 @@ class FootballView(SimpleView):
         """Announce a goal with its scorer, an own goal with the team for which it counts."""
         seat, color = scorer_of(before, conceded), STYLE.teams[1 - conceded]
         if seat >= 0:
-            self.announce(self.word("football.goal"), color, self.name(seat))
+            word = "football.double_goal" if worth_for(before, seat) > 1 else "football.goal"
+            self.announce(self.word(word), color, self.name(seat))
         else:
             self.announce(self.word("football.own_goal"), color, self.word(f"lobby.side_{2 - conceded}"))
 

@@ -57,7 +57,7 @@ def overlap(football):
 
 def name_of(football):
     """The arena of a state: they differ in their goals."""
-    return {90.0: "classic", 110.0: "bumpers", 65.0: "small_goals"}[football.mouth]
+    return {120.0: "classic", 145.0: "bumpers", 95.0: "small_goals"}[football.mouth]
 
 
 def goals_of(football, side):

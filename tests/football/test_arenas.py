@@ -32,9 +32,9 @@ GOOD = load("football", "classic").source
 @pytest.mark.parametrize(
     ("old", "new", "reason"),
     [
-        ("width = 180", "width = 40", "goal.width: 40 px, but 120 to 500 are possible"),
-        ("width = 180", "height = 270", "goal.height: unknown key"),
-        ("[goal]\nwidth = 180", "", "goal: a table is missing"),
+        ("width = 240", "width = 40", "goal.width: 40 px, but 120 to 500 are possible"),
+        ("width = 240", "height = 270", "goal.height: unknown key"),
+        ("[goal]\nwidth = 240", "", "goal: a table is missing"),
         ("at = [800, 450]", "at = [700, 450]", "drop: the first must be at [800, 450], the middle"),
         ("at = [400, 450]", "at = [5, 450]", "drop[2].at: a ball at (5, 450) would lie in a wall"),
         ("at = [400, 450]", "at = [800, 500]", "drop[2].at: nearer than 120 px to another drop point"),

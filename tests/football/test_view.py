@@ -1,6 +1,7 @@
 """The view of a match: sounds and light of what happens to the ball; texts in all languages."""
 
 import tomllib
+from math import cos, pi, sin
 from pathlib import Path
 
 import pygame
@@ -59,6 +60,35 @@ def test_a_goal_is_cheered_in_the_colour_of_who_scored(screen):
     assert pygame.image.tobytes(screen, "RGB") != before
 
 
+@pytest.mark.parametrize(("behind", "word"), [(0, "Goal!"), (1, "Goal! It counts two")])
+def test_a_goal_of_the_team_behind_is_announced_as_what_it_counts(screen, monkeypatch, behind, word):
+    football = match()
+    view, said = view_of(football), []
+    monkeypatch.setattr(view, "announce", lambda text, *_: said.append(text))
+    football.state.ball.out, football.state.robots[1].score = 0, behind
+    view.watch(football.state)
+    put_ball(football.state, 1540.0, 450.0, 900.0)
+    football.state.ball.touched = 1
+    cues(football, view, 5)
+    assert said == [word]
+
+
+def test_a_held_ball_that_counts_two_has_rays(screen):
+    lights = []
+    for behind in (0, 1):
+        football = match(present=(0, 1))
+        view, state = view_of(football), football.state
+        state.ball.out, state.robots[1].score = 0, behind
+        put_robot(state, 0, 500.0, 300.0)
+        put_ball(state, 565.0, 300.0)
+        cues(football, view, 3, fire=(0,))
+        assert state.ball.holder == 1
+        view.draw(screen, state, 1.0, 0.02)
+        at = [(160 + 559 + round(52 * cos(k * pi / 4)), 140 + 300 + round(52 * sin(k * pi / 4))) for k in (1, 2, 6, 7)]
+        lights.append(sum(sum(screen.get_at(spot)[:3]) for spot in at))
+    assert lights[1] > lights[0] + 600
+
+
 def test_catch_shot_and_bounce_are_heard(screen):
     football = match(present=(0,))
     view, state = view_of(football), football.state
@@ -87,7 +117,7 @@ def test_the_rolling_ball_turns_and_a_dropped_one_does_not(screen):
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_overtime_and_goals_have_words_that_fit(screen, language):
-    football = match(variant="cup")
+    football = match()
     view = view_of(football, language)
     football.state.golden_goal = 1
     view.draw(screen, football.state, 1.0, 0.02)
@@ -96,7 +126,8 @@ def test_overtime_and_goals_have_words_that_fit(screen, language):
     bits = word_bits(words)
     assert max(image.get_width() for image, _, _ in bits) - 64 <= CLOCK.w - 24
     assert min(image.get_height() for image, _, _ in bits) >= 2 * 24 + 64, "legible"
-    assert view.announcement(view.word("football.goal"), STYLE.teams[0]).image.get_width() < 1200
+    for goal in ("football.goal", "football.double_goal"):
+        assert view.announcement(view.word(goal), STYLE.teams[0]).image.get_width() < 1200, goal
 
 
 def test_the_lines_of_the_pitch_reach_the_walls(screen):
