@@ -6,7 +6,7 @@ from typing import Any
 
 from pigaming_app.api.brains import BrainKind, GameAI, levels
 from pigaming_app.api.networks import shipped_brain
-from pigaming_app.api.rules import HZ, uniform
+from pigaming_app.api.rules import HZ
 
 from .footballer import think
 from .mind import PERIOD, Mind
@@ -21,8 +21,8 @@ class Strength:
     reaction: float  # ticks between looks at the ball
     error: float  # rad, standard deviation of the aim
     turbo: bool  # whether it uses the turbo
-    passes: bool
-    form: float = 0.0  # share of its speed that it lacks at most, on a bad day; drawn for each match
+    passes: bool  # and leaves one back
+    haste: float = 0.0  # share of the time in which it goes straight at the ball, and shoots wherever it looks
 
 
 HANDS = (
@@ -31,16 +31,16 @@ HANDS = (
     Strength(0.90, 6, 0.05, turbo=True, passes=True),
 )
 STRENGTHS = (
-    Strength(0.255, 55, 0.45, turbo=False, passes=False, form=0.4),
-    Strength(0.4, 50, 0.40, turbo=False, passes=False, form=0.55),
-    Strength(0.485, 45, 0.35, turbo=False, passes=False, form=0.5),
-    Strength(0.58, 38, 0.28, turbo=False, passes=True, form=0.5),
-    Strength(0.64, 34, 0.22, turbo=False, passes=True, form=0.45),
+    Strength(0.85, 30, 0.30, turbo=False, passes=False, haste=0.8),
+    Strength(0.92, 24, 0.20, turbo=False, passes=False, haste=0.7),
+    Strength(0.85, 24, 0.20, turbo=False, passes=False, haste=0.3),
+    Strength(0.85, 24, 0.20, turbo=False, passes=True, haste=0.2),
+    Strength(0.85, 18, 0.16, turbo=False, passes=True),
 )
 
 
-EASIEST = Strength(0.08, 90, 1.3, turbo=True, passes=True, form=0.4)
-HARDEST = Strength(1.0, 5, 0.04, turbo=True, passes=True, form=0.01)
+EASIEST = Strength(0.08, 90, 1.3, turbo=True, passes=True)
+HARDEST = Strength(1.0, 5, 0.04, turbo=True, passes=True)
 
 
 def _footballer(name: str, strength: Strength) -> BrainKind:
@@ -48,7 +48,7 @@ def _footballer(name: str, strength: Strength) -> BrainKind:
 
     def reset(mind: Mind, seed: int) -> None:
         mind.phase = mind.random % PERIOD
-        mind.speed = strength.speed * (1.0 - strength.form * uniform(mind)) if strength.form else strength.speed
+        mind.speed, mind.haste = strength.speed, strength.haste
         mind.reaction, mind.error = strength.reaction, strength.error
         mind.turbo, mind.plays = int(strength.turbo), int(strength.passes)
 
@@ -56,9 +56,9 @@ def _footballer(name: str, strength: Strength) -> BrainKind:
 
 
 def person(traits: Any) -> BrainKind:
-    """What a person of certain `Traits` sees and wants."""
-    reaction, pace = round(traits.reaction * HZ), 0.36 + 0.21 * traits.tactics
-    return _footballer("person", Strength(pace, reaction, 2.0 * traits.aim, traits.turbo, traits.tactics > 0.5))
+    """What a person of certain `Traits` sees and wants: at full stick, and the hastier the less it knows."""
+    reaction, haste = round(traits.reaction * HZ), 0.3 * (1.0 - traits.tactics)
+    return _footballer("person", Strength(1.0, reaction, 2.0 * traits.aim, traits.turbo, traits.tactics > 0.5, haste))
 
 
 NET = shipped_brain("net", "football", "football", Path(__file__).parents[1] / "brains", {"sharpness": 2.0})

@@ -2,7 +2,8 @@
 
 - Role assignment: who meets the ball first chases it, with hysteresis; the other keeps the goal while the ball is near
   it, and else supports. P. Stone, M. Veloso, "Task decomposition, dynamic role assignment, and low-bandwidth
-  communication for real-time strategic teamwork", Artificial Intelligence 110, 1999.
+  communication for real-time strategic teamwork", Artificial Intelligence 110, 1999. In a team that plays together
+  the last robot leaves the goal only if it is much faster, and supports only a mate who has the ball. The hasty chase.
 - Chaser: meets the ball where it will be, from behind, so that it faces the goal once it has the ball.
 - Keeper: on the line from the ball to the goal's centre, along which it drives; where a shot will cross it, if one
   comes. Compare T. Röfer et al., "B-Human team report", 2011, section on the goalie.
@@ -24,6 +25,8 @@ from ..state import LEFT, MIDDLE, Football, Rules
 from .mind import BALL, CHASER, FRICTION, KEEPER, PERIOD, SUPPORTER, TOUCH, Mind, clearance, notice, time_to_meet
 
 LOYALTY = 0.35  # s by which another must be faster to take over the chase
+NEAR_GOAL = 300.0  # px of the ball from the own goal up to which the last robot of a team leaves it like any other
+STAYS = 2.0  # s by which it must be faster to leave for a ball at the other end
 FIRST = 0.25  # s by which an opponent must be faster for a lone robot to defend
 KICK_OFF = 190.0  # px from the middle, where it awaits the ball
 BEHIND = 40.0  # px, room between ball and robot on the way round it
@@ -81,6 +84,7 @@ def choose_role(mind: Mind) -> None:
     """Assign the own role by the times in which each robot can meet the ball."""
     obs = mind.obs
     mates, mate_time, rival_time = 0, 1e9, 1e9
+    is_last, stays = True, STAYS * max(0.0, mind.seen_x - NEAR_GOAL) / WIDTH if mind.plays else 0.0
     for i in range(3):
         other = obs.others[i]
         if not other.present:
@@ -89,16 +93,19 @@ def choose_role(mind: Mind) -> None:
         after = time_to_meet(mind, other.x, other.y, turn_to(bearing - other.heading))
         if other.mate:
             mates += 1
-            mate_time = min(mate_time, after)
+            mate_time = min(mate_time, after + stays if other.x < obs.x else after)
+            is_last = is_last and obs.x <= other.x
         else:
             rival_time = min(rival_time, after)
     own_time = time_to_meet(mind, obs.x, obs.y, polar(obs, mind.seen_x, mind.seen_y)[1])  # last: it sets the point
     if mind.role == CHASER and mates:
         own_time -= LOYALTY
-    defends = obs.held == OPPONENT or mind.seen_x < 0.55 * WIDTH
-    if obs.held == OWN:
+    if is_last and mates:
+        own_time += stays
+    if obs.held == OWN or (mind.hasty and obs.held != MATE):
         mind.role = CHASER
     elif obs.held == MATE or (mates and mate_time < own_time):
+        defends = mind.plays or obs.held == OPPONENT or mind.seen_x < 0.55 * WIDTH
         mind.role = KEEPER if mind.seen_x < 0.4 * WIDTH or (defends and obs.held != MATE) else SUPPORTER
     elif obs.ball_roll > 0.0 or (obs.held == OPPONENT and obs.x > mind.seen_x - BEHIND):
         mind.role = KEEPER  # their kick-off, or they are past
@@ -121,7 +128,12 @@ def chase(match: Football, seat: int, mind: Mind) -> None:
     gx, gy = WIDTH - x, MIDDLE - y
     length = sqrt(gx * gx + gy * gy) + 1e-9
     off = turn_to(atan2(y - obs.y, x - obs.x) - atan2(gy, gx))
-    if abs(off) > WRONG_SIDE and clearance(obs, x, y, x, y, False) > 260.0 and obs.ball_distance > 1.2 * TOUCH:
+    if (
+        abs(off) > WRONG_SIDE
+        and not mind.hasty
+        and clearance(obs, x, y, x, y, False) > 260.0
+        and obs.ball_distance > 1.2 * TOUCH
+    ):
         room = TOUCH + BEHIND
         if abs(off) < EITHER_SIDE or mind.side == 0.0:
             mind.side = 1.0 if off > 0.0 else -1.0
@@ -143,6 +155,9 @@ def grasp(obs: Observation) -> int:
 def play_ball(match: Football, seat: int, mind: Mind) -> None:
     """With the ball: shoot if the way is open, else pass, else carry it towards the more open side of the goal."""
     obs = mind.obs
+    if mind.hasty:  # wherever it looks
+        steer(match, seat, mind, 1.0, 0.0, 0, 0)
+        return
     corner = obs.mouth - 50.0 if obs.mouth > 90.0 else 0.4 * obs.mouth
     up = clearance(obs, obs.x, obs.y, WIDTH, MIDDLE - corner, False)
     down = clearance(obs, obs.x, obs.y, WIDTH, MIDDLE + corner, False)

@@ -27,7 +27,9 @@ class Mind:
     reaction: float  # ticks between looks at the ball
     error: float  # standard deviation of its aim, rad
     turbo: int  # 1: it uses the turbo
-    plays: int  # 1: it passes
+    plays: int  # 1: it plays together: passes, and one stays back
+    haste: float  # share of the time in which it is hasty: goes straight at the ball, and shoots wherever it looks
+    hasty: int  # 1: now
     random: int
     phase: int  # tick of its decisions, of PERIOD
     role: int
@@ -66,6 +68,7 @@ def notice(mind: Mind) -> None:
     if mind.bias_left <= 0:
         mind.bias_left = NEW_ERROR
         mind.bias = 2.0 * mind.error * (uniform(mind) + uniform(mind) + uniform(mind) - 1.5)
+        mind.hasty = 1 if mind.haste > 0.0 and uniform(mind) < mind.haste else 0
     mind.held = mind.held + PERIOD if obs.held == 1 else 0
 
 

@@ -19,6 +19,7 @@ from tests.football.pitch import ARENAS, goals_of, match, put_ball, put_robot, s
 from tests.matches import run
 
 AS_PLAYED = 2.0  # minutes
+needs_numba = pytest.mark.skipif(not can_compile(), reason="needs the extra train")
 
 
 def with_brains(football, **brains):
@@ -27,14 +28,18 @@ def with_brains(football, **brains):
     return football
 
 
-RARE = pytest.mark.xfail(strict=True, reason="levels for people score rarely; open in issue 30")
-
-
-@pytest.mark.parametrize("level", [pytest.param(one, marks=RARE) if one in LEVELS[:2] else one for one in LEVELS])
+@pytest.mark.parametrize("level", LEVELS)
 def test_alone_every_level_finds_the_goal(level):
-    football = run(with_brains(match(present=(0,)), p0=level), 60 * 50)
-    assert goals_of(football.state, 0) > 0
-    assert football.state.players[0].own_goals <= 1
+    """In a minute. The lowest two are hasty, and shoot wherever they look: so many matches tell."""
+    scored, own = [], []
+    for seed in range(20):
+        football = match(present=(0,), seed=seed)
+        football.sit(0, make_brain("football", level, seed))
+        run(football, 60 * 50)
+        scored.append(goals_of(football.state, 0))
+        own.append(football.state.players[0].own_goals)
+    assert sum(goals > 0 for goals in scored) >= 18
+    assert sum(own) <= len(own)
 
 
 @pytest.mark.parametrize("cases", [24, pytest.param(60, marks=[pytest.mark.long, pytest.mark.again])])
@@ -107,6 +112,29 @@ def test_a_keeper_stops_what_an_empty_goal_lets_in():
     assert conceded[True] <= 1
 
 
+@needs_numba
+@pytest.mark.parametrize("arena", ARENAS)
+def test_a_team_that_plays_together_does_not_leave_its_goal_empty(arena):
+    """A second before a goal, one of those who conceded it is within 450 px of their goal's middle."""
+    setups = [setup(arena, minutes=3.0, seed=seed) for seed in range(15)]
+    batch = Batch(setups, [BRAINS["football"]["level5"]] * 4, True)
+    before: list[list[list[tuple[float, float]]]] = []  # by sample, match and seat
+    conceded = empty = 0
+    goals = [0] * len(setups)
+    for _ in range(3 * 60 * 5):
+        batch.play(10)
+        places = [[(float(robot["x"]), float(robot["y"])) for robot in row["robots"]] for row in batch.matches]
+        before = [*before[-5:], places]
+        for i, row in enumerate(batch.matches):
+            if row["goals"] > goals[i] and len(before) == 6:
+                side = int(row["goal_side"])
+                conceded += 1
+                empty += all(hypot(x - 1600.0 * side, y - 450.0) > 450.0 for x, y in before[0][i][side::2])
+            goals[i] = int(row["goals"])
+    assert conceded > 30
+    assert empty <= 0.1 * conceded
+
+
 def test_nobody_stands_still_for_long():
     """In a minute of a match between two teams somebody always drives, and the ball comes nearly everywhere."""
     football = with_brains(match(minutes=1.0), p0="level5", p1="level5", p2="level5", p3="level5")
@@ -121,9 +149,6 @@ def test_nobody_stands_still_for_long():
     assert len(parts) >= 6
 
 
-needs_numba = pytest.mark.skipif(not can_compile(), reason="needs the extra train")
-
-
 @needs_numba
 @pytest.mark.long
 @pytest.mark.parametrize(("lower", "upper"), repeated(pairwise(LEVELS)))
@@ -136,13 +161,11 @@ def test_each_level_beats_the_one_below(lower, upper):
 @pytest.mark.long
 @pytest.mark.parametrize("level", ["level1", "level3", "level5"])
 @pytest.mark.parametrize("arena", repeated(["classic", "bumpers", "small_goals"]))
-def test_sides_are_even_and_goals_neither_rare_nor_cheap(request, arena, level):
-    if level == "level1" or (arena, level) == ("small_goals", "level3"):
-        request.applymarker(RARE)
+def test_sides_are_even_and_goals_neither_rare_nor_cheap(arena, level):
     setups = [setup(arena, minutes=AS_PLAYED, seed=seed) for seed in range(100)]
     batch = Batch(setups, [BRAINS["football"][level]] * 4, True)
-    batch.play(round(AS_PLAYED * 3000))
-    goals = [[sum(int(row["robots"][k]["score"]) for k in side) for side in ((0, 2), (1, 3))] for row in batch.matches]
-    wins = [sum(one > other for one, other in goals), sum(one < other for one, other in goals)]
-    assert 2.0 <= sum(map(sum, goals)) / len(goals) <= 8.0
+    batch.play(round((AS_PLAYED + 1.0) * 3000))
+    points = [[sum(int(row["robots"][k]["score"]) for k in side) for side in ((0, 2), (1, 3))] for row in batch.matches]
+    wins = [sum(one > other for one, other in points), sum(one < other for one, other in points)]
+    assert 2.0 <= sum(int(row["goals"]) for row in batch.matches) / len(points) <= 8.0
     assert abs(wins[0] - wins[1]) <= 3.0 * sum(wins) ** 0.5, "three standard deviations of a fair coin"

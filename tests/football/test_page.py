@@ -6,6 +6,7 @@ from pathlib import Path
 from pigaming_app.sim.world import HZ
 from pigaming_football import network, training
 from pigaming_football.ai import HANDS, STRENGTHS
+from pigaming_football.ai.footballer import STAYS
 from pigaming_football.start import rules_of
 from tests.football.pitch import setup
 
@@ -25,17 +26,19 @@ def statements():
     yield f"| {rules.weakest:g} to {rules.strongest:g} px/s | `weakest`, `strongest` |"
     yield f"| {rules.kick_off:g} px/s | `kick_off` |"
     yield f"| {rules.near:g} px | `near` |"
+    yield f"| points of a goal of the team that is behind | {rules.catch_up} | `catch_up` |"
     for name in ("hold", "charge", "cooldown", "celebration", "lonely", "jammed"):
         yield f"| {getattr(rules, name) / HZ:g} s | `{name}` |"
     yield f"ball has {party.mass:g} of the mass, friction {party.friction:g} px/s², and restitution {party.bounce:g}"
     yield f" and {party.robot_bounce:g}. "
     yield f"| share of full speed | {' | '.join(f'{one.speed:.2f}' for one in STRENGTHS)} |"
-    yield f"on a bad day | {' | '.join(f'{100 * one.form:.0f} %' for one in STRENGTHS)} |"
+    yield f"| hasty for | {' | '.join(f'{100 * one.haste:.0f} %' for one in STRENGTHS)} |"
+    yield f"goal only if it meets the ball up to {STAYS:g} s sooner"
     yield f"looks at the ball every | {' | '.join(f'{one.reaction / HZ:g} s' for one in STRENGTHS)} |"
     yield f"standard deviation | {' | '.join(f'{one.error:g} rad' for one in STRENGTHS)} |"
-    for word, name in (("uses turbo", "turbo"), ("passes", "passes")):
+    for word, name in (("uses turbo", "turbo"), ("plays together", "passes")):
         yield f"| {word} | {' | '.join('yes' if getattr(one, name) else 'no' for one in STRENGTHS)} |"
-    yield f"`hand3` has no bad days, {HANDS[2].speed:g} of the speed, and an error of {HANDS[2].error:g} rad"
+    yield f"`hand3` has {HANDS[2].speed:g} of the speed, and an error of {HANDS[2].error:g} rad"
     yield f"a [network](networks.md) of {network.SIZE} inputs"
     yield f"`drive` {', '.join(f'{stick:g}'.replace('-', '−') for stick in network.DRIVES)};"
     yield f"`MultiDiscrete([{', '.join(str(count) for _, count in network.HEADS)}])`"
