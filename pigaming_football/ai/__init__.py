@@ -31,11 +31,11 @@ HANDS = (
     Strength(0.90, 6, 0.05, turbo=True, passes=True),
 )
 STRENGTHS = (
-    Strength(0.85, 30, 0.30, turbo=False, passes=False, haste=0.8),
-    Strength(0.92, 24, 0.20, turbo=False, passes=False, haste=0.7),
-    Strength(0.85, 24, 0.20, turbo=False, passes=False, haste=0.3),
-    Strength(0.85, 24, 0.20, turbo=False, passes=True, haste=0.2),
-    Strength(0.85, 18, 0.16, turbo=False, passes=True),
+    Strength(0.82, 30, 0.30, turbo=False, passes=False, haste=0.8),
+    Strength(0.88, 24, 0.20, turbo=False, passes=False, haste=0.7),
+    Strength(0.88, 22, 0.20, turbo=False, passes=False, haste=0.25),
+    Strength(0.86, 22, 0.19, turbo=False, passes=True, haste=0.2),
+    Strength(0.86, 16, 0.15, turbo=False, passes=True),
 )
 
 
