@@ -39,7 +39,7 @@ STRENGTHS = (
 )
 
 
-EASIEST = Strength(0.08, 90, 1.3, turbo=True, passes=True)
+EASIEST = Strength(0.08, 90, 1.3, turbo=True, passes=True, haste=0.3)
 HARDEST = Strength(1.0, 5, 0.04, turbo=True, passes=True)
 
 
