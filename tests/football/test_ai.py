@@ -30,7 +30,7 @@ def with_brains(football, **brains):
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_alone_every_level_finds_the_goal(level):
-    """In a minute. The lowest two are hasty, and shoot wherever they look: so many matches tell."""
+    """In three minutes of four. The lowest two are hasty, and shoot wherever they look: so many matches tell."""
     scored, own = [], []
     for seed in range(20):
         football = match(present=(0,), seed=seed)
@@ -38,7 +38,7 @@ def test_alone_every_level_finds_the_goal(level):
         run(football, 60 * 50)
         scored.append(goals_of(football.state, 0))
         own.append(football.state.players[0].own_goals)
-    assert sum(goals > 0 for goals in scored) >= 18
+    assert sum(goals > 0 for goals in scored) >= 15
     assert sum(own) <= len(own)
 
 
