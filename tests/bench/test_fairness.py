@@ -67,7 +67,7 @@ def test_a_football_that_nobody_plays_rests_is_dropped_anew_and_the_match_is_a_t
     found = fairness_football.company(Trial("football", "standard", 3, 1, ("idle",) * 4, 0.2))["all"]
     assert found["ties"] == found["standing still, median"] == 1.0
     assert found["goals, a match"] == found["passes, a match"] == found["shots, a match"] == 0.0
-    assert found["drops, a match"] == 1.0, "12 s: kick-off after one, five of rest, one of warning, five of rest"
+    assert found["drops, a match"] == 11.0, "12 s and a minute of overtime: kick-off after one, then every six seconds"
     assert 0.15 < found["ball out of play"] < 0.2
     assert found["ball at rest"] + found["ball out of play"] == pytest.approx(1.0)
 

@@ -13,9 +13,9 @@ from tests.matches import match_of
 NOTHING, FIRE, TURBO = StickState(), StickState(fire=True), StickState(turbo=True)
 
 
-def pressed(game: str, press: StickState, every: int = 25) -> Match:
+def pressed(game: str, press: StickState, every: int = 25, arena: str = "") -> Match:
     """A match of a minute; seat 0 has one button, which goes down once in `every` ticks, and sticks that drift."""
-    match = match_of(game, "human idle", minutes=1.0, seed=5)
+    match = match_of(game, "human idle", arena, minutes=1.0, seed=5)
     drift = StickState(linear=-1.0, angular=1.0)
     read = lambda: press if match.state.tick % every < every // 2 else drift  # noqa: E731
     match.sit(0, make_person(game, ONE_BUTTON, read, 7))
@@ -68,7 +68,7 @@ def test_the_button_is_the_turbo_of_the_race() -> None:
 def test_a_ball_is_caught_while_the_button_is_held_and_shot_when_it_is_released() -> None:
     shots, longest = [], []  # the latter: ticks for which a ball was held
     for press, every in ((NOTHING, 60), (FIRE, 10_000), (FIRE, 60)):
-        match = pressed("football", press, every)
+        match = pressed("football", press, every, "surprise-7")  # on others it runs into the other robot first
         charges = [match.state.ball.charge]
         while match.seconds < 55.0:
             match.tick()
