@@ -130,6 +130,7 @@ def play(bed: Testbed, match: Any, seconds: float) -> MatchResult:
             raise RuntimeError(f"not all took their places: {plant.places}, {plant.faults}")
     bed.lighting.show(busy=True)
     deepest, ticks, paused = 0.0, 0, 0
+    longest = seconds + match.game.variants[match.setup.variant].overtime
     while not match.over:
         if plant.safety.pauses:
             alarms += _clear_faults(plant)
@@ -140,7 +141,7 @@ def play(bed: Testbed, match: Any, seconds: float) -> MatchResult:
         bed.tick()
         ticks += 1
         deepest = max(deepest, *(entered(match.state, x, y) for x, y, _ in bed.arena.poses()))
-        if ticks > 1.5 * HZ * seconds + 20 * HZ:
+        if ticks > 1.5 * HZ * longest + 20 * HZ:
             raise RuntimeError(f"the match did not end: {plant.faults}")
     return MatchResult(deepest * bed.ground.mm, ticks * DT, paused * DT, ready * DT, alarms)
 
