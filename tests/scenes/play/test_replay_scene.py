@@ -23,8 +23,6 @@ from tests.scenes.arcade import Arcade, setup
 from tests.scenes.attract.test_attract import scores_of
 from tests.scenes.measuring import faults, lit_boxes, measuring
 
-OVERTIME = 60.0  # s, at most, by which a level match of Robot Football goes on
-
 
 def test_attract_shows_a_match_then_how_to_play_then_the_scores(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch
@@ -36,7 +34,9 @@ def test_attract_shows_a_match_then_how_to_play_then_the_scores(
     attract = arcade.open(Attract(arcade.context))
     assert isinstance(attract.show, DemoMatch)
     assert attract.show.runner.match.setup.minutes == 0.2
-    arcade.until(lambda: not isinstance(attract.show, DemoMatch), 17.0 + OVERTIME)
+    shown = attract.show.runner.match.setup
+    overtime = games()[shown.game].variants[shown.variant].overtime
+    arcade.until(lambda: not isinstance(attract.show, DemoMatch), 17.0 + overtime)
     first = attract.show
     assert isinstance(first, TimedPage)
     arcade.wait(0.5, draw=True)
