@@ -77,6 +77,29 @@ class Event:
         return standings.team_standings(self.progress)
 
     @property
+    def calls(self) -> dict[int, str]:
+        """The arcade of each open match that is called, by number; empty: the only one."""
+        return {number: arcade for number, arcade in self.progress.called.items() if number not in self.outcomes}
+
+    @property
+    def pause(self) -> str | None:
+        """The note of a break; None while play goes on."""
+        return self.progress.pause
+
+    def next_at(self, arcade: str) -> Fixture | None:
+        """The match that an arcade plays next: one called to it, or the first whose entrants are free.
+
+        None while all others are called elsewhere, and at the end.
+        """
+        calls = self.calls
+        own = next((one for one in self.open if calls.get(one.number) == arcade), None)
+        if own:
+            return own
+        busy = {name for one in self.open if one.number in calls for name in one.entrants}
+        free = (one for one in self.open if one.number not in calls and not busy & {*one.entrants})
+        return next(free, None)
+
+    @property
     def round(self) -> int:
         """Round of the next match; after the last one that of the last."""
         return self.open[0].round if self.open else max((one.number for one in self.progress.rounds), default=1)

@@ -21,6 +21,7 @@ def plain(event: Event) -> dict[str, Any]:
         "games": list(spec.games),
         "round": event.round,
         "over": event.over,
+        "break": event.pause,
         "standings": [plain_standing(row) for row in event.standings],
         "teams": [plain_standing(row) for row in event.team_standings],
         "entrants": [
@@ -96,6 +97,7 @@ def _match(event: Event, i: int) -> dict[str, Any]:
         "game": fixture.game,
         "arena": fixture.arena,
         "entrants": list(fixture.entrants),
+        "called": event.calls.get(fixture.number),
         "played": outcome is not None,
         "places": [list(place) for place in outcome.places] if outcome else [],
         "scores": dict(outcome.scores) if outcome else {},

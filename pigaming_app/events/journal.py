@@ -43,4 +43,37 @@ class Substituted(Struct, frozen=True, tag_field="entry", tag="substitute"):
     brain: Line
 
 
-Entry = Recorded | Corrected | Added | Withdrawn | Postponed | Substituted
+class Swapped(Struct, frozen=True, tag_field="entry", tag="swap"):
+    """Two entrants exchange their places in the round that is open."""
+
+    name: Line
+    other: Line
+
+
+class Seated(Struct, frozen=True, tag_field="entry", tag="seats"):
+    """The entrants of a match in the order of their seats."""
+
+    fixture: int
+    entrants: tuple[Line, ...]
+
+
+class Called(Struct, frozen=True, tag_field="entry", tag="call"):
+    """A match is called to an arcade; an empty name: the only one. None: the call is taken back."""
+
+    fixture: int
+    arcade: Line | None
+
+
+class Paused(Struct, frozen=True, tag_field="entry", tag="break"):
+    """A break begins, during which no match is called; the note says until when, or why."""
+
+    note: Line = ""
+
+
+class Resumed(Struct, frozen=True, tag_field="entry", tag="resumption"):
+    """The break ends."""
+
+
+Entry = (
+    Recorded | Corrected | Added | Withdrawn | Postponed | Substituted | Swapped | Seated | Called | Paused | Resumed
+)

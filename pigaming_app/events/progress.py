@@ -7,12 +7,26 @@ long as none of its matches has been played. A knock-out match has no result bef
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from pigaming_app.events.changes import exchanges
 from pigaming_app.events.formats import knockout, sudden_death
 from pigaming_app.events.formats.draws import NEXT, SCHEDULES
 from pigaming_app.events.formats.field import Draw, EntrantField
 from pigaming_app.events.formats.grouping import seated
 from pigaming_app.events.formats.sudden_death import Verdict
-from pigaming_app.events.journal import Added, Corrected, Entry, Postponed, Recorded, Substituted, Withdrawn
+from pigaming_app.events.journal import (
+    Added,
+    Called,
+    Corrected,
+    Entry,
+    Paused,
+    Postponed,
+    Recorded,
+    Resumed,
+    Seated,
+    Substituted,
+    Swapped,
+    Withdrawn,
+)
 from pigaming_app.events.spec import MOST, WALKOVER, Entrant, EventSpec, Fixture, Format, Result, Round, check_name
 
 SEED_STEP = 10_000  # between the seeds of two events, more than an event has matches
@@ -30,6 +44,8 @@ class Progress:
     outcomes: Mapping[int, Result] = field(default_factory=dict)  # by fixture, walkovers included
     played: Mapping[int, tuple[Result, ...]] = field(default_factory=dict)  # by fixture: the match, then extra ones
     postponed: Mapping[int, int] = field(default_factory=dict)  # times, by fixture
+    called: Mapping[int, str] = field(default_factory=dict)  # arcade, by fixture
+    pause: str | None = None  # note of a break; None: play goes on
 
     def after(self, entry: Entry) -> "Progress":
         """The event after this entry. Raises ValueError, with one sentence, if it is not possible."""
@@ -49,6 +65,22 @@ class Progress:
                 self._present(name)
                 entrants = (replace(one, brain=brain) if one.name == name else one for one in self.entrants)
                 return replace(self, entrants=tuple(entrants))
+            case Swapped(name, other):
+                self._present(name)
+                self._present(other)
+                return exchanges.swapped(self, name, other)
+            case Seated(number, seats):
+                return exchanges.seated(self, self._open_fixture(number), seats)
+            case Called(number, arcade):
+                return self._called(number, arcade)
+            case Paused(note):
+                if self.pause is not None:
+                    raise ValueError("the break has begun already")
+                return replace(self, pause=note)
+            case Resumed():
+                if self.pause is None:
+                    raise ValueError("there is no break")
+                return replace(self, pause=None)
 
     @property
     def fixtures(self) -> tuple[Fixture, ...]:
@@ -162,7 +194,8 @@ class Progress:
         number = fixture.number
         played = (*self.played.get(number, ()), outcome)
         postponed = {other: times for other, times in self.postponed.items() if other != number}
-        progress = replace(self, played={**self.played, number: played}, postponed=postponed)
+        called = {other: arcade for other, arcade in self.called.items() if other != number}
+        progress = replace(self, played={**self.played, number: played}, postponed=postponed, called=called)
         decided = progress.verdict(fixture)
         if decided.tied:
             return progress
@@ -222,6 +255,7 @@ class Progress:
             outcomes={number: outcome for number, outcome in self.outcomes.items() if number in numbers},
             played={number: outcomes for number, outcomes in self.played.items() if number in numbers},
             postponed={number: times for number, times in self.postponed.items() if number in numbers},
+            called={number: arcade for number, arcade in self.called.items() if number in numbers},
         )
 
     def _played(self, fixture: Fixture) -> bool:
@@ -234,6 +268,23 @@ class Progress:
         if number in self.outcomes:
             raise ValueError(f"match {number} has been played")
         return fixtures[number - 1]
+
+    def _called(self, number: int, arcade: str | None) -> "Progress":
+        fixture = self.next_match(self._open_fixture(number))
+        called = {other: where for other, where in self.called.items() if other != number}
+        if arcade is None:
+            if number not in self.called:
+                raise ValueError(f"match {number} is not called")
+            return replace(self, called=called)
+        if arcade:
+            check_name(arcade, "name of an arcade")
+        if self.pause is not None:
+            raise ValueError("nothing is called during a break")
+        for other in called.keys() - self.outcomes.keys():
+            busy = {*self.next_match(self.fixtures[other - 1]).entrants} & {*fixture.entrants}
+            if busy:
+                raise ValueError(f"{min(busy)} is called to match {other}")
+        return replace(self, called={**called, number: arcade})
 
     def _present(self, name: str) -> None:
         if all(entrant.name != name for entrant in self.entrants):

@@ -1,5 +1,19 @@
 """Tournaments and Grand Prix: knock-out, round robin, Swiss. A file holds the whole event."""
 
 from pigaming_app.jobs.events import export, new, play, show
+from pigaming_app.jobs.events.changes import call, correct, enter, pause, result, seat, swap, withdraw
 
-WORDS = {"new": new, "run": play, "show": show, "export": export}
+WORDS = {
+    "new": new,
+    "run": play,
+    "show": show,
+    "result": result,
+    "correct": correct,
+    "enter": enter,
+    "withdraw": withdraw,
+    "swap": swap,
+    "seat": seat,
+    "call": call,
+    "break": pause,
+    "export": export,
+}

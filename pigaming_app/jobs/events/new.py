@@ -4,13 +4,13 @@ import os
 import sys
 from argparse import ArgumentTypeError
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
 
-from pigaming_app.ai.brain_files import is_path
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
+from pigaming_app.events.changes.actions import with_whole_path
 from pigaming_app.events.entrant_lists import entrants_of_text, entrants_of_words, read_list
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
@@ -93,7 +93,7 @@ def _spec(options: NewEventOptions) -> EventSpec:
         title=options.title or options.file.stem[:MAX_TITLE],
         format=form,
         games=played,
-        entrants=tuple(_with_whole_path(entrant) for entrant in _entrants(options.entrants, played)),
+        entrants=tuple(with_whole_path(entrant) for entrant in _entrants(options.entrants, played)),
         rounds=options.rounds,
         seats=options.seats or DEFAULT_SEATS.get(form, SEATS[0]),
         arenas=_by_game("--arena", options.arena, played, _arenas),
@@ -133,11 +133,6 @@ def _require_brain(brain: str, played: tuple[str, ...]) -> None:
     require_for_brains([brain])
     for game in played:
         find_brain(game, brain)
-
-
-def _with_whole_path(entrant: Entrant) -> Entrant:
-    """A brain's file is found from any folder."""
-    return replace(entrant, brain=os.path.abspath(entrant.brain)) if is_path(entrant.brain) else entrant
 
 
 def _arenas(text: str) -> tuple[str, ...]:

@@ -37,6 +37,8 @@ def lines(event: Event) -> Iterator[str]:
     spec, played = event.spec, len(event.outcomes)
     yield f"{spec.title}: {spec.format}, {', '.join(spec.games)}"
     yield f"{played} matches played, {len(event.open)} open"
+    if event.pause is not None:
+        yield f"break: {event.pause}".rstrip(": ")
     yield ""
     yield from _table(event.standings)
     if event.team_standings:
@@ -48,6 +50,8 @@ def lines(event: Event) -> Iterator[str]:
     for fixture in event.open[:NEXT]:
         stage = f", {fixture.stage}" if fixture.stage else ""
         stage += ", sudden death" if fixture.extra else ""
+        called = event.calls.get(fixture.number)
+        stage += "" if called is None else f", called to {called}" if called else ", called"
         yield f"{fixture.number:>5}  {' – '.join(fixture.entrants)}  ({fixture.game}{stage})"
     if len(event.open) > NEXT:
         yield f"       and {len(event.open) - NEXT} more"

@@ -1,0 +1,1 @@
+"""Changes of an event: what an operator asks for becomes an entry of the journal."""
