@@ -68,9 +68,12 @@ class Progress:
             case Swapped(name, other):
                 self._present(name)
                 self._present(other)
-                return exchanges.swapped(self, name, other)
+                seeding, rounds = exchanges.swapped(self.as_field(), self.played, name, other)
+                by_name = {one.name: one for one in self.entrants}
+                return replace(self, entrants=tuple(by_name[one] for one in seeding), rounds=rounds)
             case Seated(number, seats):
-                return exchanges.seated(self, self._open_fixture(number), seats)
+                rounds = exchanges.seated(self.rounds, self.played, self._open_fixture(number), seats)
+                return replace(self, rounds=rounds)
             case Called(number, arcade):
                 return self._called(number, arcade)
             case Paused(note):
