@@ -7,8 +7,7 @@ long as none of its matches has been played. A knock-out match has no result bef
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from pigaming_app.events.changes import exchanges
-from pigaming_app.events.formats import knockout, sudden_death
+from pigaming_app.events.formats import exchanges, knockout, sudden_death
 from pigaming_app.events.formats.draws import NEXT, SCHEDULES
 from pigaming_app.events.formats.field import Draw, EntrantField
 from pigaming_app.events.formats.grouping import seated
