@@ -3,14 +3,10 @@
 Each function reads the event and returns one entry, which `Event.after` checks; its ValueErrors are plain sentences.
 """
 
-import os
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
 from itertools import groupby
 from math import isfinite
 
-from pigaming_app.ai.brain_files import is_path
-from pigaming_app.ai.registry import find_brain
 from pigaming_app.events.entrant_lists import entrants_of_words
 from pigaming_app.events.event import Event
 from pigaming_app.events.journal import Added, Corrected, Recorded, Seated
@@ -44,24 +40,10 @@ def scored(event: Event, number: int, extra: int, scores: Mapping[str, float]) -
     return Recorded(Result(number, by_score(fixture, scores), scores, extra=extra))
 
 
-def entered(event: Event, word: str, files: bool = True) -> Added:
-    """A late entrant: NAME, NAME/TEAM, NAME=AI. The AI plays all games; `files`: it may be the path of one."""
+def entered(event: Event, word: str, complete: Callable[[Entrant, Sequence[str]], Entrant]) -> Added:
+    """A late entrant: NAME, NAME/TEAM, NAME=AI. `complete(entrant, games)` checks that the AI plays all games."""
     (entrant,) = entrants_of_words([word])
-    return Added(checked(entrant, event.spec.games, files))
-
-
-def checked(entrant: Entrant, games: Sequence[str], files: bool = True) -> Entrant:
-    """An entrant whose AI plays all these games. Raises ValueError."""
-    if entrant.brain and is_path(entrant.brain) and not files:
-        raise ValueError(f"no brain {quote(entrant.brain)}")
-    for game in games if entrant.brain else ():
-        find_brain(game, entrant.brain)
-    return with_whole_path(entrant)
-
-
-def with_whole_path(entrant: Entrant) -> Entrant:
-    """An entrant whose brain's file is found from any folder."""
-    return replace(entrant, brain=os.path.abspath(entrant.brain)) if is_path(entrant.brain) else entrant
+    return Added(complete(entrant, event.spec.games))
 
 
 def seats(event: Event, number: int, words: Sequence[str]) -> Seated:

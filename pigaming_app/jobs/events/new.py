@@ -3,14 +3,14 @@
 import os
 import sys
 from argparse import ArgumentTypeError
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
 
+from pigaming_app.ai.brain_files import is_path
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
-from pigaming_app.events.changes.actions import with_whole_path
 from pigaming_app.events.entrant_lists import entrants_of_text, entrants_of_words, read_list
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
@@ -114,7 +114,7 @@ def _entrants(text: str, played: tuple[str, ...]) -> tuple[Entrant, ...]:
     except (OSError, ValueError) as error:
         raise Refusal(f"{quote(text[1:])}: cannot be read ({describe_error(error)})") from None
     try:
-        found = entrants_of_text(content, lambda brain: _require_brain(brain, played))
+        found = entrants_of_text(content, lambda brain: require_brain(brain, played))
     except ValueError as error:
         raise Refusal(f"{file}: {error}") from None
     if (count := len(found.entrants)) < FEWEST:
@@ -128,11 +128,16 @@ def _entrants(text: str, played: tuple[str, ...]) -> tuple[Entrant, ...]:
     return found.entrants
 
 
-def _require_brain(brain: str, played: tuple[str, ...]) -> None:
+def require_brain(brain: str, played: Sequence[str]) -> None:
     """Raises ChoiceError unless an AI plays all games, or Refusal if what runs it is missing."""
     require_for_brains([brain])
     for game in played:
         find_brain(game, brain)
+
+
+def with_whole_path(entrant: Entrant) -> Entrant:
+    """A brain's file is found from any folder."""
+    return replace(entrant, brain=os.path.abspath(entrant.brain)) if is_path(entrant.brain) else entrant
 
 
 def _arenas(text: str) -> tuple[str, ...]:
