@@ -50,7 +50,7 @@ class Swapped(Struct, frozen=True, tag_field="entry", tag="swap"):
     other: Line
 
 
-class Seated(Struct, frozen=True, tag_field="entry", tag="seats"):
+class Reseated(Struct, frozen=True, tag_field="entry", tag="seats"):
     """The entrants of a match in the order of their seats."""
 
     fixture: int
@@ -75,5 +75,5 @@ class Resumed(Struct, frozen=True, tag_field="entry", tag="resumption"):
 
 
 Entry = (
-    Recorded | Corrected | Added | Withdrawn | Postponed | Substituted | Swapped | Seated | Called | Paused | Resumed
+    Recorded | Corrected | Added | Withdrawn | Postponed | Substituted | Swapped | Reseated | Called | Paused | Resumed
 )

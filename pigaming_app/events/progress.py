@@ -20,8 +20,8 @@ from pigaming_app.events.journal import (
     Paused,
     Postponed,
     Recorded,
+    Reseated,
     Resumed,
-    Seated,
     Substituted,
     Swapped,
     Withdrawn,
@@ -70,7 +70,7 @@ class Progress:
                 seeding, rounds = exchanges.swapped(self.as_field(), self.played, name, other)
                 by_name = {one.name: one for one in self.entrants}
                 return replace(self, entrants=tuple(by_name[one] for one in seeding), rounds=rounds)
-            case Seated(number, seats):
+            case Reseated(number, seats):
                 rounds = exchanges.seated(self.rounds, self.played, self._open_fixture(number), seats)
                 return replace(self, rounds=rounds)
             case Called(number, arcade):

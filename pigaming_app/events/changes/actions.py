@@ -9,7 +9,7 @@ from math import isfinite
 
 from pigaming_app.events.entrant_lists import entrants_of_words
 from pigaming_app.events.event import Event
-from pigaming_app.events.journal import Added, Corrected, Recorded, Seated
+from pigaming_app.events.journal import Added, Corrected, Recorded, Reseated
 from pigaming_app.events.spec import Entrant, Fixture, Result
 from pigaming_app.storage.parsing import quote
 
@@ -46,7 +46,7 @@ def entered(event: Event, word: str, complete: Callable[[Entrant, Sequence[str]]
     return Added(complete(entrant, event.spec.games))
 
 
-def seats(event: Event, number: int, words: Sequence[str]) -> Seated:
+def seats(event: Event, number: int, words: Sequence[str]) -> Reseated:
     """The seats of a match: A=2 B=1; those who are not named keep the order of the others."""
     fixture = _fixture(event, number)
     wanted = {name: _number(text, "seat") for name, text in map(_pair, words)}
@@ -56,7 +56,7 @@ def seats(event: Event, number: int, words: Sequence[str]) -> Seated:
     _require_entrants(fixture, wanted)
     rest = iter(name for name in fixture.entrants if name not in wanted)
     by_seat = {int(seat): name for name, seat in wanted.items()}
-    return Seated(number, tuple(by_seat.get(seat) or next(rest) for seat in places))
+    return Reseated(number, tuple(by_seat.get(seat) or next(rest) for seat in places))
 
 
 def by_score(fixture: Fixture, scores: Mapping[str, float]) -> Places:

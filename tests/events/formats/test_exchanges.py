@@ -8,7 +8,7 @@ import pytest
 from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import parse, to_text
 from pigaming_app.events.formats.knockout import FINAL
-from pigaming_app.events.journal import Called, Paused, Resumed, Seated, Swapped
+from pigaming_app.events.journal import Called, Paused, Reseated, Resumed, Swapped
 from pigaming_app.events.spec import Format
 from tests.events.examples import best_seed_wins, by_chance, new_event, pairs_of, played
 
@@ -99,12 +99,12 @@ def test_both_brackets_of_a_knock_out_stay_apart():
 def test_seats_of_a_match():
     event = new_event(Format.SWISS, 4)
     turned = tuple(reversed(event.open[0].entrants))
-    event = event.after(Seated(1, turned))
+    event = event.after(Reseated(1, turned))
     assert event.open[0].entrants == turned
     with pytest.raises(ValueError, match=r"^match 1 is between P3, P1, each with one seat$"):
-        event.after(Seated(1, ("P1", "P2")))
+        event.after(Reseated(1, ("P1", "P2")))
     with pytest.raises(ValueError, match=r"^match 1 has been played$"):
-        event.record(best_seed_wins(event.open[0])).after(Seated(1, turned))
+        event.record(best_seed_wins(event.open[0])).after(Reseated(1, turned))
 
 
 def test_two_arcades_are_never_given_the_same_match_or_entrant():
