@@ -57,7 +57,7 @@ class Reseated(Struct, frozen=True, tag_field="entry", tag="seats"):
     entrants: tuple[Line, ...]
 
 
-class Called(Struct, frozen=True, tag_field="entry", tag="call"):
+class Summoned(Struct, frozen=True, tag_field="entry", tag="call"):
     """A match is called to an arcade; an empty name: the only one. None: the call is taken back."""
 
     fixture: int
@@ -75,5 +75,15 @@ class Resumed(Struct, frozen=True, tag_field="entry", tag="resumption"):
 
 
 Entry = (
-    Recorded | Corrected | Added | Withdrawn | Postponed | Substituted | Swapped | Reseated | Called | Paused | Resumed
+    Recorded
+    | Corrected
+    | Added
+    | Withdrawn
+    | Postponed
+    | Substituted
+    | Swapped
+    | Reseated
+    | Summoned
+    | Paused
+    | Resumed
 )

@@ -14,7 +14,6 @@ from pigaming_app.events.formats.grouping import seated
 from pigaming_app.events.formats.sudden_death import Verdict
 from pigaming_app.events.journal import (
     Added,
-    Called,
     Corrected,
     Entry,
     Paused,
@@ -23,6 +22,7 @@ from pigaming_app.events.journal import (
     Reseated,
     Resumed,
     Substituted,
+    Summoned,
     Swapped,
     Withdrawn,
 )
@@ -73,7 +73,7 @@ class Progress:
             case Reseated(number, seats):
                 rounds = exchanges.seated(self.rounds, self.played, self._open_fixture(number), seats)
                 return replace(self, rounds=rounds)
-            case Called(number, arcade):
+            case Summoned(number, arcade):
                 return self._called(number, arcade)
             case Paused(note):
                 if self.pause is not None:

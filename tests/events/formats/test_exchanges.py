@@ -8,7 +8,7 @@ import pytest
 from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import parse, to_text
 from pigaming_app.events.formats.knockout import FINAL
-from pigaming_app.events.journal import Called, Paused, Reseated, Resumed, Swapped
+from pigaming_app.events.journal import Paused, Reseated, Resumed, Summoned, Swapped
 from pigaming_app.events.spec import Format
 from tests.events.examples import best_seed_wins, by_chance, new_event, pairs_of, played
 
@@ -113,44 +113,44 @@ def test_two_arcades_are_never_given_the_same_match_or_entrant():
     for arcade in ("left", "right"):
         fixture = event.next_at(arcade)
         assert fixture
-        event = event.after(Called(fixture.number, arcade))
+        event = event.after(Summoned(fixture.number, arcade))
         there[arcade] = fixture.number
         assert event.next_at(arcade) == fixture
     left, right = (event.fixtures[there[arcade] - 1] for arcade in there)
     assert not {*left.entrants} & {*right.entrants}
     assert event.next_at("third") is None
     with pytest.raises(ValueError, match=rf"is called to match {there['left']}$"):
-        event.after(Called(next(one.number for one in event.open if one not in (left, right)), "third"))
+        event.after(Summoned(next(one.number for one in event.open if one not in (left, right)), "third"))
     event = event.record(best_seed_wins(left))
     assert event.calls == {right.number: "right"}
 
 
 def test_a_call_is_taken_back_and_goes_to_another_arcade():
-    event = new_event(Format.SWISS, 4).after(Called(1, "left"))
-    assert event.after(Called(1, "right")).calls == {1: "right"}
-    event = event.after(Called(1, None))
+    event = new_event(Format.SWISS, 4).after(Summoned(1, "left"))
+    assert event.after(Summoned(1, "right")).calls == {1: "right"}
+    event = event.after(Summoned(1, None))
     assert event.calls == {}
     with pytest.raises(ValueError, match=r"^match 1 is not called$"):
-        event.after(Called(1, None))
+        event.after(Summoned(1, None))
     with pytest.raises(ValueError, match="printable characters"):
-        event.after(Called(1, "a\nb"))
+        event.after(Summoned(1, "a\nb"))
 
 
 def test_nothing_is_called_during_a_break():
     event = new_event(Format.SWISS, 4).after(Paused("until 11:30"))
     assert event.pause == "until 11:30"
     with pytest.raises(ValueError, match=r"^nothing is called during a break$"):
-        event.after(Called(1, ""))
+        event.after(Summoned(1, ""))
     with pytest.raises(ValueError, match=r"^the break has begun already$"):
         event.after(Paused())
     event = event.after(Resumed())
     assert event.pause is None
     with pytest.raises(ValueError, match=r"^there is no break$"):
         event.after(Resumed())
-    assert event.after(Called(1, "")).calls == {1: ""}
+    assert event.after(Summoned(1, "")).calls == {1: ""}
 
 
 def test_a_call_of_a_match_that_is_drawn_anew_is_gone():
-    event: Event = played(new_event(Format.SWISS, 4), rounds=1).after(Called(3, "left"))
+    event: Event = played(new_event(Format.SWISS, 4), rounds=1).after(Summoned(3, "left"))
     assert event.calls == {3: "left"}
     assert event.withdraw("P4").calls == {}

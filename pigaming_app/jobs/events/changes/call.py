@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from pigaming_app.events.journal import Called
+from pigaming_app.events.journal import Summoned
 from pigaming_app.jobs.events.changes.changing import MatchOption, change
 from pigaming_app.jobs.terminal.options import argument, flag, word
 from pigaming_app.jobs.terminal.refusal import Refusal
@@ -21,4 +21,4 @@ def run(options: CallOptions) -> int:
     if options.off and options.arcade:
         raise Refusal("event call: --off goes without the name of an arcade")
     arcade = None if options.off else options.arcade
-    return change(options.file, options.json, lambda _: Called(options.match, arcade))
+    return change(options.file, options.json, lambda _: Summoned(options.match, arcade))
