@@ -19,6 +19,7 @@ from pigaming_app.ai.plugin_faults import blame, suspect
 from pigaming_app.scenes.features.registry import corner_pin, features
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
+from pigaming_app.scenes.guard import Guard
 from pigaming_app.scenes.launch import Options
 from pigaming_app.storage.messages import OperatorError
 from pigaming_app.storage.plugins.found import Plugin
@@ -51,6 +52,7 @@ class App:
     def __init__(self, options: Options, context: Context, troubles: list[str]) -> None:
         self.options, self.context = options, context
         self.notices, self.meter = context.notices, FrameMeter()
+        self.guard = Guard(context)
         self.pulse = Pulse(options.heartbeat) if options.heartbeat else None
         made = (feature.service(context, options) for feature in features() if feature.service)
         self.services = [service for service in made if service]
@@ -264,10 +266,11 @@ class App:
         before = stack.scenes[-1:]
         for press in presses:
             if stack.scenes:
-                stack.apply(stack.top.handle(press))
+                stack.apply(self.guard.handle(stack.scenes, press))
         if stack.scenes:
             budget.behind = budget.behind or stack.scenes[-1:] != before  # draw a new scene before prewarming
-            stack.apply(stack.top.update(seconds))
+            stack.apply(self.guard.checked(stack.top.update(seconds), None))
+        self.guard.roles.update(seconds, stack.scenes)
         for service in self.services:
             service.update(seconds, stack)
 

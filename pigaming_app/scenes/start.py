@@ -66,7 +66,7 @@ def opened(options: Options) -> "Iterator[App]":
         choose_kiosk_rules(settings)
     settings.settle()
     windowed = options.headless or options.emulator_seed is not None  # next to the emulated camera's window
-    canvas = Canvas.open(settings, options.display, False if windowed else None, options.headless)
+    canvas = Canvas.open(settings, options.display, False if windowed else None, options.headless, options.kiosk)
     crash_file = _open_log(data_folders.data)
     pygame.font.init()
     read_large(settings.large_text)

@@ -152,6 +152,7 @@ class Settings:
     quiet_until: Annotated[str, time_of_day] = "00:00"  # to here; the same time: never
     group_minutes: Annotated[int, between(0, 120)] = 0  # from the title to the title; 0: no limit
     keep_choices: bool = False  # visitors' choices stay and are saved
+    pin_asked: bool = False  # a kiosk has asked for a PIN once
     controls: Annotated[dict[Short, Functions], Meta(max_length=MAX_DEVICES)] = field(
         default_factory=dict
     )  # changed keys and buttons, by key cluster (keys1 to keys4) and by kind of pad

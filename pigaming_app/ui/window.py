@@ -59,8 +59,8 @@ class Canvas:
     Each of `watchers` is called with every picture shown in the window.
     """
 
-    def __init__(self, display: int, fullscreen: bool, headless: bool) -> None:
-        self.headless = headless
+    def __init__(self, display: int, fullscreen: bool, headless: bool, grabs: bool = False) -> None:
+        self.headless, self.grabs = headless, grabs and not headless
         self.fullscreen = fullscreen and not headless
         self.display = display
         self.notices: list[str] = []
@@ -79,8 +79,12 @@ class Canvas:
         display: int | None = None,
         fullscreen: bool | None = None,
         headless: bool = False,
+        grabs: bool = False,
     ) -> "Canvas":
         """Open the window as given by the arguments, else by the settings. Raises NoDisplay.
+
+        `grabs`: in full screen, keyboard and pointer stay with it as far as the system allows, with Alt+Tab and the
+        keys of the desktop.
 
         Call it before `pygame.init`, because SDL reads some hints only once.
         """
@@ -99,6 +103,7 @@ class Canvas:
                 settings.display if display is None else display,
                 settings.fullscreen if fullscreen is None else fullscreen,
                 headless or driver in _MEMORY_DRIVERS,
+                grabs,
             )
         except pygame.error as reason:
             pygame.display.quit()
@@ -137,7 +142,7 @@ class Canvas:
     def restore(self) -> None:
         """Undo what a failed scene may have done to the surface and the pointer."""
         self._picture = None
-        pygame.event.set_grab(False)
+        self._grab()
         window = pygame.display.get_surface()
         if window is None:
             return
@@ -217,7 +222,11 @@ class Canvas:
             else:
                 size = _window_size(sizes[self.display])
                 pygame.display.set_mode(size, pygame.RESIZABLE, display=self.display)
+        self._grab()
         self._pointer_moved = time.monotonic()
+
+    def _grab(self) -> None:
+        pygame.event.set_grab(self.grabs and self.fullscreen)
 
     def _draw_warped(self, picture: pygame.Surface, window: pygame.Surface, area: pygame.Rect) -> None:
         from pigaming_app.ui.draw.pixels import bgra_surface, pixels_of
@@ -241,6 +250,8 @@ def _set_sdl_hints(headless: bool) -> None:
         "SDL_WINDOWS_DPI_AWARENESS": "permonitorv2",
         "SDL_VIDEO_MINIMIZE_ON_FOCUS_LOSS": "0",
         "SDL_JOYSTICK_ALLOW_BACKGROUND_EVENTS": "1",
+        "SDL_GRAB_KEYBOARD": "1",  # with the pointer, see `grabs`
+        "SDL_ALLOW_ALT_TAB_WHILE_GRABBED": "0",
         "PYGAME_HIDE_SUPPORT_PROMPT": "1",
     }
     for name, value in hints.items():

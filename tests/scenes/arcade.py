@@ -9,6 +9,7 @@ from pigaming_app.games.game import Setup
 from pigaming_app.scenes.app import App
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, Stack, StackOperation
+from pigaming_app.scenes.guard import Guard
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.awards.moment import AwardsMoment
 from pigaming_app.scenes.results.winner import WinnersMoment
@@ -91,7 +92,10 @@ class Arcade:
     def press(self, *buttons: Button, device: Device = KEYS[0]) -> None:
         """Press buttons, each on the scene that is then on top."""
         for button in buttons:
-            self.stack.apply(self.stack.top.handle(InputEvent(button, device)))
+            self._handle(InputEvent(button, device))
+
+    def _handle(self, event: InputEvent) -> None:
+        self.stack.apply(Guard(self.context).handle(self.stack.scenes, event))
 
     def plug(self, *about: Any, **more: Any) -> tuple[VirtualPad, Device]:
         """A virtual pad that is plugged in, and the device that it is."""
@@ -100,14 +104,14 @@ class Arcade:
         return self.pads[-1], Device("pad", self.pads[-1].number)
 
     def click(self, x: float, y: float) -> None:
-        self.stack.apply(self.stack.top.handle(InputEvent(Button.CLICK, Device("mouse"), at=(x, y))))
+        self._handle(InputEvent(Button.CLICK, Device("mouse"), at=(x, y)))
 
     def frame(self, seconds: float = 1 / 30, draw: bool = False) -> None:
         """One iteration of the main loop."""
         controls = self.context.controls
         for event in [*controls.presses(pygame.event.get()), *controls.repeats(seconds)]:
-            self.stack.apply(self.stack.top.handle(event))
-        self.stack.apply(self.stack.top.update(seconds))
+            self._handle(event)
+        self.stack.apply(Guard(self.context).checked(self.stack.top.update(seconds), None))
         if draw:
             self.stack.top.draw(self.screen)
 

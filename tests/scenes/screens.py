@@ -66,6 +66,7 @@ from pigaming_app.scenes.mat.robots.menu import RobotsMenu
 from pigaming_app.scenes.options import games_page
 from pigaming_app.scenes.options.games_page import NewGame
 from pigaming_app.scenes.options.page import SECTIONS, OptionsPage
+from pigaming_app.scenes.pages.pin_page import DigitsPage, NewPinPage, PinPage
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import PATIENCE, JoinByPhone
 from pigaming_app.scenes.phones.settings_page import PhonesPage
@@ -83,6 +84,7 @@ from pigaming_app.scenes.results.scene import Results
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.day_log import Battery, PlayedMatch, ProgramEvent, Record
 from pigaming_app.storage.messages import OperatorMessage
+from pigaming_app.storage.pin import LONGEST
 from pigaming_app.storage.plugins.found import Plugin, found
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.scores import ScoreTable
@@ -336,6 +338,13 @@ def events(arcade: Arcade) -> Scene:
     return scene
 
 
+def typed(page: DigitsPage, count: int, said: str) -> DigitsPage:
+    """A page with so many digits, after a sentence."""
+    page.tell(said, True)
+    page.digits = "8" * count
+    return page
+
+
 def figures(arcade: Arcade) -> FiguresPage:
     """The figures of a busy day."""
     page = FiguresPage(arcade.context)
@@ -543,6 +552,10 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "operator": lambda arcade: OptionsPage(arcade.context, operator=True),
     "operator day": lambda arcade: OperatorPage(arcade.context),
     "operator figures": figures,
+    "PIN": lambda arcade: typed(PinPage(arcade.context), LONGEST, "access.wrong"),
+    "new PIN": lambda arcade: NewPinPage(arcade.context, first=True),
+    "easy PIN": lambda arcade: typed(NewPinPage(arcade.context), 4, "access.easy"),
+    "two PINs": lambda arcade: typed(NewPinPage(arcade.context), 0, "access.different"),
     **{f"options {section}": partial(options, section=section) for section in SECTIONS},
     "remap": lambda arcade: RemapPage(arcade.context),
     "robots menu": lambda arcade: RobotsMenu(arcade.context),

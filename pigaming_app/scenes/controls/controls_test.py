@@ -11,6 +11,7 @@ import pygame
 
 from pigaming_app.ai.registry import AIS
 from pigaming_app.scenes.controls import pictures as gadgets
+from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.stack import StackOperation
@@ -40,6 +41,7 @@ BUTTONS = (Button.FIRE, Button.BACK, Button.X, Button.Y, Button.START)
 class ControlsTest(Page):
     """The page. `lit`: remaining seconds of each highlighted button."""
 
+    right = Right.PLAY
     title, idle = "padtest.title", 120.0
 
     def __init__(self, context: Context) -> None:

@@ -13,15 +13,21 @@ A device is seated when it drives a seat, or holds one in the lobby, and is plug
 | results         | vote, START, change, tables, leave | FIRE: an absent person's seat; held: an AI's |
 | initials        | its own three letters              | nothing                                  |
 
-While nobody is seated, every device counts. The operator always counts: the mouse acts on the element under it, F1
-stops robots, F4 shows AI thoughts, and Escape held for a second acts even if the keyboard is free: it pauses a match,
-takes over a pause, and leaves any other screen.
+While nobody is seated, every device counts. Keyboard and mouse always count: the mouse acts on the element under it,
+F1 stops robots, F4 shows AI thoughts, and Escape held for a second acts even if the keyboard is free: it pauses a
+match, takes over a pause, and leaves any other screen.
+
+Besides, a screen may need a right, which devices have by their role (LOWEST, `Roles`).
 """
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
+from enum import Enum, IntEnum
 
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.storage.pin import PinFile
+from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
 
@@ -30,7 +36,112 @@ ESCAPE_SECONDS = 1.0  # seconds for which an operator holds Escape
 TAKE_SECONDS = 0.6  # seconds for which FIRE is held to take an AI's seat
 ALWAYS = (Button.FOUND, Button.LOST, Button.STOP, Button.POINT, Button.CLICK)  # accepted from any device
 
+SESSION, BREAK = (
+    120.0,
+    30.0,
+)  # s without a press for which an operator's session lasts: on a screen of theirs, elsewhere
+HOLD, HOLD_WITHOUT_PIN = 1.0, 5.0  # s for which a button is held for what cannot be undone; the latter in a kiosk
+
 Devices = Sequence[Device | None]
+
+
+class Role(IntEnum):
+    """Whom a device stands for. Phones are visitors' everywhere."""
+
+    VISITOR = 0  # in a kiosk
+    OPERATOR = 1  # in a kiosk: after the PIN; without one, everybody at a pad or the keyboard
+    OWNER = 2  # outside a kiosk: whoever has started the arcade
+
+
+class Right(Enum):
+    """What a screen may need."""
+
+    PLAY = "play"  # with everything that visitors choose, draw and train for themselves
+    EVENTS = "events"  # corrections, withdrawals, another title, deletion
+    ROBOTS = "robots"  # real robots, camera, calibration
+    SETTINGS = "settings"  # of the house
+    OPERATE = "operate"  # the operator's page, the second screen
+    RESTORE = "restore"  # what was deleted
+    CLOSE = "close"  # the arcade
+    OWN = "own"  # another PIN or none, deletion for good
+
+
+LOWEST: Mapping[Right, Role] = {
+    Right.PLAY: Role.VISITOR,
+    Right.EVENTS: Role.OPERATOR,
+    Right.ROBOTS: Role.OPERATOR,
+    Right.SETTINGS: Role.OPERATOR,
+    Right.OPERATE: Role.OPERATOR,
+    Right.RESTORE: Role.OPERATOR,
+    Right.CLOSE: Role.OPERATOR,
+    Right.OWN: Role.OWNER,
+}  # the lowest role with each right
+
+
+def right_of(scenes: Sequence[Scene]) -> Right:
+    """The right that the scene on top needs: its attribute `right`, else that of the next scene below with one."""
+    rights = (getattr(scene, "right", None) for scene in reversed(scenes))
+    return next((right for right in rights if isinstance(right, Right)), Right.PLAY)
+
+
+class Roles:
+    """The roles of devices, and the session of an operator, which a PIN begins on one device."""
+
+    def __init__(self, context: Context) -> None:
+        self.context, self.pin = context, PinFile(folders().config)
+        self._who: Device | None = None  # in session
+        self._left = 0.0  # s of the session
+
+    @property
+    def guarded(self) -> bool:
+        """True in a kiosk whose operator has a PIN."""
+        return self.context.kiosk and self.pin.is_set
+
+    @property
+    def hold(self) -> float:
+        """Seconds for which a button is held for what cannot be undone."""
+        return HOLD_WITHOUT_PIN if self.context.kiosk and not self.pin.is_set else HOLD
+
+    @property
+    def in_session(self) -> bool:
+        """True while an operator is at work."""
+        return self._who is not None
+
+    def role_of(self, device: Device) -> Role:
+        if device.kind == "phone":
+            return Role.VISITOR
+        if not self.context.kiosk:
+            return Role.OWNER
+        return Role.OPERATOR if self._who == _person(device) or not self.pin.is_set else Role.VISITOR
+
+    def may(self, device: Device, right: Right) -> bool:
+        return self.role_of(device) >= LOWEST[right]
+
+    def begin(self, device: Device) -> None:
+        """The PIN was entered on a device."""
+        self._who, self._left = _person(device), SESSION
+
+    def end(self) -> None:
+        """The operator leaves."""
+        self._who = None
+
+    def used(self, device: Device) -> None:
+        """A press on a screen that needs a right: the session of this device goes on."""
+        if self._who == _person(device):
+            self._left = SESSION
+
+    def update(self, seconds: float, scenes: Sequence[Scene]) -> None:
+        """Advance by `seconds`."""
+        if self._who is None:
+            return
+        self._left = min(self._left, SESSION if right_of(scenes) is not Right.PLAY else BREAK) - seconds
+        if self._left <= 0.0 or not self.context.controls.connected(self._who):
+            self.end()
+
+
+def _person(device: Device) -> Device:
+    """Keyboard and mouse are in the same hands."""
+    return Device("keys") if device.kind in ("keys", "mouse") else device
 
 
 class Access:

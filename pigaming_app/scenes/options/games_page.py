@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pygame
 
+from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
@@ -44,6 +45,7 @@ SCALE = 0.8  # of the picture of a tile
 class GamesPage(SettingsPage):
     """One page of plug-ins; the row below them leads to the next one. `first`: index of its first plug-in."""
 
+    right = Right.SETTINGS
     table, title = "plugins", "plugins.title"
 
     def __init__(self, context: Context, first: int = 0) -> None:
@@ -140,6 +142,7 @@ def why(plugin: Plugin) -> str:
 class NewGame(Sheet):
     """X switches it on, FIRE leaves it off, BACK leaves it for later. Either counts from the next start on."""
 
+    right = Right.SETTINGS
     color = FOCUS
 
     def __init__(self, context: Context, plugin: Plugin) -> None:

@@ -12,6 +12,7 @@ import pygame
 
 from pigaming_app.scenes.features.feature import OptionRow
 from pigaming_app.scenes.features.registry import features
+from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
 from pigaming_app.scenes.options import pictures
@@ -37,6 +38,7 @@ class OptionsPage(SettingsPage):
 
     def __init__(self, context: Context, operator: bool = False, section: str = "") -> None:
         self.operator, self.untimed, self.cleared = operator, operator, False
+        self.right = Right.SETTINGS if operator or not context.kiosk else Right.PLAY
         self.title = f"options.{section or ('operator' if operator else 'title')}"
         self.options = options_of(section)
         rows = [*self.options] if operator or not context.kiosk else offered(section)

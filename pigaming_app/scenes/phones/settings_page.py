@@ -2,6 +2,7 @@
 
 import pygame
 
+from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.pages.settings_page import SettingsPage
@@ -24,6 +25,7 @@ STATUS_Y = 640  # px: what phones find at the moment
 class PhonesPage(SettingsPage):
     """The page. Changes apply and are saved at once."""
 
+    right = Right.SETTINGS
     table, title = "phones", "options.phones"
 
     def __init__(self, context: Context) -> None:

@@ -6,7 +6,7 @@ of all of them there is no play test.
 
 import pygame
 
-from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.access import Access, Right
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.device_words import steering
 from pigaming_app.scenes.flow.stack import Push, StackOperation
@@ -30,6 +30,7 @@ TEXT_Y, TEXT_PITCH, TOP, CALL_Y = 206, 44, 288, 925  # px
 class ConsentPage(Page):
     """`agreed`: the age band of each device, once all have agreed; `ages`: those chosen so far."""
 
+    right = Right.PLAY
     title, idle, prompts_y = "playtest.title", 120.0, 995
 
     def __init__(self, context: Context, game: str) -> None:

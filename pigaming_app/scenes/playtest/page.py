@@ -1,5 +1,6 @@
 """The operator's page of play tests: what is recorded, the game, begin, and the matches kept so far."""
 
+from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.scenes.flow.stack import Push, StackOperation
@@ -18,6 +19,7 @@ ROWS = ("begin", "game", "last", "all")
 class PlayTestPage(SettingsPage):
     """Changes are not saved; holding FIRE deletes."""
 
+    right = Right.SETTINGS
     table, title, saves = "playtest", "playtest.title", False
 
     def __init__(self, context: Context) -> None:

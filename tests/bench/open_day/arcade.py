@@ -86,7 +86,7 @@ def main(folder: Path) -> int:
         app.options = replace(app.options, step=STEP if stage.busy else IDLE_STEP)
         return now >= day.seconds and not stage.busy and not watch.pending
 
-    phones = {"phones": True, "phones_network": "127.0.0.1", "phones_port": int(os.environ[PORT])}
+    phones = {"pin_asked": True, "phones": True, "phones_network": "127.0.0.1", "phones_port": int(os.environ[PORT])}
     options = Options(
         headless=True,
         kiosk=True,

@@ -8,11 +8,12 @@ from pigaming_app.events import event_files
 from pigaming_app.events.spec import Format
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.manage.corrections import MAX_NOTE, NOTES, Correction, ResultsList
-from pigaming_app.scenes.events.manage.event_page import DELETE, HOLD, HOLD_IN_KIOSK, RENAME, WITHDRAW, EventPage
+from pigaming_app.scenes.events.manage.event_page import DELETE, RENAME, WITHDRAW, EventPage
 from pigaming_app.scenes.events.manage.text_page import ALPHABET, TextPage
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
+from pigaming_app.scenes.flow.access import HOLD, HOLD_WITHOUT_PIN
 from pigaming_app.scenes.flow.stack import Pop, Scene
 from pigaming_app.storage.safe_files import NotSaved, backup_of
 from pigaming_app.ui.input.events import Button, Device
@@ -183,9 +184,9 @@ def test_in_a_kiosk_visitors_read_the_results_but_do_not_change_them(arcade: Arc
     arcade.context.kiosk = True
     run = running(played(an_event(), 2))
     arcade.open(ResultsList(arcade.context, run))
-    arcade.key("SPACE", HOLD_IN_KIOSK - 0.5)
+    arcade.key("SPACE", HOLD_WITHOUT_PIN - 0.5)
     assert arcade.shown(ResultsList).message == arcade.context.words("events.hold")
-    arcade.key("SPACE", HOLD_IN_KIOSK + 0.2)
+    arcade.key("SPACE", HOLD_WITHOUT_PIN + 0.2)
     assert arcade.shown(Correction).fixture == run.event.fixtures[1]
 
 
@@ -196,9 +197,9 @@ def test_in_a_kiosk_visitors_neither_change_the_title_nor_delete_an_event(
     arcade.context.kiosk = True
     run = running(an_event())
     managed(arcade, run, row)
-    arcade.key("SPACE", HOLD_IN_KIOSK - 0.5)
+    arcade.key("SPACE", HOLD_WITHOUT_PIN - 0.5)
     arcade.shown(EventPage)
     assert run.path.exists()
-    arcade.key("SPACE", HOLD_IN_KIOSK + 0.2)
+    arcade.key("SPACE", HOLD_WITHOUT_PIN + 0.2)
     arcade.shown(then)
     assert run.path.exists() is (row == RENAME)

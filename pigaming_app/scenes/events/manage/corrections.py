@@ -11,10 +11,10 @@ import pygame
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import WALKOVER, Fixture, Result
-from pigaming_app.scenes.events.manage.event_page import HOLD_IN_KIOSK
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.names import places_line, places_of, shortened
 from pigaming_app.scenes.events.running import RunningEvent, decided_by, round_name
+from pigaming_app.scenes.flow.access import HOLD, HOLD_WITHOUT_PIN, Right, Roles
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.pages.page import Page
@@ -45,7 +45,7 @@ class ResultsList(Page):
     """The matches that have been played, on pages of ROWS."""
 
     title = "events.results"
-    idle, when_idle, stay = 60.0, Pop(), HOLD_IN_KIOSK
+    idle, when_idle, stay = 60.0, Pop(), HOLD_WITHOUT_PIN
     hints = (
         (Button.FIRE, "events.hint_correct"),
         (Button.Y, "events.hint_again"),
@@ -56,7 +56,8 @@ class ResultsList(Page):
     def __init__(self, context: Context, running: RunningEvent) -> None:
         super().__init__(context, Focus([FocusSpot("0", row_box(0))]))
         self.running, self.page = running, 0
-        self.holding = HoldTimers(context.controls, HOLD_IN_KIOSK)
+        self.roles = context.shared(Roles)
+        self.holding = HoldTimers(context.controls, HOLD_WITHOUT_PIN)
         self._show()
 
     def prewarm(self, milliseconds: float) -> bool:
@@ -84,10 +85,10 @@ class ResultsList(Page):
         return turn
 
     def choose(self, name: str, event: InputEvent) -> StackOperation:
-        """Correct a result; in a kiosk the button is held."""
+        """Correct a result; in a kiosk without a PIN the button is held."""
         if not self.shown:
             return None
-        if not self.context.kiosk:
+        if self.roles.hold == HOLD or not self.roles.may(event.device, Right.EVENTS):
             return self._correct(name)
         self.context.sounds.play("move")
         self.show_message(self.context.words("events.hold"))
@@ -172,7 +173,7 @@ class ShownAgain:
 class Correction(SettingsPage):
     """The places of one match, and the reason why they change."""
 
-    table, saves = "events", False
+    right, table, saves = Right.EVENTS, "events", False
     idle, when_idle, stay = 60.0, Pop(), 5.0
     hints = (
         (Button.RIGHT, "options.hint_change"),

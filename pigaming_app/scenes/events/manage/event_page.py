@@ -10,6 +10,7 @@ from pigaming_app.events import event_files
 from pigaming_app.events.spec import MAX_TITLE
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
+from pigaming_app.scenes.flow.access import HOLD, Right, Roles
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.pages.page import Page
@@ -23,7 +24,6 @@ from pigaming_app.ui.widgets import setting_row
 from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-HOLD, HOLD_IN_KIOSK = 1.0, 5.0  # s
 RENAME, WITHDRAW, DELETE = "rename", "withdraw", "delete"
 SIGNS = {RENAME: "pencil", WITHDRAW: "cross", DELETE: "cross"}
 
@@ -33,12 +33,13 @@ log = logging.getLogger("pigaming")
 class EventPage(SettingsPage):
     """The event in a file; `running` is None if the file is damaged. `gone`: the way out after it has been deleted."""
 
-    table, saves = "events", False
+    right, table, saves = Right.EVENTS, "events", False
     idle, when_idle, stay = 60.0, Pop(), 5.0
 
     def __init__(self, context: Context, path: Path, running: RunningEvent | None, gone: StackOperation) -> None:
         self.path, self.running, self.gone = path, running, gone
-        self.hold = HOLD_IN_KIOSK if context.kiosk else HOLD
+        self.roles = context.shared(Roles)
+        self.hold = self.roles.hold
         self.chosen = 0  # among those who have not withdrawn
         super().__init__(context, self._rows)
 
@@ -77,7 +78,7 @@ class EventPage(SettingsPage):
 
     def fire(self, name: str, event: InputEvent) -> StackOperation:
         """FIRE renames; held, it withdraws or deletes."""
-        if name == RENAME and not self.context.kiosk:
+        if name == RENAME and self.hold == HOLD:
             return self._open_title()
         self.context.sounds.play("move")
         self.holding.begin(event)

@@ -9,12 +9,15 @@ from typing import TYPE_CHECKING, Protocol, runtime_checkable
 import pygame
 
 from pigaming_app.scenes.features.feature import Service
+from pigaming_app.scenes.flow.access import Right, Roles
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, Stack
+from pigaming_app.scenes.guard import Guard
 from pigaming_app.scenes.kiosk.operator.group_limit import GroupLimit
 from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
 from pigaming_app.ui.draw import FOCUS, ICE
 from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.input.events import Device
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.notices import MAX_WIDTH
 
@@ -23,7 +26,7 @@ if TYPE_CHECKING:
 
 LOOK = 1.0  # s between two looks for displays
 WAITED = 60.0  # s without a press on the title, or in attract mode, until the house's choices return
-HOLD, HOLD_IN_KIOSK = 1.0, 5.0  # s for which F10 is held
+KEYBOARD = Device("keys")
 SIZE, SENTENCE_Y = 34, 1047  # px, of what a group is told: below the row of prompts
 MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL)
 
@@ -44,7 +47,7 @@ class OperatorDesk(Service):
 
     def __init__(self, context: Context, scoreboard: int | None, limited: bool) -> None:
         self.context, self.notices, self.limited = context, context.notices, limited
-        self.board = context.shared(Pages)
+        self.board, self.roles = context.shared(Pages), context.shared(Roles)
         self.limit = GroupLimit(context)
         self.held: float | None = None  # s for which F10 has been held
         self.window: ScoreboardWindow | None = None
@@ -61,7 +64,8 @@ class OperatorDesk(Service):
         """The events for the arcade: without the mouse over the second screen. Handles the operator's keys."""
         for event in events:
             if event.type == pygame.KEYDOWN and event.key == pygame.K_F2:
-                self._next_page(scenes)
+                if self.roles.may(KEYBOARD, Right.OPERATE):
+                    self._next_page(scenes)
             elif event.type == pygame.KEYDOWN and event.key == pygame.K_F10:
                 self.held = 0.0
             elif event.type == pygame.KEYUP and event.key == pygame.K_F10:
@@ -75,9 +79,11 @@ class OperatorDesk(Service):
             return
         if self.held is not None:
             self.held += seconds
-            if self.held >= (HOLD_IN_KIOSK if self.context.kiosk else HOLD):
+            if self.held >= self.roles.hold:
                 self.held = None
                 self._open_page(stack)
+        if self.context.kiosk and not self.context.settings.pin_asked and len(stack.scenes) == 1 and self.limited:
+            self._offer_pin(stack)
         if self.limited:
             stack.apply(self.limit.update(seconds, stack.scenes))
             self._return_to_house(stack.scenes)
@@ -173,9 +179,18 @@ class OperatorDesk(Service):
         self.board.chosen = names[(at + 1) % len(names)]
         self.notices.add(self.context.words(f"scoreboard.shows_{self.board.chosen}"))
 
+    def _offer_pin(self, stack: Stack) -> None:
+        """On the first title of a kiosk, its operator may set a PIN."""
+        self.context.settings.pin_asked = True
+        if not self.roles.pin.is_set:
+            from pigaming_app.scenes.pages.pin_page import NewPinPage
+
+            stack.apply(Push(NewPinPage(self.context, first=True)))
+
     def _open_page(self, stack: Stack) -> None:
         from pigaming_app.scenes.kiosk.operator.page import OperatorPage
 
         if not any(isinstance(scene, OperatorPage) for scene in stack.scenes):
             self.context.sounds.play("accept")
-            stack.apply(Push(OperatorPage(self.context, tuple(stack.scenes))))
+            page = Push(OperatorPage(self.context, tuple(stack.scenes)))
+            stack.apply(Guard(self.context).checked(page, KEYBOARD))

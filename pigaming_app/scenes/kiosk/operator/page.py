@@ -5,6 +5,7 @@ It opens from the options, and over any screen by holding F10; a match below it 
 
 from collections.abc import Sequence
 
+from pigaming_app.scenes.flow.access import Right, Roles
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation, Swap
@@ -12,6 +13,7 @@ from pigaming_app.scenes.kiosk import safe_start
 from pigaming_app.scenes.kiosk.operator import pictures
 from pigaming_app.scenes.kiosk.operator.group_limit import InMatch
 from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
+from pigaming_app.scenes.pages.pin_page import NewPinPage
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.storage.safe_mode import is_safe
 from pigaming_app.storage.settings import folders
@@ -21,6 +23,7 @@ from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 SAFE_START = "safe_start"  # a row after failed starts only
+PIN = "pin"
 ROWS = (
     "figures", "quiet_from", "quiet_until", "volume_cap", "group_minutes", "keep_choices",
     "scoreboard", "board", "end_all",
@@ -32,6 +35,7 @@ LIMITS = (0, 5, 10, 15, 20, 30, 45, 60)  # minutes of a group
 class OperatorPage(SettingsPage):
     """`below`: the scenes under it, if it lies over any but the options."""
 
+    right = Right.OPERATE
     untimed = True
     table, title = "operator", "operator.title"
 
@@ -39,8 +43,10 @@ class OperatorPage(SettingsPage):
         self.below = below
         self.when_idle = Pop() if below else Home()
         self.safe_start = SafeStartNotice(context)
+        self.roles = context.shared(Roles)
         rows = (SAFE_START, *ROWS) if self.safe_start.due else ROWS
-        super().__init__(context, rows)
+        own = not context.kiosk or not self.roles.pin.is_set  # in a kiosk, the PIN in use stays
+        super().__init__(context, (*rows, PIN) if own else rows)
 
     def on_enter(self) -> None:
         if self.below:
@@ -94,6 +100,8 @@ class OperatorPage(SettingsPage):
                 names = [page.name for page in board.pages]
                 chosen = names.index(board.chosen)
                 return SettingValue("arrows", tuple(words(f"scoreboard.{page}") for page in names), chosen)
+        if name == PIN:
+            return self.action("operator.pin_change" if self.roles.pin.is_set else "operator.pin_choose")
         return self.action("options.open" if name == "figures" else "options.clear")
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
@@ -103,6 +111,9 @@ class OperatorPage(SettingsPage):
 
             self.context.sounds.play("accept")
             return Push(FiguresPage(self.context))
+        if name == PIN:
+            self.context.sounds.play("accept")
+            return Push(NewPinPage(self.context))
         if name == SAFE_START:
             self.context.sounds.play("accept")
             self.save(self.safe_start.agree)

@@ -48,6 +48,10 @@ def drawn(name: str, chosen: int) -> LitImage:
             ink.text("3:2", TITLE - 24, 108, -26, ICE, "hero", "c")
         elif on:
             icon(ink, "crown", 108, -26, 40, ICE, LINE)
+    elif name == "pin":
+        ink.line(cut_box(-84, -20, 168, 128, 20), ICE, LINE, True).arc(0, -20, 54, math.pi, math.tau, ICE, LINE)
+        for x in (-48, -16, 16, 48):
+            ink.disc(x, 44, 9, FOCUS)
     elif name == "end_all":
         ink.line(cut_box(-96, -96, 192, 192, 56), ALARM, LINE, True)
         ink.text("0:00", LABEL, 0, 0, ICE, "hero", "c")

@@ -6,6 +6,7 @@ from collections.abc import Callable
 import pygame
 
 from pigaming_app.hardware.vision.markers import OpenCVMissing
+from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation
 from pigaming_app.scenes.mat.session import session_if_any
@@ -30,6 +31,7 @@ log = logging.getLogger("pigaming")
 class RobotsMenu(SettingsPage):
     """The menu."""
 
+    right = Right.ROBOTS
     table, title = "robots", "robots.title"
     idle, stay = 300.0, 8.0
     hints = ((Button.FIRE, "robots.hint_ok"), (Button.BACK, "robots.hint_back"))

@@ -24,6 +24,7 @@ language = "pt"
 strength = "level2"
 attract_seconds = {attract}
 keep_choices = {keep}
+pin_asked = true
 [games.race]
 arena = "kidney"
 minutes = 3

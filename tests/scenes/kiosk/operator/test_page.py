@@ -5,11 +5,12 @@ import json
 import pygame
 import pytest
 
+from pigaming_app.scenes.flow.access import HOLD, HOLD_WITHOUT_PIN
 from pigaming_app.scenes.kiosk import safe_start
 from pigaming_app.scenes.kiosk.operator.chart import OTHERS, bars_of, games_of, step_of
-from pigaming_app.scenes.kiosk.operator.desk import HOLD, HOLD_IN_KIOSK, OperatorDesk
+from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
 from pigaming_app.scenes.kiosk.operator.figures_page import FOLDER, FiguresPage, _short
-from pigaming_app.scenes.kiosk.operator.page import LIMITS, ROWS, SAFE_START, OperatorPage
+from pigaming_app.scenes.kiosk.operator.page import LIMITS, PIN, ROWS, SAFE_START, OperatorPage
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
@@ -120,7 +121,7 @@ def key(kind: int, code: int) -> pygame.Event:
     return pygame.Event(kind, key=code, scancode=0, mod=0)
 
 
-@pytest.mark.parametrize(("kiosk", "hold"), [(False, HOLD), (True, HOLD_IN_KIOSK)])
+@pytest.mark.parametrize(("kiosk", "hold"), [(False, HOLD), (True, HOLD_WITHOUT_PIN)])
 def test_f10_opens_it_once_over_any_screen_when_held(arcade: Arcade, kiosk: bool, hold: float) -> None:
     arcade.context.kiosk = kiosk
     desk = OperatorDesk(arcade.context, None, True)
@@ -255,8 +256,8 @@ def test_it_names_what_was_taken_back_until_the_operator_agrees(arcade: Arcade) 
     assert page.focus.name == SAFE_START
     assert page.line(SAFE_START).endswith("Second screen, Display, …")
     arcade.press(Button.FIRE)
-    assert arcade.shown(OperatorPage).rows == ROWS
-    assert OperatorPage(arcade.context).rows == ROWS
+    assert arcade.shown(OperatorPage).rows == (*ROWS, PIN)
+    assert OperatorPage(arcade.context).rows == (*ROWS, PIN)
 
 
 def test_in_safe_mode_it_keeps_the_defaults_if_the_operator_wants_them(
