@@ -22,6 +22,7 @@ from pigaming_app.jobs.terminal.options import JsonOption
 from pigaming_app.jobs.terminal.refusal import remedy
 from pigaming_app.links import DOWNLOAD
 from pigaming_app.storage.parsing import one_line, parse_json
+from pigaming_app.storage.pin import PinFile
 from pigaming_app.storage.restarts import restarts
 from pigaming_app.storage.settings import Folders, NoHome, folders
 
@@ -132,6 +133,7 @@ def _files() -> Iterator[Line]:
         return
     yield from _folders(where)
     yield from _restarts(where.data)
+    yield _kiosk(where.config)
 
 
 def _folders(where: Folders) -> Iterator[Line]:
@@ -169,6 +171,24 @@ def _restarts(data: Path) -> Iterator[Line]:
             f"{len(found)}, the last one at {one_line(last.time, 40)} ({one_line(f'{last.reason}: {last.detail}', 80)})"
         )
         yield Line("kiosk restarts", "note", text, f"the reports in {data / 'crashes'} give the reasons")
+
+
+def _kiosk(config: Path) -> Line:
+    """How visitors could leave a kiosk here."""
+    ways = [] if PinFile(config).path.exists() else ["its operator has no PIN"]
+    advice = [] if PinFile(config).path.exists() else ["main.py kiosk pin"]
+    if sys.platform == "win32":
+        ways.append("Ctrl+Alt+Del leads out")
+        advice.append("a user with assigned access (docs/open-day.md)")
+    elif sys.platform == "darwin":
+        ways.append("Command+Option+Escape leads out")
+        advice.append("Guided Access (docs/open-day.md)")
+    elif desktop := next(filter(None, map(os.environ.get, ("XDG_CURRENT_DESKTOP", "DESKTOP_SESSION"))), ""):
+        ways.append(f"Ctrl+Alt+F2 leads out, and there is a desktop ({one_line(desktop, 40)})")
+        advice.append("a session of its own (docs/open-day.md)")
+    if not ways:
+        return Line("kiosk", "ok", "it needs the PIN to be left, and no desktop is below it")
+    return Line("kiosk", "note", f"visitors can leave it: {'; '.join(ways)}", "; ".join(advice))
 
 
 def _nearest(folder: Path) -> Path:

@@ -14,6 +14,7 @@ from pigaming_app.boot import version
 from pigaming_app.boot.interpreter import StartError
 from pigaming_app.jobs import doctor
 from pigaming_app.jobs.cli import main
+from pigaming_app.storage.pin import PinFile
 from pigaming_app.storage.restarts import Restart, append_restart
 
 WELL = [
@@ -148,3 +149,26 @@ def test_a_broken_arena_is_named(monkeypatch):
     lines = [one for one in doctor.report() if one.what == "arena"]
     assert lines
     assert "walls[0].ax" in lines[0].found
+
+
+@pytest.mark.parametrize(
+    ("platform", "desktop", "pin", "state", "words"),
+    [
+        ("linux", "", True, "ok", []),
+        ("linux", "", False, "note", ["no PIN"]),
+        ("linux", "GNOME", True, "note", ["Ctrl+Alt+F2", "GNOME"]),
+        ("win32", "", True, "note", ["Ctrl+Alt+Del"]),
+        ("darwin", "", False, "note", ["no PIN", "Command+Option+Escape"]),
+    ],
+)
+def test_it_warns_when_visitors_can_leave_a_kiosk(monkeypatch, home, platform, desktop, pin, state, words):
+    for name in ("XDG_CURRENT_DESKTOP", "DESKTOP_SESSION"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("XDG_CURRENT_DESKTOP", desktop)
+    if pin:
+        PinFile(home / "config").set("274918")
+    monkeypatch.setattr(sys, "platform", platform)
+    found = doctor._kiosk(home / "config")
+    assert found.state == state
+    assert all(word in found.found for word in words)
+    assert bool(found.advice) == (state != "ok")

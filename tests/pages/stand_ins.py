@@ -92,6 +92,7 @@ ELSEWHERE = (
     Elsewhere(r"(python3 main\.py )?bench (?!robots|phones).*", MINUTES_LONG, "tests/jobs/bench/test_yardsticks.py"),
     Elsewhere(r".*(--plant ros|main\.py ros)\b.*|roscore &", "it needs ROS", "tests/hardware/ros/test_ros.py"),
     Elsewhere(r".* --ray .*|ray start .*|.*ray_speedup", "it needs Ray", "tests/ai/ppo/test_ray_workers.py"),
+    Elsewhere(r"python3 main\.py kiosk pin", "a PIN is typed", "tests/jobs/kiosk/test_pin.py"),
     Elsewhere(r".*--radio udp\b.*", "boards run MicroPython", "tests/hardware/emulator/test_boards.py"),
     Elsewhere(r".*robots --radio-setup .*", "a radio on a cable", "tests/jobs/mat/test_robots.py"),
     Elsewhere(r".*robots\b.*--(pair|latency|wheels).*", "half a minute of driving", "tests/jobs/mat/test_robots.py"),
