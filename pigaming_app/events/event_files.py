@@ -19,8 +19,9 @@ from pigaming_app.events.journal import Entry
 from pigaming_app.events.spec import EventSpec
 from pigaming_app.storage.file_lock import locked
 from pigaming_app.storage.parsing import describe_error, read_text
-from pigaming_app.storage.safe_files import NotSaved, backup_of, read_or_restore, write_with_backup
+from pigaming_app.storage.safe_files import backup_of, read_or_restore, write_with_backup
 from pigaming_app.storage.schema import from_json, to_json
+from pigaming_app.storage.trash import discard
 
 FOLDER = "events"  # below the data folder
 FORMAT = 1
@@ -110,13 +111,9 @@ def _joined(path: Path, event: Event, known: Event) -> Event:
 
 
 def delete(path: Path) -> None:
-    """Delete an event and its backup. Raises NotSaved if it is still there."""
+    """Move an event and its backup to the trash. Raises NotSaved if it is still there."""
     with locked(path):
-        try:
-            for file in (backup_of(path), path):
-                file.unlink(missing_ok=True)
-        except OSError as error:
-            raise NotSaved(f"{path} was not deleted: {describe_error(error)}.") from error
+        discard(path, "events")
     with contextlib.suppress(OSError):
         path.with_name(f".{path.name}.lock").unlink(missing_ok=True)
 

@@ -8,7 +8,7 @@ import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from datetime import date
+from datetime import date, datetime
 from pathlib import Path
 from typing import IO, Any
 
@@ -20,6 +20,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import choose_kiosk_rules
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.preloaded import modules
+from pigaming_app.storage import trash
 from pigaming_app.storage.day_log import DayLog
 from pigaming_app.storage.log import CRASH_FILE, log_file, require_file
 from pigaming_app.storage.parsing import describe_error
@@ -77,6 +78,7 @@ def opened(options: Options) -> "Iterator[App]":
     context.day_log = DayLog(data_folders.data)
     context.day_log.delete_old(date.today())
     context.day_log.note("start")
+    trash.empty(datetime.now())
     context.controls.remap(settings.controls)
     context.controls.has_keypad = settings.keypad
     context.mat = mat_of(context, options)

@@ -51,6 +51,7 @@ from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.kiosk.day_report import figures as day_figures
 from pigaming_app.scenes.kiosk.operator.figures_page import FiguresPage
 from pigaming_app.scenes.kiosk.operator.page import OperatorPage
+from pigaming_app.scenes.kiosk.operator.trash_page import TrashPage
 from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.network.fetch_page import FetchPage
 from pigaming_app.scenes.ladder.choice import LadderChoice
@@ -88,6 +89,7 @@ from pigaming_app.storage.pin import LONGEST
 from pigaming_app.storage.plugins.found import Plugin, found
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.scores import ScoreTable
+from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phones.network import NetworkInterface, PhonesUnavailable
 from tests.matches import setup_of
@@ -338,6 +340,14 @@ def events(arcade: Arcade) -> Scene:
     return scene
 
 
+def deleted(arcade: Arcade) -> TrashPage:
+    """The widest things that can be deleted, on two pages."""
+    names = ("events/WWWWWWWWWWWWWWWWWWWWWWWW.json", "arenas/race/WWWWWWWWWWWWWWWWWWWW.toml", "robots/WWWWWW.npz")
+    for i in range(9):
+        write_atomic(folders().data / "trash" / f"20261129-2358{i:02}-000000" / names[i % 3], b"")
+    return TrashPage(arcade.context)
+
+
 def typed(page: DigitsPage, count: int, said: str) -> DigitsPage:
     """A page with so many digits, after a sentence."""
     page.tell(said, True)
@@ -551,7 +561,10 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "options": options,
     "operator": lambda arcade: OptionsPage(arcade.context, operator=True),
     "operator day": lambda arcade: OperatorPage(arcade.context),
+    "operator quiet": lambda arcade: OperatorPage(arcade.context, quiet=True),
     "operator figures": figures,
+    "trash": deleted,
+    "empty trash": lambda arcade: TrashPage(arcade.context),
     "PIN": lambda arcade: typed(PinPage(arcade.context), LONGEST, "access.wrong"),
     "new PIN": lambda arcade: NewPinPage(arcade.context, first=True),
     "easy PIN": lambda arcade: typed(NewPinPage(arcade.context), 4, "access.easy"),

@@ -15,6 +15,7 @@ from pigaming_app.sim.arena import MAX_TITLE
 from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.storage.safe_files import NotSaved, write_atomic
 from pigaming_app.storage.settings import folders
+from pigaming_app.storage.trash import discard
 
 NEW = re.compile(r"new-\d+")  # names of drawings that never had another
 log = logging.getLogger("pigaming")
@@ -109,9 +110,11 @@ def save(game: str, name: str, drawing: Drawing, before: str) -> None:
 def rename(game: str, before: str, title: str) -> str:
     """Give an arena, and its draft, another title and the name that follows from it, which is returned.
 
-    Whatever had that name is replaced. Raises NotSaved.
+    Whatever had that name goes to the trash. Raises NotSaved.
     """
     name = file_name(title)
+    if name != before:
+        discard(own_file(game, name), "arenas")
     for path_of in (own_file, draft_file):
         drawing = _read(path_of(game, before))
         if drawing:
@@ -120,7 +123,9 @@ def rename(game: str, before: str, title: str) -> str:
             with contextlib.suppress(OSError):
                 path_of(game, name).unlink(missing_ok=True)
     if name != before:
-        delete(game, before)
+        delete_draft(game, before)
+        with contextlib.suppress(OSError):
+            own_file(game, before).unlink(missing_ok=True)
     return name
 
 
@@ -132,12 +137,9 @@ def export(game: str, name: str, drawing: Drawing) -> Path:
 
 
 def delete(game: str, name: str) -> None:
-    """Delete a drawing. Raises NotSaved if it remains."""
+    """Move a drawing to the trash. Raises NotSaved if it remains."""
     delete_draft(game, name)
-    try:
-        own_file(game, name).unlink(missing_ok=True)
-    except OSError as error:
-        raise NotSaved(f"{name} was not deleted: {error}") from error
+    discard(own_file(game, name), "arenas")
 
 
 def delete_draft(game: str, name: str) -> None:

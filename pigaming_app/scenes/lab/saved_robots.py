@@ -11,7 +11,9 @@ from pigaming_app.ai.networks.files import TrainedNetwork
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.scenes.files import is_network, load_network, load_table, save_network, save_table
 from pigaming_app.scenes.pages.name_page import LETTERS
+from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
+from pigaming_app.storage.trash import discard
 
 LENGTH = 6  # letters in a name
 PROPOSALS = ("ROBI", "BIPO", "ZUMI", "TIKO", "LUMO", "PIXI", "VOLT", "MIKO", "NEON", "ZIGA")
@@ -63,6 +65,15 @@ def save_robot(training: TableTraining, name: str) -> None:
 def save_network_as(trained: TrainedNetwork, name: str) -> None:
     """Save a robot with a network under a name. Raises RobotFileError; an existing file is then left intact."""
     _save(lambda path: save_network(trained, path), name)
+
+
+def delete_robot(name: str) -> None:
+    """Move a robot to the trash. Raises RobotFileError."""
+    try:
+        discard(file_of(name), "robots")
+    except NotSaved as error:
+        log.warning("%s", error)
+        raise RobotFileError("lab.undeleted") from error
 
 
 def load_robot(name: str) -> Trained | TrainedNetwork:

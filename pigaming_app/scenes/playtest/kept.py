@@ -1,5 +1,6 @@
 """The replays of play tests, in a folder of their own. The limit of other replays does not apply to them."""
 
+import logging
 from collections.abc import Collection, Mapping
 from datetime import datetime
 from pathlib import Path
@@ -8,8 +9,11 @@ from pigaming_app.games.replay import Replay
 from pigaming_app.scenes.flow.driving import DrivingStyles
 from pigaming_app.scenes.playtest.replays import STYLES, Participant, PlayTestReplay
 from pigaming_app.scenes.recordings import store
+from pigaming_app.scenes.recordings.store import StoreError
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.events import Device
+
+log = logging.getLogger("pigaming")
 
 
 def folder() -> Path:
@@ -30,9 +34,13 @@ def keep(replay: Replay, participants: tuple[Participant, ...]) -> Path:
 
 
 def delete(found: Collection[Path]) -> None:
-    """Delete play tests. Raises StoreError."""
+    """Delete play tests for good, as the people were promised. Raises StoreError."""
     for path in found:
-        store.delete(path)
+        try:
+            path.unlink(missing_ok=True)
+        except OSError as error:
+            log.warning("%s: %s", path, error)
+            raise StoreError("replays.not_deleted") from error
 
 
 def participants_of(

@@ -19,6 +19,7 @@ from pigaming_app.scenes.features.replays import pack
 from pigaming_app.scenes.files import load_replay
 from pigaming_app.storage.safe_files import NotSaved, write_atomic
 from pigaming_app.storage.settings import folders
+from pigaming_app.storage.trash import discard
 
 LIMIT = 100  # files
 DATE = "%Y-%m-%d_%H-%M-%S"
@@ -85,10 +86,10 @@ def write(path: Path, replay: Replay) -> None:
 
 
 def delete(path: Path) -> None:
-    """Delete a replay. Raises StoreError; a file that has already vanished is no error."""
+    """Move a replay to the trash. Raises StoreError; a file that has already vanished is no error."""
     try:
-        path.unlink(missing_ok=True)
-    except OSError as error:
+        discard(path, "replays")
+    except NotSaved as error:
         log.warning("%s: %s", path, error)
         raise StoreError("replays.not_deleted") from error
 

@@ -24,29 +24,27 @@ from pigaming_app.ui.widgets.setting_row import SettingValue
 
 SAFE_START = "safe_start"  # a row after failed starts only
 PIN = "pin"
-ROWS = (
-    "figures", "quiet_from", "quiet_until", "volume_cap", "group_minutes", "keep_choices",
-    "scoreboard", "board", "end_all",
-)  # fmt: skip
+ROWS = ("figures", "quiet", "group_minutes", "keep_choices", "scoreboard", "board", "trash", "end_all")
+QUIET = ("quiet_from", "quiet_until", "volume_cap")  # rows of a page of their own
 TIMES = [f"{hour:02}:{minute}" for hour in range(24) for minute in ("00", "30")]  # of the quiet hours
 LIMITS = (0, 5, 10, 15, 20, 30, 45, 60)  # minutes of a group
 
 
 class OperatorPage(SettingsPage):
-    """`below`: the scenes under it, if it lies over any but the options."""
+    """`below`: the scenes under it, if it lies over any but the options; `quiet`: the page of QUIET."""
 
     right = Right.OPERATE
     untimed = True
-    table, title = "operator", "operator.title"
+    table = "operator"
 
-    def __init__(self, context: Context, below: Sequence[Scene] = ()) -> None:
-        self.below = below
+    def __init__(self, context: Context, below: Sequence[Scene] = (), quiet: bool = False) -> None:
+        self.below, self.title = below, "operator.quiet" if quiet else "operator.title"
         self.when_idle = Pop() if below else Home()
         self.safe_start = SafeStartNotice(context)
         self.roles = context.shared(Roles)
         rows = (SAFE_START, *ROWS) if self.safe_start.due else ROWS
         own = not context.kiosk or not self.roles.pin.is_set  # in a kiosk, the PIN in use stays
-        super().__init__(context, (*rows, PIN) if own else rows)
+        super().__init__(context, QUIET if quiet else (*rows, PIN) if own else rows)
 
     def on_enter(self) -> None:
         if self.below:
@@ -102,7 +100,7 @@ class OperatorPage(SettingsPage):
                 return SettingValue("arrows", tuple(words(f"scoreboard.{page}") for page in names), chosen)
         if name == PIN:
             return self.action("operator.pin_change" if self.roles.pin.is_set else "operator.pin_choose")
-        return self.action("options.open" if name == "figures" else "options.clear")
+        return self.action("options.open" if name in ("figures", "quiet", "trash") else "options.clear")
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
         """Open the figures, agree to what became of failed starts, or begin to end all matches."""
@@ -111,6 +109,14 @@ class OperatorPage(SettingsPage):
 
             self.context.sounds.play("accept")
             return Push(FiguresPage(self.context))
+        if name == "quiet":
+            self.context.sounds.play("accept")
+            return Push(OperatorPage(self.context, self.below, quiet=True))
+        if name == "trash":
+            from pigaming_app.scenes.kiosk.operator.trash_page import TrashPage
+
+            self.context.sounds.play("accept")
+            return Push(TrashPage(self.context))
         if name == PIN:
             self.context.sounds.play("accept")
             return Push(NewPinPage(self.context))

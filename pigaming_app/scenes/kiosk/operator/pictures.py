@@ -15,7 +15,7 @@ def drawn(name: str, chosen: int) -> LitImage:
         for i, high in enumerate((60, 130, 190, 110)):
             ink.line(cut_box(-134 + 70 * i, 100 - high, 48, high, 8), FOCUS if high == 190 else ICE, LINE, True)
         ink.line([(-160, 112), (160, 112)], STEEL, LINE)
-    elif name in ("quiet_from", "quiet_until"):
+    elif name in ("quiet", "quiet_from", "quiet_until"):
         ink.ring(0, 0, 104, ICE, LINE).line([(0, 0), (0, -66)], ICE, LINE)
         angle = math.tau * chosen / 24 - math.pi / 2
         ink.line([(0, 0), (52 * math.cos(angle), 52 * math.sin(angle))], FOCUS, LINE)
@@ -48,6 +48,10 @@ def drawn(name: str, chosen: int) -> LitImage:
             ink.text("3:2", TITLE - 24, 108, -26, ICE, "hero", "c")
         elif on:
             icon(ink, "crown", 108, -26, 40, ICE, LINE)
+    elif name == "trash":
+        ink.line([(-72, -64), (-56, 108), (56, 108), (72, -64)], ICE, LINE).line([(-100, -64), (100, -64)], ICE, LINE)
+        ink.line([(-28, -64), (-28, -92), (28, -92), (28, -64)], ICE, LINE)
+        icon(ink, "turn_left", 0, 22, 40, FOCUS, LINE)
     elif name == "pin":
         ink.line(cut_box(-84, -20, 168, 128, 20), ICE, LINE, True).arc(0, -20, 54, math.pi, math.tau, ICE, LINE)
         for x in (-48, -16, 16, 48):

@@ -8,7 +8,7 @@ from pigaming_app.scenes.files import is_network
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.lab.host import IDLE, LabHost
 from pigaming_app.scenes.lab.network.kind_switch import SIGN, network_sign, table_sign
-from pigaming_app.scenes.lab.saved_robots import RobotFileError, file_of, load_robot, names
+from pigaming_app.scenes.lab.saved_robots import RobotFileError, delete_robot, file_of, load_robot, names
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box
 from pigaming_app.ui.draw.layers import Layer, LitImage, span
@@ -34,6 +34,7 @@ class OpenPage(Page):
         self.names = names()
         self.networks: dict[str, bool] = {}  # whether a robot has a network, once it was shown
         self.page = 0
+        self.asked = ""  # the robot that the next X deletes
         super().__init__(lab.context, Focus(self._spots()))
 
     def press(self, event: InputEvent) -> StackOperation:
@@ -44,6 +45,9 @@ class OpenPage(Page):
             self.page = (self.page + 1) % self.pages
             self.focus = Focus(self._spots())
             self.context.sounds.play("move")
+            return None
+        if event.button is Button.X and not self.context.kiosk:
+            self._delete(self.focus.name)
             return None
         return super().press(event)
 
@@ -79,9 +83,30 @@ class OpenPage(Page):
             FocusSpot("", place(0))
         ]
 
+    def _delete(self, name: str) -> None:
+        """Ask at the first press, delete at the second."""
+        words = self.context.words
+        if self.asked != name or not self.message:
+            self.asked = name
+            self.show_message(words("lab.delete_sure", name=name))
+            self.context.sounds.play("move")
+            return
+        self.asked = ""
+        try:
+            delete_robot(name)
+        except RobotFileError as error:
+            self.show_message(words(str(error), name=name), wrong=True)
+            return
+        self.show_message(words("lab.deleted", name=name))
+        self.context.sounds.play("back")
+        self.names = names()
+        self.page = min(self.page, self.pages - 1)
+        self.focus = Focus(self._spots())
+
     @property
     def hints(self) -> Hints:
         more = [(Button.Y, "lab.hint_page")] if self.pages > 1 else []
+        more += [(Button.X, "replays.hint_delete")] if self.names and not self.context.kiosk else []
         return ([(Button.FIRE, "lab.hint_open")] if self.names else []) + more + [(Button.BACK, "lab.hint_lab")]
 
     def choose(self, name: str, event: InputEvent) -> StackOperation:

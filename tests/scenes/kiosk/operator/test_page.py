@@ -10,7 +10,7 @@ from pigaming_app.scenes.kiosk import safe_start
 from pigaming_app.scenes.kiosk.operator.chart import OTHERS, bars_of, games_of, step_of
 from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
 from pigaming_app.scenes.kiosk.operator.figures_page import FOLDER, FiguresPage, _short
-from pigaming_app.scenes.kiosk.operator.page import LIMITS, PIN, ROWS, SAFE_START, OperatorPage
+from pigaming_app.scenes.kiosk.operator.page import LIMITS, PIN, QUIET, ROWS, SAFE_START, OperatorPage
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
@@ -31,8 +31,12 @@ def _prepared(arcade: Arcade) -> None:
 
 
 def focus(arcade: Arcade, row: str) -> OperatorPage:
+    """Go to a row, on the page that has it."""
+    if row in QUIET:
+        focus(arcade, "quiet")
+        arcade.press(Button.FIRE)
     page = arcade.shown(OperatorPage)
-    arcade.press(*[Button.DOWN] * (ROWS.index(row)))
+    arcade.press(*[Button.DOWN] * page.rows.index(row))
     assert page.focus.name == row
     return page
 
