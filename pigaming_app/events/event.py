@@ -5,9 +5,20 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from pigaming_app.events import standings
-from pigaming_app.events.journal import Added, Corrected, Entry, Postponed, Recorded, Substituted, Withdrawn
+from pigaming_app.events.formats.registry import KINDS
+from pigaming_app.events.journal import (
+    Added,
+    Arranged,
+    Closed,
+    Corrected,
+    Entry,
+    Postponed,
+    Recorded,
+    Substituted,
+    Withdrawn,
+)
 from pigaming_app.events.progress import Progress
-from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Result, Standing, check_spec
+from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Format, Result, Standing, check_spec
 
 
 @dataclass(frozen=True)
@@ -20,7 +31,7 @@ class Event:
     @cached_property
     def progress(self) -> Progress:
         """The state after the journal. Raises ValueError if spec or journal are impossible."""
-        check_spec(self.spec)
+        check_event(self.spec)
         progress = Progress(self.spec, self.spec.entrants).drawn()
         for entry in self.journal:
             progress = progress.after(entry)
@@ -61,6 +72,10 @@ class Event:
         """True if lots were drawn for a match, as its extra matches were level, too."""
         return number in self.played and self.progress.verdict(self.progress.fixtures[number - 1]).lots
 
+    def through(self, fixture: Fixture) -> frozenset[str]:
+        """Who goes on from a match; nobody while it is not decided, or if it decides nothing."""
+        return self.progress.through(fixture)
+
     @property
     def byes(self) -> dict[int, tuple[str, ...]]:
         """Who has a bye, by round."""
@@ -70,6 +85,11 @@ class Event:
     def standings(self) -> tuple[Standing, ...]:
         """The table, best first."""
         return standings.standings(self.progress)
+
+    @cached_property
+    def part_standings(self) -> Mapping[str, tuple[Standing, ...]]:
+        """The tables of the groups by their names, best first; none in most formats."""
+        return standings.part_standings(self.progress)
 
     @cached_property
     def team_standings(self) -> tuple[Standing, ...]:
@@ -106,8 +126,8 @@ class Event:
 
     @property
     def over(self) -> bool:
-        """True if there is nothing left to play."""
-        return not self.open
+        """True if there is nothing left to play, and nothing to be arranged."""
+        return not self.open and not self.progress.running
 
     def record(self, outcome: Result) -> "Event":
         """With the result of an open match."""
@@ -133,10 +153,26 @@ class Event:
         """With an AI in the place of an entrant, under the same name; an empty brain: a person again."""
         return self.after(Substituted(name, brain))
 
+    def arrange(self, *names: str) -> "Event":
+        """With a match of these entrants, in a format on call; of a challenge, the challenger first."""
+        return self.after(Arranged(names))
+
+    def continued(self) -> "Event":
+        """With the matches that AIs would arrange next, in a format on call; without any, the day or week is closed."""
+        on_call, event = KINDS[self.spec.format].on_call, self
+        assert on_call
+        while names := on_call.next(event.progress.as_field()):
+            event = event.arrange(*names)
+        return self.close() if event is self else event
+
+    def close(self) -> "Event":
+        """With the end of a day or a week, in a format on call."""
+        return self.after(Closed())
+
     def renamed(self, title: str) -> "Event":
         """Under another title."""
         event = Event(replace(self.spec, title=title), self.journal)
-        check_spec(event.spec)
+        check_event(event.spec)
         return event
 
     def after(self, entry: Entry) -> "Event":
@@ -144,3 +180,15 @@ class Event:
         event = Event(self.spec, (*self.journal, entry))
         event.__dict__["progress"] = self.progress.after(entry)  # the cached value: no replay from the beginning
         return event
+
+
+def check_event(spec: EventSpec) -> None:
+    """Raises ValueError, with one sentence, for a spec that cannot be played."""
+    check_spec(spec)
+    kind = KINDS[spec.format]
+    if spec.seats not in kind.seats:
+        low, high = min(kind.seats), max(kind.seats)
+        raise ValueError(f"a match has {low} to {high} seats, not {spec.seats}".replace(f"{low} to {low} ", f"{low} "))
+    if spec.fill and not kind.fills:
+        raise ValueError(f"AIs fill seats in {', '.join(form for form in Format if KINDS[form].fills)} only")
+    kind.check(spec)

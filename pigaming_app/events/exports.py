@@ -23,6 +23,7 @@ def plain(event: Event) -> dict[str, Any]:
         "over": event.over,
         "break": event.pause,
         "standings": [plain_standing(row) for row in event.standings],
+        "groups": {name: [plain_standing(row) for row in rows] for name, rows in event.part_standings.items()},
         "teams": [plain_standing(row) for row in event.team_standings],
         "entrants": [
             {

@@ -74,6 +74,16 @@ class Resumed(Struct, frozen=True, tag_field="entry", tag="resumption"):
     """The break ends."""
 
 
+class Arranged(Struct, frozen=True, tag_field="entry", tag="arrangement"):
+    """Those who want to play a match, in a format on call; of a challenge, the challenger first."""
+
+    entrants: tuple[Line, ...]
+
+
+class Closed(Struct, frozen=True, tag_field="entry", tag="close"):
+    """A day or a week of a format on call is over."""
+
+
 Entry = (
     Recorded
     | Corrected
@@ -86,4 +96,6 @@ Entry = (
     | Summoned
     | Paused
     | Resumed
+    | Arranged
+    | Closed
 )

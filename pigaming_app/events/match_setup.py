@@ -1,9 +1,10 @@
 """From a fixture to the setup of its match, and from the result of the match to the outcome."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from pigaming_app.events.event import Event
+from pigaming_app.events.formats.registry import KINDS
 from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Result
 from pigaming_app.games.arenas import load
 from pigaming_app.games.game import ALLIES, ALONE, FREE, Row, Setup, Variant
@@ -49,6 +50,8 @@ def check_playable(spec: EventSpec, find_brain: Callable[[str, str], object]) ->
         for brain in dict.fromkeys([*(entrant.brain for entrant in spec.entrants), spec.fill]):
             if brain:
                 find_brain(game, brain)
+        if KINDS[spec.format].timed and time_record(game, variant) is None:
+            raise ChoiceError(f"{game} takes no times, so it has no time trial")
         seats = ["idle"] * spec.seats
         for arena in spec.arenas.get(game) or (None,):
             minutes = spec.minutes.get(game) or None
@@ -67,18 +70,29 @@ def variant_of(spec: EventSpec, game: str) -> Variant:
     return variants[name]
 
 
-def outcome_of(fixture: Fixture, rows: Iterable[Row], note: str = "") -> Result:
-    """The outcome of a match; AIs on filled seats have no place."""
+def time_record(game: str, variant: Variant) -> str | None:
+    """The record of a game whose shortest time counts in a time trial, such as a lap; None if it takes no times."""
+    return next((kind.name for kind in games()[game].records_of(variant.name) if kind.timed), None)
+
+
+def outcome_of(spec: EventSpec, fixture: Fixture, rows: Iterable[Row], note: str = "") -> Result:
+    """The outcome of a match; AIs on filled seats have no place. In a time trial the scores are times, s, if any."""
     own = [row for row in rows if row.seat < len(fixture.entrants)]
     names = {row.seat: fixture.entrants[row.seat] for row in own}
     places = sorted({row.place for row in own})
+    timed = KINDS[spec.format].timed
     return Result(
         fixture.number,
         tuple(tuple(sorted(names[row.seat] for row in own if row.place == place)) for place in places),
-        {names[row.seat]: float(row.score) for row in own},
+        _times(spec, fixture, own, names) if timed else {names[row.seat]: float(row.score) for row in own},
         note,
         fixture.extra,
     )
+
+
+def _times(spec: EventSpec, fixture: Fixture, rows: Sequence[Row], names: Mapping[int, str]) -> dict[str, float]:
+    record = time_record(fixture.game, variant_of(spec, fixture.game)) or ""
+    return {names[row.seat]: row.records[record] / 1000 for row in rows if record in row.records}
 
 
 def _teams(variant: Variant, playing: Sequence[Entrant]) -> tuple[int, ...]:

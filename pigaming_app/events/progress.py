@@ -7,13 +7,15 @@ long as none of its matches has been played. A knock-out match has no result bef
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from pigaming_app.events.formats import exchanges, knockout, sudden_death
-from pigaming_app.events.formats.draws import NEXT, SCHEDULES
-from pigaming_app.events.formats.field import Draw, EntrantField
+from pigaming_app.events.formats import exchanges, sudden_death
+from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, MatchUp
 from pigaming_app.events.formats.grouping import seated
-from pigaming_app.events.formats.sudden_death import Verdict
+from pigaming_app.events.formats.registry import KINDS
+from pigaming_app.events.formats.sudden_death import Verdict, through
 from pigaming_app.events.journal import (
     Added,
+    Arranged,
+    Closed,
     Corrected,
     Entry,
     Paused,
@@ -26,7 +28,7 @@ from pigaming_app.events.journal import (
     Swapped,
     Withdrawn,
 )
-from pigaming_app.events.spec import MOST, WALKOVER, Entrant, EventSpec, Fixture, Format, Result, Round, check_name
+from pigaming_app.events.spec import MOST, WALKOVER, Entrant, EventSpec, Fixture, Result, Round, check_name
 
 SEED_STEP = 10_000  # between the seeds of two events, more than an event has matches
 
@@ -45,6 +47,8 @@ class Progress:
     postponed: Mapping[int, int] = field(default_factory=dict)  # times, by fixture
     called: Mapping[int, str] = field(default_factory=dict)  # arcade, by fixture
     pause: str | None = None  # note of a break; None: play goes on
+    closed: int = 0  # periods of a format on call
+    joined: Mapping[str, int] = field(default_factory=dict)  # periods closed before somebody entered late
 
     def after(self, entry: Entry) -> "Progress":
         """The event after this entry. Raises ValueError, with one sentence, if it is not possible."""
@@ -83,6 +87,21 @@ class Progress:
                 if self.pause is None:
                     raise ValueError("there is no break")
                 return replace(self, pause=None)
+            case Arranged(names):
+                return self._arranged(names)
+            case Closed():
+                return self._closed()
+
+    @property
+    def kind(self) -> FormatKind:
+        """The format."""
+        return KINDS[self.spec.format]
+
+    @property
+    def running(self) -> bool:
+        """True while matches can be arranged, in a format on call."""
+        on_call = self.kind.on_call
+        return on_call is not None and self.closed < on_call.periods(self.spec)
 
     @property
     def fixtures(self) -> tuple[Fixture, ...]:
@@ -90,9 +109,9 @@ class Progress:
         return tuple(fixture for drawn in self.rounds for fixture in drawn.fixtures)
 
     def order_of_play(self, fixture: Fixture) -> tuple[int, int, int]:
-        """A key to sort by: a postponed match follows its round, and where all rounds are known the next one too."""
+        """A key to sort by: a postponed match follows its round, and the next one too, if it is drawn already."""
         later = self.postponed.get(fixture.number, 0)
-        return fixture.round + (later if self.spec.format in SCHEDULES else 0), later, fixture.number
+        return fixture.round + later, later, fixture.number
 
     def next_match(self, fixture: Fixture) -> Fixture:
         """An open fixture, or the extra match that it still needs."""
@@ -101,42 +120,39 @@ class Progress:
         return fixture
 
     def verdict(self, fixture: Fixture) -> Verdict:
-        """What the matches of a fixture that has been played have decided; only a knock-out has to be decided."""
-        before = self.played[fixture.number]
-        if self.spec.format != Format.KNOCKOUT:
-            return Verdict(before[0].places)
-        return sudden_death.verdict(fixture, before, knockout.wins(fixture, self.spec.advance))
+        """What the matches of a fixture that has been played have decided; it may be tied if nobody goes on."""
+        before, wins = self.played[fixture.number], self.kind.wins(self.spec, fixture)
+        return sudden_death.verdict(fixture, before, wins) if wins else Verdict(before[0].places)
 
     def as_field(self) -> EntrantField:
         """What a draw may look at."""
         names = tuple(entrant.name for entrant in self.entrants)
-        return EntrantField(self.spec, names, self.late, self.withdrawn, self.rounds, self.outcomes)
+        return EntrantField(
+            self.spec, names, self.late, self.withdrawn, self.rounds, self.outcomes, self.closed, self.joined
+        )
 
     def drawn(self) -> "Progress":
         """With every round that can be drawn now."""
         progress = self._with_walkovers()
-        while draws := progress._draws():
+        while draws := self.kind.draws(progress.as_field()):
             for draw in draws:
                 progress = progress._with_round(draw)
             progress = progress._with_walkovers()
         return progress
 
-    def _draws(self) -> Sequence[Draw]:
-        if schedule := SCHEDULES.get(self.spec.format):
-            return schedule(self.as_field())
-        if any(fixture.number not in self.outcomes for fixture in self.fixtures):
-            return ()
-        draw = NEXT[self.spec.format](self.as_field())
-        return (draw,) if draw else ()
-
     def _with_round(self, draw: Draw) -> "Progress":
-        number, first = len(self.rounds) + 1, len(self.fixtures) + 1
+        number = len(self.rounds) + 1
+        return replace(self, rounds=(*self.rounds, Round(number, self._fixtures(number, draw.matches), draw.byes)))
+
+    def _fixtures(self, number: int, matches: Sequence[MatchUp]) -> tuple[Fixture, ...]:
+        """Matches of a round behind all others."""
         spec, game, arena = self.spec, self.spec.game_of(number), self.spec.arena_of(number)
+        first = len(self.fixtures) + 1
         sat = {entrant.name: [0] * 4 for entrant in self.entrants}
         for fixture in self.fixtures:
             for seat, name in enumerate(fixture.entrants):
                 sat[name][seat] += 1
-        fixtures = tuple(
+        return tuple(
             Fixture(
                 number=first + i,
                 round=number,
@@ -147,9 +163,29 @@ class Progress:
                 seed=spec.seed * SEED_STEP + first + i,
                 fill=spec.seats - len(match.entrants) if spec.fill else 0,
             )
-            for i, match in enumerate(draw.matches)
+            for i, match in enumerate(matches)
         )
-        return replace(self, rounds=(*self.rounds, Round(number, fixtures, draw.byes)))
+
+    def _arranged(self, names: tuple[str, ...]) -> "Progress":
+        on_call = self.kind.on_call
+        if on_call is None:
+            raise ValueError("this format draws its matches itself")
+        if not self.running:
+            raise ValueError("the event is over")
+        for name in names:
+            self._present(name)
+        on_call.check(self.as_field(), names)
+        *before, now = self.rounds
+        added = self._fixtures(now.number, (MatchUp(names),))
+        return replace(self, rounds=(*before, replace(now, fixtures=(*now.fixtures, *added))))
+
+    def _closed(self) -> "Progress":
+        """The period is over. Nobody wins a match that is open."""
+        if not self.running:
+            raise ValueError("there is no day or week to be closed")
+        still = [one for one in self.fixtures if one.number not in self.outcomes]
+        lapsed = {one.number: Result(one.number, (tuple(sorted(one.entrants)),), note=WALKOVER) for one in still}
+        return replace(self, outcomes={**self.outcomes, **lapsed}, closed=self.closed + 1).drawn()
 
     def _with_walkovers(self) -> "Progress":
         """Open matches without those who have withdrawn; whoever would be alone wins."""
@@ -189,7 +225,7 @@ class Progress:
     def _recorded(self, outcome: Result) -> "Progress":
         fixture = self._open_fixture(outcome.fixture)
         progress = self._after_match(fixture, checked(outcome, self.next_match(fixture)))
-        return progress if self.spec.format in SCHEDULES else progress.drawn()
+        return progress.drawn() if progress.as_field().complete else progress
 
     def _after_match(self, fixture: Fixture, outcome: Result) -> "Progress":
         """With one more match of a fixture. Its result has the places that all of them together decide."""
@@ -213,17 +249,25 @@ class Progress:
         outcomes = {other: kept for other, kept in self.outcomes.items() if other != number}
         before = replace(self, outcomes=outcomes, played={**self.played, number: ()})
         progress = before._after_match(fixture, checked(outcome, fixture))
-        if self.spec.format == Format.KNOCKOUT and self._winners(fixture) != progress._winners(fixture):
-            later = [str(one.number) for one in self.fixtures if one.round > fixture.round and self._played(one)]
+        if self._qualified(fixture) != progress._qualified(fixture):
+            later = [
+                str(one.number)
+                for one in self.fixtures
+                if one.round > fixture.round and self._played(one) and self.kind.wins(self.spec, one)
+            ]
             if later:
                 which = f"match {later[0]} has" if len(later) == 1 else f"matches {', '.join(later)} have"
                 raise ValueError(f"match {fixture.number} decides who goes on, and {which} been played since")
-        return progress if self.spec.format in SCHEDULES else progress._without_unplayed_rounds().drawn()
+        return progress._without_unplayed_rounds().drawn() if self.kind.follows_results else progress
 
-    def _winners(self, fixture: Fixture) -> frozenset[str]:
-        """Who goes on from a match of a knock-out; nobody while it is not decided."""
-        outcome = self.outcomes.get(fixture.number)
-        return knockout.through(fixture, outcome, self.spec.advance) if outcome else frozenset()
+    def through(self, fixture: Fixture) -> frozenset[str]:
+        """Who goes on from a match; nobody while it is not decided, or if it decides nothing."""
+        outcome, wins = self.outcomes.get(fixture.number), self.kind.wins(self.spec, fixture)
+        return through(outcome, wins) if outcome and wins else frozenset()
+
+    def _qualified(self, fixture: Fixture) -> frozenset[str]:
+        """Who goes on by a match, or by the table that it counts in."""
+        return self.through(fixture) if self.kind.wins(self.spec, fixture) else self.kind.qualified(self.as_field())
 
     def _added(self, entrant: Entrant) -> "Progress":
         check_name(entrant.name)
@@ -233,6 +277,11 @@ class Progress:
             raise ValueError(f"{entrant.name} is entered already")
         if len(self.entrants) == MOST:
             raise ValueError(f"an event has at most {MOST} entrants")
+        if self.kind.on_call:
+            if not self.running:
+                raise ValueError(f"{entrant.name} is too late: the event is over")
+            joined = {**self.joined, entrant.name: self.closed}
+            return replace(self, entrants=(*self.entrants, entrant), joined=joined)
         progress = self._without_unplayed_rounds()
         if len(progress.rounds) > 1:
             raise ValueError(f"{entrant.name} is too late: round 2 has begun")
@@ -242,9 +291,7 @@ class Progress:
     def _without(self, name: str) -> "Progress":
         self._present(name)
         progress = replace(self, withdrawn=self.withdrawn | {name})
-        if self.spec.format != Format.ROUND_ROBIN:
-            progress = progress._without_unplayed_rounds()
-        return progress.drawn()
+        return (progress._without_unplayed_rounds() if self.kind.follows_withdrawals else progress).drawn()
 
     def _without_unplayed_rounds(self) -> "Progress":
         """Without the rounds behind the last one of which a match has been played."""

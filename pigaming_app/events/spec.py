@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from datetime import date
 from enum import StrEnum
 
 from pigaming_app.storage.schema import Finite, Line
@@ -9,7 +10,6 @@ from pigaming_app.storage.schema import Finite, Line
 FEWEST, MOST = 3, 64  # entrants
 SEATS = (2, 3, 4)  # entrants of a match
 MAX_ROUNDS = 64
-MOST_MATCHES = 4096  # of two in a round robin
 MAX_NAME = 24  # characters of an entrant or a team
 MAX_TITLE = 60  # characters
 MAX_SEED = 10**12
@@ -24,6 +24,10 @@ class Format(StrEnum):
     ROUND_ROBIN = "roundrobin"
     SWISS = "swiss"
     GRAND_PRIX = "grandprix"
+    GROUPS = "groups"
+    CHALLENGE = "challenge"
+    TIME_TRIAL = "timetrial"
+    HIGH_SCORE = "highscore"
 
 
 class Advance(StrEnum):
@@ -46,11 +50,13 @@ class Entrant:
 class EventSpec:
     """Everything that is decided before the first match. Entrants stand in the order of their seeding, best first.
 
-    `rounds`: of a Swiss or a Grand Prix; of a round robin, how often everybody meets everybody; 0: the default of the
-    format. A knock-out ends with its final, whatever the number. Round n is of game n, again from the first after the
-    last. `arenas`, `minutes` and `variants` are by game; what is missing, empty or 0 is the game's default. Several
-    arenas of a game take turns in its rounds, as games do. `fill`: the AI on the seats of a Grand Prix that would stay
-    empty; empty: they stay empty.
+    `rounds`: of a Swiss or a Grand Prix; of a round robin or of groups, how often everybody meets everybody; weeks of a
+    challenge ladder; most tries of everybody in a time trial or for a high score; 0: the default of the format. A
+    knock-out ends with its final, whatever the number. Round n is of game n, again from the first after the last.
+    `arenas`, `minutes` and `variants` are by game; what is missing, empty or 0 is the game's default. Several arenas of
+    a game take turns in its rounds, as games do. `fill`: the AI on seats that would stay empty; empty: they stay empty.
+    `reach`: how many places up a challenge may go. `start`: first day of a ladder, YYYY-MM-DD, from which its weeks
+    count; empty: they are closed by hand.
     """
 
     title: Line
@@ -65,6 +71,8 @@ class EventSpec:
     seed: int = 1
     advance: Advance = Advance.HALF
     fill: Line = ""
+    reach: int = 3
+    start: Line = ""
 
     def game_of(self, round_number: int) -> str:
         """The game of a round, from 1."""
@@ -88,7 +96,7 @@ class Fixture:
 
     number: int  # from 1
     round: int  # from 1
-    stage: str  # "" or, in a knock-out, "winners", "losers", "final"
+    stage: str  # "", or of a knock-out "winners", "losers", "final", of groups "group A" …, "knockout", "final"
     game: str
     arena: str  # empty: the game's default
     entrants: tuple[str, ...]
@@ -155,17 +163,13 @@ def check_spec(spec: EventSpec) -> None:
         raise ValueError("an event needs a game")
     if any(len(arenas) > MAX_ROUNDS for arenas in spec.arenas.values()):
         raise ValueError(f"at most {MAX_ROUNDS} arenas of a game take turns")
-    if spec.seats not in SEATS:
-        raise ValueError(f"a match has 2 to 4 seats, not {spec.seats}")
     if not 0 <= spec.rounds <= MAX_ROUNDS:
         raise ValueError(f"an event has at most {MAX_ROUNDS} rounds, not {spec.rounds}")
-    if spec.format == Format.ROUND_ROBIN and max(1, spec.rounds) * count * (count - 1) // 2 > MOST_MATCHES:
-        raise ValueError(f"{spec.rounds} times {count} entrants are more than {MOST_MATCHES} matches")
-    if spec.format == Format.SWISS and spec.seats == 2 and spec.rounds > count - 1:
-        raise ValueError(f"{count} entrants can play at most {count - 1} Swiss rounds, not {spec.rounds}")
+    if not 1 <= spec.reach < MOST:
+        raise ValueError(f"a challenge goes 1 to {MOST - 1} places up, not {spec.reach}")
+    if spec.start:
+        date.fromisoformat(spec.start)
     if not 0 <= spec.seed <= MAX_SEED:
         raise ValueError(f"a seed is a number from 0 to {MAX_SEED}, not {spec.seed}")
-    if spec.fill and spec.format != Format.GRAND_PRIX:
-        raise ValueError("AIs fill the seats of a Grand Prix only")
     if not 0 < len(spec.title) <= MAX_TITLE or not spec.title.isprintable():
         raise ValueError(f"a title has 1 to {MAX_TITLE} printable characters")

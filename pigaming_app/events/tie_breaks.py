@@ -1,4 +1,4 @@
-"""Tie-breaks after the FIDE Handbook, C.07 (Tie-break regulations, from 1 August 2024).
+"""Tables: points, then tie-breaks after the FIDE Handbook, C.07 (Tie-break regulations, from 1 August 2024).
 
 Two things are simpler: a round without an opponent counts as one against somebody with the own points, without a limit,
 and the unplayed rounds of opponents are not adjusted.
@@ -8,11 +8,14 @@ more is better. A match of three or four counts as one of two against the mean o
 against each of them.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import permutations
 
+from pigaming_app.events.formats import scoring
+from pigaming_app.events.formats.field import EntrantField
 from pigaming_app.events.formats.scoring import exact
+from pigaming_app.events.spec import WALKOVER, Result, Standing
 
 Values = dict[str, float]
 
@@ -33,6 +36,83 @@ class Table:
     games: Sequence[CountedMatch]
     missed: Mapping[str, int]  # rounds without an opponent: byes, walkovers and missed ones
     unplayed: Mapping[str, float]  # points of byes and walkovers
+
+
+TieBreak = Callable[[Table, Sequence[str]], Values]
+
+
+def table_of(
+    field: EntrantField, names: Sequence[str], table: Table, chain: Mapping[str, TieBreak]
+) -> tuple[Standing, ...]:
+    """These entrants by points, then by each tie-break; equal ones share a place, in the order of `names`."""
+    values: dict[str, dict[str, float]] = {name: {} for name in names}
+    groups = _split(names, table.points)
+    for key, tie_break in chain.items():
+        finer = []
+        for group in groups:
+            for name, value in tie_break(table, group).items():
+                values[name][key] = value
+            finer += _refined(tie_break, table, group)
+        groups = finer
+    rows: list[Standing] = []
+    for group in groups:
+        place = len(rows) + 1
+        rows += [row_of(field, place, name, table.points[name], values[name]) for name in group]
+    return tuple(rows)
+
+
+def counted(
+    field: EntrantField,
+    outcomes: Iterable[Result],
+    gained_by: Callable[[Result], Mapping[str, float]] = scoring.points,
+    bye: float | None = None,
+) -> Table:
+    """These results as they count. `bye`: points of a bye; None: a bye is nothing, and a walkover counts as played."""
+    total, unplayed = dict.fromkeys(field.entrants, 0.0), dict.fromkeys(field.entrants, 0.0)
+    matches, met = [], dict.fromkeys(field.entrants, 0)
+    for outcome in outcomes:
+        gained, walkover = gained_by(outcome), outcome.note == WALKOVER
+        for name, value in gained.items():
+            total[name] += value
+        if walkover and bye is not None:
+            for name, value in gained.items():
+                unplayed[name] += value
+            continue
+        first = outcome.places[0][0] if len(outcome.places[0]) == 1 and not walkover else ""
+        matches.append(CountedMatch(gained, first))
+        for name in gained:
+            met[name] += 1
+    complete = [drawn for drawn in field.rounds if all(one.number in field.outcomes for one in drawn.fixtures)]
+    for name in (name for drawn in complete if bye is not None for name in drawn.byes):
+        total[name] += bye or 0.0
+        unplayed[name] += bye or 0.0
+    missed = {name: max(0, len(complete) - met[name]) for name in field.entrants}
+    return Table({name: exact(value) for name, value in total.items()}, matches, missed, unplayed)
+
+
+def ranked(
+    field: EntrantField,
+    names: Iterable[str],
+    key: Callable[[str], tuple[float, ...]],
+    values: Callable[[str], Mapping[str, float]] = lambda name: {},
+) -> tuple[Standing, ...]:
+    """These entrants by a key, higher is better; points are the number of those behind."""
+    order = sorted(names, key=key, reverse=True)
+    keys = [key(name) for name in order]
+    return tuple(
+        row_of(field, 1 + keys.index(own), name, float(sum(other < own for other in keys)), values(name))
+        for name, own in zip(order, keys, strict=True)
+    )
+
+
+def row_of(field: EntrantField, place: int, name: str, points: float, values: Mapping[str, float]) -> Standing:
+    """A row of a table, with the matches of an entrant."""
+    won = played = 0
+    for outcome in field.outcomes.values():
+        if outcome.note != WALKOVER and any(name in tied for tied in outcome.places):
+            played += 1
+            won += outcome.places[0] == (name,) and len(outcome.places) > 1
+    return Standing(place, name, points, won, played, values)
 
 
 def head_to_head(table: Table, level: Sequence[str]) -> Values:
@@ -83,13 +163,27 @@ def sonneborn_berger(table: Table, level: Sequence[str]) -> Values:
     }
 
 
-def place_counts(place: int) -> "Callable[[Table, Sequence[str]], Values]":
+def place_counts(place: int) -> TieBreak:
     """Countback: how often an entrant came in at this place, from 1."""
 
     def count(table: Table, level: Sequence[str]) -> Values:
         return {name: float(sum(_place(game, name) == place for game in table.games)) for name in level}
 
     return count
+
+
+def _split(names: Sequence[str], value: Mapping[str, float]) -> list[list[str]]:
+    """The names by descending value, equal ones together in their order."""
+    groups: dict[float, list[str]] = {}
+    for name in names:
+        groups.setdefault(exact(value[name]), []).append(name)
+    return [groups[key] for key in sorted(groups, reverse=True)]
+
+
+def _refined(tie_break: TieBreak, table: Table, group: list[str]) -> list[list[str]]:
+    """A group split by a tie-break, which counts again among those who are still level, if they are fewer."""
+    parts = _split(group, tie_break(table, group))
+    return parts if len(parts) == 1 else [finer for part in parts for finer in _refined(tie_break, table, part)]
 
 
 def _place(game: CountedMatch, name: str) -> int:

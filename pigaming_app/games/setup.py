@@ -58,12 +58,17 @@ def make_setup(
 
 
 def check_teams(rules: Game, variant: Variant, playing: Sequence[int]) -> None:
-    """Raises ChoiceError unless the variant of a game permits these teams, one for each robot that plays."""
+    """Raises ChoiceError unless the variant of a game permits these teams, one for each robot that plays.
+
+    A game that takes times can be played alone, against the clock.
+    """
     if variant.team_mode == ALLIES:
         if not playing:
             raise ChoiceError("at least one seat must be taken")
         if {*playing} != {0}:
             raise ChoiceError(f"in {rules.name}, {variant.name}, all robots are in team 0")
+        return
+    if len(playing) == 1 and rules.timed:
         return
     if len(playing) < 2:
         raise ChoiceError("at least two seats must be taken")

@@ -47,8 +47,8 @@ def by_chance(seed: int, ties: bool = True) -> Callable[[Fixture], Result]:
 
 def played(event: Event, outcome: Callable[[Fixture], Result] = best_seed_wins, rounds: int = 1000) -> Event:
     """The event after this many rounds, or at its end."""
-    while event.open and event.round <= rounds:
-        event = event.record(outcome(event.open[0]))
+    while not event.over and event.round <= rounds:
+        event = event.record(outcome(event.open[0])) if event.open else event.continued()
     return event
 
 

@@ -6,6 +6,7 @@ import pytest
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import parse, to_text
+from pigaming_app.events.formats.registry import KINDS
 from pigaming_app.events.spec import Advance, Entrant, EventSpec, Format, Result
 from tests.events.examples import best_seed_wins, by_chance, new_event, played
 
@@ -15,8 +16,10 @@ from tests.events.examples import best_seed_wins, by_chance, new_event, played
 def test_a_journal_replays_to_the_same_event(form, seed):
     """Chance plays, corrects, adds, withdraws, postpones and substitutes."""
     random = Random(f"{form}{seed}")
-    seats = random.choice((2, 3, 4))
-    event = new_event(form, random.randint(5, 14), seats=seats, games=("pitanks", "race"), seed=seed)
+    seats = random.choice(KINDS[form].seats)
+    games = ("race",) if KINDS[form].single else ("pitanks", "race")
+    fill = "level1" if KINDS[form].single and seats > 1 else ""
+    event = new_event(form, random.randint(5, 14), seats=seats, games=games, fill=fill, seed=seed)
     outcome = by_chance(seed)
     reasons: list[str] = []
     for step in range(60):
@@ -52,6 +55,8 @@ def _changed(event: Event, random: Random, outcome, step: int) -> Event:
             return event.withdraw(random.choice(names))
         case 3 if event.open:
             return event.postpone(random.choice(event.open).number)
+        case 5 if event.progress.kind.on_call:
+            return event.close() if step % 4 == 0 else event.continued()
         case 4:
             return event.substitute(random.choice(names), "level2")
     return event.record(outcome(random.choice(event.open))) if event.open else event
@@ -143,7 +148,7 @@ def test_seeding_games_and_seeds_of_matches():
         ({"seats": 5}, "a match has 2 to 4 seats, not 5"),
         ({"rounds": 65}, "an event has at most 64 rounds, not 65"),
         ({"rounds": 4}, "4 entrants can play at most 3 Swiss rounds, not 4"),
-        ({"fill": "level1"}, "AIs fill the seats of a Grand Prix only"),
+        ({"fill": "level1"}, "AIs fill seats in grandprix, timetrial, highscore only"),
         ({"games": ()}, "an event needs a game"),
         ({"seed": -1}, "a seed is a number from 0 to 1000000000000, not -1"),
     ],

@@ -32,6 +32,7 @@ from pigaming_app.scenes.editor.model.problems import Problem
 from pigaming_app.scenes.editor.naming import ArenaNamePage as ArenaName
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
+from pigaming_app.scenes.events.arrange_page import ArrangePage
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.manage.corrections import Correction, ResultsList
 from pigaming_app.scenes.events.manage.event_page import EventPage
@@ -305,8 +306,22 @@ def sudden_death(arcade: Arcade) -> Scene:
     return NextMatch(arcade.context, drawn.running(event), arcade.context.words("events.tied"))
 
 
-def event_table(arcade: Arcade, form: Format, count: int, page: int = 0, seats: int = 2, wide: bool = False) -> Scene:
-    scene = TablePage(arcade.context, event(form, count, seats, count, wide=wide))
+def arranged(arcade: Arcade, form: Format, count: int, called: int | None = None, wide: bool = False) -> Scene:
+    scene = ArrangePage(arcade.context, event(form, count, 2, 9, wide=wide))
+    scene.called = [scene.rows[called].entrant] if called is not None else []
+    return scene
+
+
+def event_table(
+    arcade: Arcade,
+    form: Format,
+    count: int,
+    page: int = 0,
+    seats: int = 2,
+    wide: bool = False,
+    matches: int = 0,
+) -> Scene:
+    scene = TablePage(arcade.context, event(form, count, seats, matches or count, wide=wide))
     scene.page, scene.turned = page, 9.0
     return scene
 
@@ -325,8 +340,8 @@ def correction(arcade: Arcade, reason: str = "", wide: bool = False) -> Scene:
     return scene
 
 
-def event_managed(arcade: Arcade, row: str) -> Scene:
-    run = event(Format.SWISS, 12, 4, 1)
+def event_managed(arcade: Arcade, row: str, form: Format = Format.SWISS) -> Scene:
+    run = event(form, 12, 4, 1)
     scene = EventPage(arcade.context, run.path, run, None)
     scene.focus.move_to(row)
     return scene
@@ -508,6 +523,18 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "next match of two": partial(next_match, count=5, seats=2, said="events.missing"),
     "next match of AIs": partial(next_match, count=8, seats=3, brains="level5"),
     **{f"event table {count}": partial(event_table, form=Format.SWISS, count=count) for count in (3, 8, 16, 64)},
+    "event groups": partial(event_table, form=Format.GROUPS, count=16),
+    "event groups knocked out": partial(event_table, form=Format.GROUPS, count=16, page=1, matches=99),
+    "event ladder": partial(event_table, form=Format.CHALLENGE, count=12),
+    "event lap times": partial(event_table, form=Format.TIME_TRIAL, count=8),
+    "event scores": partial(event_table, form=Format.HIGH_SCORE, count=20),
+    "widest event groups": partial(event_table, form=Format.GROUPS, count=23, wide=True),
+    "event challenger": partial(arranged, form=Format.CHALLENGE, count=12),
+    "event challenged": partial(arranged, form=Format.CHALLENGE, count=64, called=60),
+    "event who tries": partial(arranged, form=Format.HIGH_SCORE, count=30, called=2),
+    "widest event challenged": partial(arranged, form=Format.CHALLENGE, count=30, called=20, wide=True),
+    "event ladder managed": lambda arcade: event_managed(arcade, "close_week", Format.CHALLENGE),
+    "event day managed": lambda arcade: event_managed(arcade, "close_day", Format.TIME_TRIAL),
     **{
         f"event bracket {count}": partial(event_table, form=Format.KNOCKOUT, count=count, page=page, seats=seats)
         for count, page, seats in ((3, 0, 2), (8, 1, 2), (16, 0, 4), (64, 0, 2))

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from pigaming_app.events.formats import knockout
 from pigaming_app.events.formats.field import EntrantField
+from pigaming_app.events.formats.registry import KINDS
 from pigaming_app.events.spec import Fixture, Format, Round
 
 Played = Container[int]  # numbers of matches that have begun
@@ -16,7 +17,9 @@ def swapped(field: EntrantField, played: Played, name: str, other: str) -> tuple
     A bye is a place, too. In the winners' bracket of a knock-out they keep the places to its end. Raises ValueError.
     """
     form = field.spec.format
-    if form == Format.ROUND_ROBIN:
+    if KINDS[form].on_call:
+        raise ValueError("those who play arrange their matches: nothing is drawn")
+    if not KINDS[form].exchanges:
         raise ValueError("in a round robin everybody meets everybody: a match can be postponed instead")
     if name == other:
         raise ValueError("two different entrants exchange their places")

@@ -1,10 +1,10 @@
-"""What the draw of a round may look at, and what it decides."""
+"""A format: what its draws may look at and decide, and the functions that each one supplies."""
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import combinations
 
-from pigaming_app.events.spec import EventSpec, Result, Round
+from pigaming_app.events.spec import SEATS, EventSpec, Fixture, Result, Round, Standing
 
 Pair = frozenset[str]
 
@@ -19,6 +19,19 @@ class EntrantField:
     withdrawn: frozenset[str]
     rounds: tuple[Round, ...]
     outcomes: Mapping[int, Result]
+    closed: int = 0  # periods of a format on call, see `OnCall`
+    joined: Mapping[str, int] = field(default_factory=dict)  # periods that were closed before somebody entered late
+
+    @property
+    def complete(self) -> bool:
+        """True if every match that is drawn has a result."""
+        return all(one.number in self.outcomes for drawn in self.rounds for one in drawn.fixtures)
+
+    @property
+    def busy(self) -> frozenset[str]:
+        """Those in a match that is open."""
+        matches = (one for drawn in self.rounds for one in drawn.fixtures if one.number not in self.outcomes)
+        return frozenset(name for one in matches for name in one.entrants)
 
     @property
     def present(self) -> tuple[str, ...]:
@@ -53,6 +66,79 @@ class Draw:
 
     matches: tuple[MatchUp, ...]
     byes: tuple[str, ...] = ()
+
+
+def nobody(spec: EventSpec, fixture: Fixture) -> int:
+    """A match that decides about no other one."""
+    return 0
+
+
+def no_stages(spec: EventSpec) -> frozenset[str]:
+    """A format without a bracket."""
+    return frozenset()
+
+
+def unknown(spec: EventSpec, count: int) -> int:
+    """Matches of a format that draws all of them at once."""
+    return 0
+
+
+def nothing(field: EntrantField) -> Mapping[str, tuple[Standing, ...]]:
+    """No tables of parts."""
+    return {}
+
+
+def no_one(field: EntrantField) -> frozenset[str]:
+    """A table that decides nothing."""
+    return frozenset()
+
+
+def unchecked(spec: EventSpec) -> None:
+    """Whatever `check_spec` permits."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FormatKind:
+    """A format as data and functions; formats/registry.py has one for each `Format`.
+
+    `draws`: the rounds that can be drawn now; `table`: everybody, best first; `wins`: how many go on from a match, 0 if
+    that decides nothing, so that it may be tied; `check` raises ValueError for a spec that the format cannot play.
+    `qualified`: who goes on by the table, once the matches that follow from it are drawn; else nobody.
+    """
+
+    draws: Callable[[EntrantField], Sequence[Draw]]
+    table: Callable[[EntrantField], tuple[Standing, ...]]
+    parts: Callable[[EntrantField], Mapping[str, tuple[Standing, ...]]] = nothing  # tables of groups, by name
+    wins: Callable[[EventSpec, Fixture], int] = nobody
+    qualified: Callable[[EntrantField], frozenset[str]] = no_one
+    check: Callable[[EventSpec], None] = unchecked
+    follows_results: bool = True  # rounds that have not begun are drawn anew after a correction
+    follows_withdrawals: bool = True
+    exchanges: bool = True  # two entrants can exchange their places in a round
+    matches: Callable[[EventSpec, int], int] = unknown  # of so many entrants, where they are not drawn yet; roughly
+    seats: tuple[int, ...] = SEATS  # of a match; the first one is the default
+    rounds: tuple[int, ...] = (0,)  # choices of the arcade; 0: the default
+    fills: bool = False  # AIs may take empty seats
+    timed: bool = False  # times count, the shortest is best
+    single: bool = False  # of one game in one arena
+    series: bool = False  # all games by turns, so many times
+    figures: tuple[str, ...] = ("points", "wins", "played")  # of a table, the most important one first
+    sides: Mapping[str, tuple[str, ...]] = field(default_factory=dict)  # stages of each side of a bracket, by its name
+    bound: Callable[[EventSpec], frozenset[str]] = no_stages  # stages whose matches to come follow from the bracket
+    on_call: "OnCall | None" = None  # its matches are arranged by those who play
+
+
+@dataclass(frozen=True, kw_only=True)
+class OnCall:
+    """A format without a draw: who wants to play arranges a match, until the last period is closed by hand.
+
+    `check` raises ValueError if these entrants cannot play a match now; `next`: whom an event of AIs would let play,
+    None if a period is over; `periods`: how many there are.
+    """
+
+    check: Callable[[EntrantField, tuple[str, ...]], None]
+    next: Callable[[EntrantField], tuple[str, ...] | None]
+    periods: Callable[[EventSpec], int]
 
 
 def meetings(groups: Iterator[tuple[str, ...]]) -> dict[Pair, int]:

@@ -7,11 +7,15 @@ In heats of two, an odd one out has a bye, in turn from the last seed up, with t
 
 from random import Random
 
-from pigaming_app.events.formats.field import Draw, EntrantField, MatchUp, meetings
+from pigaming_app.events import tie_breaks
+from pigaming_app.events.formats import scoring
+from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, MatchUp, meetings
 from pigaming_app.events.formats.grouping import mixed, serpentine
+from pigaming_app.events.spec import WALKOVER, Result, Standing
 
 POINTS = (10.0, 6.0, 3.0, 1.0)  # of each place
 BYE = (POINTS[0] + POINTS[1]) / 2
+TIE_BREAKS = {key: tie_breaks.place_counts(place) for place, key in enumerate(("first", "second", "third"), 1)}
 
 
 def rounds(field: EntrantField) -> list[Draw]:
@@ -39,3 +43,31 @@ def rounds(field: EntrantField) -> list[Draw]:
 def shared(first: int, count: int) -> float:
     """Points of each of `count` entrants who share the places from `first` on, from 1."""
     return sum(POINTS[first - 1 : first - 1 + count]) / count
+
+
+def table(field: EntrantField) -> tuple[Standing, ...]:
+    """Points, then most first, second and third places."""
+    counted = tie_breaks.counted(field, field.outcomes.values(), _gained, BYE)
+    return tie_breaks.table_of(field, field.entrants, counted, TIE_BREAKS)
+
+
+def _gained(outcome: Result) -> dict[str, float]:
+    """Points by place; a walkover is a first place."""
+    if outcome.note == WALKOVER:
+        return {name: share * POINTS[0] for name, share in scoring.points(outcome).items()}
+    found: dict[str, float] = {}
+    for place in outcome.places:
+        here = shared(len(found) + 1, len(place))
+        found |= dict.fromkeys(place, here)
+    return found
+
+
+KIND = FormatKind(
+    draws=rounds,
+    table=table,
+    follows_results=False,
+    seats=(4, 2, 3),
+    fills=True,
+    series=True,
+    figures=("points", "wins", "played", "first"),
+)

@@ -17,24 +17,28 @@ A late entrant has missed one round, and so begins in the losers' bracket.
 from collections.abc import Sequence
 from itertools import zip_longest
 
-from pigaming_app.events.formats.field import Draw, EntrantField, MatchUp
+from pigaming_app.events import tie_breaks
+from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, MatchUp
 from pigaming_app.events.formats.grouping import mixed, neighbours, serpentine
-from pigaming_app.events.spec import Advance, Fixture, Result
+from pigaming_app.events.formats.sudden_death import through
+from pigaming_app.events.spec import Advance, EventSpec, Fixture, Standing
 
 WINNERS, LOSERS, FINAL = "winners", "losers", "final"
 OUT = 2  # defeats
 
 
-def next_round(field: EntrantField) -> Draw | None:
-    """The next round; None once the event is decided."""
+def rounds(field: EntrantField) -> list[Draw]:
+    """The next round after a complete one; none once the event is decided."""
+    if not field.complete:
+        return []
     lost = defeats(field)
     unbeaten = [name for name in field.present if lost[name] == 0]
     beaten = [name for name in field.present if lost[name] == 1]
     if len(unbeaten) + len(beaten) < 2:
-        return None
+        return []
     if len(unbeaten) <= 1 and len(beaten) <= 2 and len(unbeaten) + len(beaten) == 2:
         finals = bool(unbeaten) or any(one.stage == FINAL for drawn in field.rounds for one in drawn.fixtures)
-        return Draw((MatchUp((*unbeaten, *beaten), FINAL if finals else LOSERS),))
+        return [Draw((MatchUp((*unbeaten, *beaten), FINAL if finals else LOSERS),))]
     matches: list[MatchUp] = []
     byes: list[str] = []
     if len(unbeaten) > 1 and len(beaten) <= len(unbeaten):
@@ -44,23 +48,13 @@ def next_round(field: EntrantField) -> Draw | None:
         groups, rested = _losers(field, beaten)
         matches += [MatchUp(group, LOSERS) for group in groups]
         byes += rested
-    return Draw(tuple(matches), tuple(byes))
+    return [Draw(tuple(matches), tuple(byes))]
 
 
-def wins(fixture: Fixture, advance: Advance) -> int:
+def wins(spec: EventSpec, fixture: Fixture) -> int:
     """How many win a match, and go on."""
-    share = 2 if advance == Advance.HALF else 4
+    share = 2 if spec.advance == Advance.HALF else 4
     return -(-len(fixture.entrants) // share)
-
-
-def through(fixture: Fixture, outcome: Result, advance: Advance) -> frozenset[str]:
-    """Who wins a match that is decided; nobody if all have withdrawn."""
-    found: list[str] = []
-    for place in outcome.places:
-        if len(found) + len(place) > wins(fixture, advance):
-            break
-        found += place
-    return frozenset(found)
 
 
 def defeats(field: EntrantField) -> dict[str, int]:
@@ -69,7 +63,7 @@ def defeats(field: EntrantField) -> dict[str, int]:
     for drawn in field.rounds:
         for fixture in drawn.fixtures:
             if outcome := field.outcomes.get(fixture.number):
-                for name in {*fixture.entrants} - through(fixture, outcome, field.spec.advance):
+                for name in {*fixture.entrants} - through(outcome, wins(field.spec, fixture)):
                     lost[name] += 1
     return lost
 
@@ -122,3 +116,36 @@ def _losers(field: EntrantField, names: Sequence[str]) -> tuple[list[tuple[str, 
     if stayed and fallen:
         left = [name for pair in zip_longest(stayed, reversed(fallen)) for name in pair if name]
     return neighbours(left, 2, met), rested
+
+
+def table(field: EntrantField) -> tuple[Standing, ...]:
+    """Who is still in, the unbeaten first, then who was beaten for the second time last."""
+    lost = defeats(field)
+    last = dict.fromkeys(field.entrants, 0)  # round of the last match
+    ended = dict.fromkeys(field.entrants, 0.0)  # place in it
+    for drawn in field.rounds:
+        for fixture in drawn.fixtures:
+            if outcome := field.outcomes.get(fixture.number):
+                ahead = 0
+                for place in outcome.places:
+                    for name in place:
+                        last[name], ended[name] = drawn.number, float(ahead)
+                    ahead += len(place)
+
+    def key(name: str) -> tuple[float, ...]:
+        """Higher is better."""
+        if lost[name] < OUT and name not in field.withdrawn:
+            return (2.0 - lost[name], 0.0, 0.0)
+        return (0.0, last[name], -ended[name])
+
+    return tie_breaks.ranked(field, field.entrants, key)
+
+
+KIND = FormatKind(
+    matches=lambda spec, count: 2 * count // (spec.seats - 1),
+    draws=rounds,
+    table=table,
+    wins=wins,
+    sides={"winners_side": (WINNERS, FINAL), "second_chance": (LOSERS,)},
+    bound=lambda spec: frozenset((FINAL, *((WINNERS,) if spec.seats == 2 else ()))),
+)

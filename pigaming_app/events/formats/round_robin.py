@@ -10,27 +10,41 @@ there are rounds until each two have met as often as there are cycles, but at mo
 design would need.
 """
 
+from collections.abc import Sequence
 from functools import lru_cache
 from random import Random
 
-from pigaming_app.events.formats.field import Draw, EntrantField, MatchUp, meetings
+from pigaming_app.events import tie_breaks
+from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, MatchUp, meetings
 from pigaming_app.events.formats.grouping import mixed, serpentine, sizes
+from pigaming_app.events.spec import WALKOVER, EventSpec, Fixture, Standing
 
+MOST_MATCHES = 4096  # of two
 CYCLES = 1  # by default
 PATIENCE = 3  # times the rounds of a perfect design
+TIE_BREAKS = {
+    "head_to_head": tie_breaks.head_to_head,
+    "wins": tie_breaks.wins,
+    "sonneborn_berger": tie_breaks.sonneborn_berger,
+}
 
 
 def rounds(field: EntrantField) -> list[Draw]:
-    """The rounds that are not drawn yet. Late entrants have missed the first one and play from the second one on."""
+    """The rounds that are not drawn yet."""
+    return schedule(field, field.entrants)[len(field.rounds) :]
+
+
+def schedule(field: EntrantField, names: tuple[str, ...]) -> list[Draw]:
+    """All rounds among some entrants. Late ones have missed the first round and play from the second one on."""
     cycles = field.spec.rounds or CYCLES
-    first = tuple(name for name in field.entrants if name not in field.late)
+    first = tuple(name for name in names if name not in field.late)
     draws = _pairs if field.spec.seats == 2 else _groups
     whole = draws(first, field.spec.seats, cycles)
-    if not field.late:
-        return whole[len(field.rounds) :]
+    if len(first) == len(names):
+        return whole
     played = {frozenset(match.entrants) for match in whole[0].matches}
-    again = []
-    for draw in draws(field.entrants, field.spec.seats, cycles):
+    again = [whole[0]]
+    for draw in draws(names, field.spec.seats, cycles):
         left = []
         for match in draw.matches:
             if frozenset(match.entrants) in played:
@@ -39,7 +53,22 @@ def rounds(field: EntrantField) -> list[Draw]:
                 left.append(match)
         if left:
             again.append(Draw(tuple(left), draw.byes))
-    return again[len(field.rounds) - 1 :]
+    return again
+
+
+def table(field: EntrantField) -> tuple[Standing, ...]:
+    """Points, head to head, wins, Sonneborn-Berger."""
+    return table_among(field, field.entrants, [one for drawn in field.rounds for one in drawn.fixtures])
+
+
+def table_among(field: EntrantField, names: Sequence[str], fixtures: Sequence[Fixture]) -> tuple[Standing, ...]:
+    """The table of some entrants by their matches. Of an entrant who withdraws before half of the own ones are played,
+    none counts (FIDE Handbook C.05, General regulations for competitions).
+    """
+    early = {name for name in names if name in field.withdrawn and _left_early(field, name, fixtures)}
+    outcomes = [field.outcomes[one.number] for one in fixtures if one.number in field.outcomes]
+    counting = [one for one in outcomes if not any(name in early for place in one.places for name in place)]
+    return tie_breaks.table_of(field, names, tie_breaks.counted(field, counting), TIE_BREAKS)
 
 
 def berger(count: int) -> list[list[tuple[int, int]]]:
@@ -88,3 +117,28 @@ def _groups(names: tuple[str, ...], seats: int, cycles: int) -> list[Draw]:
         for pair, times in meetings(iter(groups)).items():
             met[pair] = met.get(pair, 0) + times
     return draws
+
+
+def _left_early(field: EntrantField, name: str, fixtures: Sequence[Fixture]) -> bool:
+    own = [one.number for one in fixtures if name in one.entrants]
+    played = sum(number in field.outcomes and field.outcomes[number].note != WALKOVER for number in own)
+    return 2 * played < len(own)
+
+
+def check(spec: EventSpec) -> None:
+    """Raises ValueError if everybody would have too many matches."""
+    count = len(spec.entrants)
+    if max(1, spec.rounds) * count * (count - 1) // 2 > MOST_MATCHES:
+        raise ValueError(f"{spec.rounds} times {count} entrants are more than {MOST_MATCHES} matches")
+
+
+KIND = FormatKind(
+    draws=rounds,
+    table=table,
+    check=check,
+    follows_results=False,
+    exchanges=False,
+    follows_withdrawals=False,
+    rounds=(1, 2),
+    figures=("points", "wins", "played", "head_to_head"),
+)

@@ -51,6 +51,16 @@ def across(places: Places, through: int) -> tuple[str, ...]:
     return ()
 
 
+def through(outcome: Result, wins: int) -> frozenset[str]:
+    """Who goes on from a match that is decided, so many of them; nobody if all have withdrawn."""
+    found: list[str] = []
+    for place in outcome.places:
+        if len(found) + len(place) > wins:
+            break
+        found += place
+    return frozenset(found)
+
+
 def lots(fixture: Fixture, tied: Sequence[str]) -> list[str]:
     """An order drawn by lot, which depends on the seed of the match and on no list."""
     return Random(fixture.seed).sample(sorted(tied), len(tied))

@@ -18,31 +18,44 @@ from collections.abc import Collection, Iterable, Sequence
 from functools import lru_cache, reduce
 from math import ceil, log2
 
-from pigaming_app.events.formats.field import Draw, EntrantField, MatchUp
+from pigaming_app.events import tie_breaks
+from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, MatchUp
 from pigaming_app.events.formats.grouping import neighbours
-from pigaming_app.events.formats.scoring import scores
+from pigaming_app.events.formats.scoring import BYE, scores
+from pigaming_app.events.spec import EventSpec, Standing
 
 MOST = 4096  # more than the sum of a criterion over all pairs
+TIE_BREAKS = {
+    "buchholz": tie_breaks.buchholz,
+    "head_to_head": tie_breaks.head_to_head,
+    "sonneborn_berger": tie_breaks.sonneborn_berger,
+    "wins": tie_breaks.wins,
+}
 
 
-def next_round(field: EntrantField) -> Draw | None:
-    """The next round; None after the last one, or if there are less than two entrants."""
+def rounds(field: EntrantField) -> list[Draw]:
+    """The next round after a complete one; none after the last, or if there are less than two entrants."""
     names = field.present
-    if len(field.rounds) >= (field.spec.rounds or default_rounds(len(field.entrants))) or len(names) < 2:
-        return None
+    last = field.spec.rounds or default_rounds(len(field.entrants))
+    if not field.complete or len(field.rounds) >= last or len(names) < 2:
+        return []
     score, met = scores(field), field.meetings()
     order = sorted(names, key=lambda name: -score[name])
     if field.spec.seats > 2:
-        return Draw(tuple(MatchUp(group) for group in neighbours(order, field.spec.seats, met)))
+        return [Draw(tuple(MatchUp(group) for group in neighbours(order, field.spec.seats, met)))]
     place, byes = {name: i for i, name in enumerate(order)}, field.byes()
     again = frozenset(
         (*sorted(place[name] for name in pair), times) for pair, times in met.items() if pair <= place.keys()
     )
     found = pairing(tuple(score[name] for name in order), again, tuple(byes[name] for name in order))
-    return Draw(
-        tuple(MatchUp((order[one], order[other])) for one, other in found if other < len(order)),
-        tuple(order[one] for one, other in found if other == len(order)),
-    )
+    matches = tuple(MatchUp((order[one], order[other])) for one, other in found if other < len(order))
+    return [Draw(matches, tuple(order[one] for one, other in found if other == len(order)))]
+
+
+def table(field: EntrantField) -> tuple[Standing, ...]:
+    """Points, Buchholz, head to head, Sonneborn-Berger, wins."""
+    counted = tie_breaks.counted(field, field.outcomes.values(), bye=BYE)
+    return tie_breaks.table_of(field, field.entrants, counted, TIE_BREAKS)
 
 
 def default_rounds(count: int) -> int:
@@ -85,3 +98,19 @@ def _in_line(one: int, group: Sequence[int], even: int) -> list[int]:
 def _number(criteria: Iterable[int]) -> int:
     """A number that grows with the first criterion, then with the second, and so on."""
     return reduce(lambda number, criterion: number * MOST + criterion, criteria, 0)
+
+
+def _check(spec: EventSpec) -> None:
+    count = len(spec.entrants)
+    if spec.seats == 2 and spec.rounds > count - 1:
+        raise ValueError(f"{count} entrants can play at most {count - 1} Swiss rounds, not {spec.rounds}")
+
+
+KIND = FormatKind(
+    matches=lambda spec, count: (spec.rounds or default_rounds(count)) * count // spec.seats,
+    draws=rounds,
+    table=table,
+    check=_check,
+    rounds=(3, 4, 5, 6, 7, 8, 9),
+    figures=("points", "wins", "played", "buchholz"),
+)

@@ -1,6 +1,6 @@
 """Tournaments and Grand Prix: knock-out, round robin, Swiss. A file holds the whole event."""
 
-from pigaming_app.jobs.events import export, new, play, show
+from pigaming_app.jobs.events import arrange, close, export, new, play, show
 from pigaming_app.jobs.events.changes import call, correct, enter, pause, result, seat, swap, withdraw
 
 WORDS = {
@@ -14,6 +14,8 @@ WORDS = {
     "swap": swap,
     "seat": seat,
     "call": call,
+    "arrange": arrange,
+    "close": close,
     "break": pause,
     "export": export,
 }

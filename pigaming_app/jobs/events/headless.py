@@ -5,14 +5,14 @@ are played as one batch, extra matches one by one. An entrant without a brain is
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events.event import Event
+from pigaming_app.events.formats.registry import KINDS
 from pigaming_app.events.match_setup import outcome_of, setup_of
-from pigaming_app.events.spec import DEFAULT_AI, Fixture, Format, Result
+from pigaming_app.events.spec import DEFAULT_AI, Fixture, Result
 from pigaming_app.games.game import Row
 from pigaming_app.games.match import standings
 from pigaming_app.games.registry import games
@@ -48,7 +48,9 @@ class HeadlessRun:
         game = fixtures[0].game
         setups = [setup_of(event, fixture, DEFAULT_AI) for fixture in fixtures]
         states = self._line_ups[game].played(setups)
-        return [outcome_of(fixture, _rows(game, state)) for fixture, state in zip(fixtures, states, strict=True)]
+        return [
+            outcome_of(event.spec, fixture, _rows(game, state)) for fixture, state in zip(fixtures, states, strict=True)
+        ]
 
     def _line_up(self, event: Event, game: str, fast: bool | None) -> "LineUps":
         from pigaming_app.ai.learning.line_ups import LineUps  # of another feature
@@ -57,7 +59,8 @@ class HeadlessRun:
         brains += [event.spec.fill] if event.spec.fill else []
         if fast is None:
             matches = matches_left(event) // len({*event.spec.games})
-            example = replace(event.fixtures[0], game=game, arena=(event.spec.arenas.get(game) or ("",))[0])
+            names, arena = tuple(entrant.name for entrant in event.entrants), (event.spec.arenas.get(game) or ("",))[0]
+            example = Fixture(1, 1, "", game, arena, names[: event.spec.seats], 1)
             fast = can_compile() and matches * _ticks(event, example) > WORTH_COMPILING
         return LineUps(game, brains, fast and not any(find_brain(game, name).plain for name in brains))
 
@@ -69,12 +72,8 @@ def seconds_of(event: Event, fixture: Fixture) -> float:
 
 def matches_left(event: Event) -> int:
     """Matches to come, estimated where they are not drawn yet."""
-    spec, count = event.spec, len(event.entrants)
-    if spec.format == Format.KNOCKOUT:
-        return max(len(event.open), 2 * count // (spec.seats - 1) - len(event.outcomes))
-    if spec.format == Format.SWISS:
-        return max(len(event.open), (spec.rounds or 6) * count // spec.seats - len(event.outcomes))
-    return len(event.open)
+    kind, count = KINDS[event.spec.format], len(event.entrants)
+    return max(len(event.open), kind.matches(event.spec, count) - len(event.outcomes))
 
 
 def _ticks(event: Event, fixture: Fixture) -> int:
@@ -83,9 +82,17 @@ def _ticks(event: Event, fixture: Fixture) -> int:
 
 def _rows(game: str, state: Any) -> list[Row]:
     """Place and score of every robot that played."""
-    keys, _ = standings(games()[game], state)
-    robots = state.robots
+    rules, robots = games()[game], state.robots
+    keys, _ = standings(rules, state)
     return [
-        Row(seat, robots[seat].team, 1 + sum(key > own for key in keys.values()), robots[seat].score, {}, {}, ())
+        Row(
+            seat,
+            robots[seat].team,
+            1 + sum(key > own for key in keys.values()),
+            robots[seat].score,
+            {},
+            rules.records(state, seat),
+            (),
+        )
         for seat, own in keys.items()
     ]

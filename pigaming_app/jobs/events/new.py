@@ -5,6 +5,7 @@ import sys
 from argparse import ArgumentTypeError
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from datetime import date
 from pathlib import Path
 from typing import TypeVar
 
@@ -13,8 +14,10 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
 from pigaming_app.events.entrant_lists import entrants_of_text, entrants_of_words, read_list
 from pigaming_app.events.event import Event
+from pigaming_app.events.formats.registry import KINDS
 from pigaming_app.events.match_setup import check_playable
 from pigaming_app.events.spec import (
+    DEFAULT_AI,
     FEWEST,
     MAX_ROUNDS,
     MAX_SEED,
@@ -37,7 +40,6 @@ from pigaming_app.storage.safe_files import require_writable
 
 T = TypeVar("T")
 BY_GAME = "for one game, or GAME=VALUE,GAME=VALUE"
-DEFAULT_SEATS = {Format.GRAND_PRIX: 4}  # else 2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,17 +53,20 @@ class NewEventOptions(FileOption, JsonOption):
         required=True,
     )
     rounds: int = option(
-        "of a Swiss or a Grand Prix; of a round robin: times that everybody meets everybody",
+        "of a Swiss or a Grand Prix; times that everybody meets everybody; weeks of a ladder; most tries of everybody",
         integer(high=MAX_ROUNDS),
         0,
         metavar="NUMBER",
     )
-    seats: int | None = option("entrants of a match", integer(SEATS[0], SEATS[-1]), metavar="NUMBER")
+    seats: int | None = option("entrants of a match", integer(1, SEATS[-1]), metavar="NUMBER")
     minutes: str | None = option(f"length of a match; {BY_GAME}")
     arena: str | None = option(f"arena, or several with + by turns; {BY_GAME}")
     rules: str | None = option(f"set of rules; {BY_GAME}", name=("--rules", "--variant"))
     advance: str = option("in a knock-out: the better half, or quarter", default=Advance.HALF.value)
-    fill: str = option("AI on empty seats of a Grand Prix", default="", metavar="AI")
+    fill: str = option("AI on empty seats of a Grand Prix, or beside whoever tries", default="", metavar="AI")
+    reach: int = option(
+        "of a challenge ladder: places up to which a challenge goes; default 3", integer(1, MOST - 1), 3
+    )
     title: str | None = option("default: the name of the file", word)
     seed: int = option("random seed; default 1", integer(0, MAX_SEED), 1, metavar="NUMBER")
 
@@ -89,19 +94,23 @@ def _spec(options: NewEventOptions) -> EventSpec:
     require_one_of("format", options.format, list(Format))
     require_one_of("choice for --advance:", options.advance, list(Advance))
     form = Format(options.format)
+    kind = KINDS[form]
+    seats = options.seats or kind.seats[0]
     return EventSpec(
         title=options.title or options.file.stem[:MAX_TITLE],
         format=form,
         games=played,
         entrants=tuple(with_whole_path(entrant) for entrant in _entrants(options.entrants, played)),
         rounds=options.rounds,
-        seats=options.seats or DEFAULT_SEATS.get(form, SEATS[0]),
+        seats=seats,
         arenas=_by_game("--arena", options.arena, played, _arenas),
         minutes=_by_game("--minutes", options.minutes, played, decimal(0.0, 3600.0)),
         variants=_by_game("--rules", options.rules, played, str),
         seed=options.seed,
         advance=Advance(options.advance),
-        fill=options.fill,
+        fill=options.fill or (DEFAULT_AI if kind.single and seats > 1 else ""),
+        reach=options.reach,
+        start=date.today().isoformat() if form is Format.CHALLENGE else "",
     )
 
 

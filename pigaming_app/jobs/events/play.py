@@ -55,7 +55,10 @@ def run(options: PlayEventOptions) -> int:
     with refused(ChoiceError, ArenaError, ValueError):
         check_playable(event.spec.with_entrants(event.entrants), find_brain)
         headless = HeadlessRun(event)
-        while event.open:
+        while not event.over:
+            if not event.open:
+                event = event_files.update(options.file, _continued, event)
+                continue
             started = perf_counter()
             outcomes, entrants = headless.play(event), event.entrants
             event = event_files.update(options.file, partial(_recorded, outcomes), event)
@@ -87,6 +90,11 @@ def _in_window(options: PlayEventOptions, event: Event) -> int:
     if options.kiosk:  # which opens the event that is marked, until somebody leaves it
         return arcade.show(plain)
     return arcade.show(replace(plain, first_scene=lambda context: page_of(context, RunningEvent(options.file, event))))
+
+
+def _continued(event: Event) -> Event:
+    """The event with what AIs do next in a format on call, unless another process was faster."""
+    return event if event.open or event.over else event.continued()
 
 
 def _recorded(outcomes: list[Result], event: Event) -> Event:

@@ -41,6 +41,10 @@ def lines(event: Event) -> Iterator[str]:
         yield f"break: {event.pause}".rstrip(": ")
     yield ""
     yield from _table(event.standings)
+    for name, rows in event.part_standings.items():
+        yield ""
+        yield f"group {name}"
+        yield from _table(rows)
     if event.team_standings:
         yield ""
         yield from _table(event.team_standings)

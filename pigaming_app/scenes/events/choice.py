@@ -11,6 +11,7 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
+from pigaming_app.scenes.events.arrange_page import ArrangePage
 from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.podium_page import EventPodiumPage
@@ -126,7 +127,10 @@ def page_of(context: Context, running: RunningEvent) -> Scene:
     """The page with which an event goes on; one of AIs alone does so by itself."""
     if running.event.over:
         return EventPodiumPage(context, running)
-    return NextMatch(context, running, show=all(entrant.brain for entrant in running.event.entrants))
+    alone = all(entrant.brain for entrant in running.event.entrants)
+    if running.event.progress.kind.on_call and not alone:
+        return ArrangePage(context, running)
+    return NextMatch(context, running, show=alone)
 
 
 def row_box(i: int) -> pygame.Rect:

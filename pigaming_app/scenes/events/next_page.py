@@ -141,7 +141,7 @@ class NextMatch:
         self.message_left -= seconds
         self.queue.work(2.0)
         if self.fixture is None:
-            return Swap(EventPodiumPage(self.context, self.running)) if self.message_left <= 0.0 else None
+            return self._after_last() if self.message_left <= 0.0 else None
         if self.going:
             return self._begin()
         if self.quick:
@@ -151,6 +151,16 @@ class NextMatch:
             shown = self.show and not self.seats.people and self.clock > SHOW_AFTER
             if shown or self.ready > ALL_READY:
                 return self._start()
+        return None
+
+    def _after_last(self) -> StackOperation:
+        """The podium; in a format on call, those who choose the next match, or the next ones of AIs alone."""
+        event = self.running.event
+        if event.over:
+            return Swap(EventPodiumPage(self.context, self.running))
+        if any(not entrant.brain for entrant in event.entrants):
+            return Pop()
+        self._change(lambda event: event if event.open or event.over else event.continued())
         return None
 
     def draw(self, screen: pygame.Surface) -> None:
@@ -377,7 +387,7 @@ class EventMatch:
         if not scene.match.over:
             return NextMatch(scene.context, running, words("events.unplayed"))
         scene.sequel.stood_in = stood_in(running, self.fixture)
-        outcome = outcome_of(self.fixture, scene.match.outcome().rows)
+        outcome = outcome_of(running.event.spec, self.fixture, scene.match.outcome().rows)
         try:
             notice = "" if running.change(lambda event: event.record(outcome)) else words("app.unsaved")
         except ValueError as reason:  # another process has played this match

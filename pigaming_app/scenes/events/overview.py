@@ -4,16 +4,17 @@ from dataclasses import dataclass, replace
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.formats import knockout
-from pigaming_app.events.formats.knockout import FINAL, LOSERS, WINNERS
-from pigaming_app.events.spec import WALKOVER, Fixture, Format, Result, Standing
+from pigaming_app.events.formats.knockout import FINAL
+from pigaming_app.events.spec import WALKOVER, Fixture, Result, Standing
 from pigaming_app.scenes.events import bracket_view, table_view
 from pigaming_app.scenes.events.bracket_view import LATER, NEXT, OPEN, PLAYED, BracketBox, Page
 from pigaming_app.scenes.events.running import stage_name
-from pigaming_app.scenes.events.table_view import TableRow
+from pigaming_app.scenes.events.table_view import Part, TableRow
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.numbers import numeral
 
-TABLE, TEAMS, BRACKET = "table", "teams", "bracket"  # kinds of pages
+TABLE, TEAMS, GROUPS, BRACKET = "table", "teams", "groups", "bracket"  # kinds of pages
+TEAM_FIGURES = ("points", "wins", "played")
 
 
 @dataclass(frozen=True)
@@ -24,13 +25,14 @@ class Overview:
     heads: tuple[str, ...]  # of the values of a table
     rows: tuple[TableRow, ...]
     teams: tuple[TableRow, ...]
+    groups: tuple[Part, ...]
     bracket: tuple[Page, ...]
     pages: tuple[tuple[str, int], ...]
     first: int
 
     def table(self, kind: str) -> tuple[tuple[TableRow, ...], tuple[str, ...]]:
         """Rows and headings of the table of the entrants, or of the teams."""
-        return (self.rows, self.heads) if kind == TABLE else (self.teams, self.heads[:2])
+        return (self.rows, self.heads) if kind == TABLE else (self.teams, heads_of(self.words, TEAM_FIGURES))
 
     def stages(self, number: int) -> list[str]:
         """Headings of the columns of a page of the bracket."""
@@ -39,39 +41,47 @@ class Overview:
 
 
 def overview(words: Words, event: Event, playing: int | None = None) -> Overview:
-    """The pages of an event: a knock-out begins with its bracket, all others with the table.
+    """The pages of an event: a knock-out begins with its bracket, groups with their tables, all others with the table.
 
     `playing`: number of the match to be marked; None: the next one.
     """
     upcoming = playing or (event.open[0].number if event.open else None)
-    rows = rows_of(words, event.standings, {entrant.name for entrant in event.entrants if entrant.brain})
-    teams = rows_of(words, event.team_standings, set())
+    kind, ais = event.progress.kind, {entrant.name for entrant in event.entrants if entrant.brain}
+    rows = rows_of(words, event.standings, kind.figures, ais)
+    teams = rows_of(words, event.team_standings, TEAM_FIGURES, set())
+    groups = tuple(
+        Part(f"{words('events.group')} {name}", rows_of(words, part, TEAM_FIGURES, ais))
+        for name, part in event.part_standings.items()
+    )
     bracket = bracket_view.pages_of(_sides(words, event, upcoming))
     table = [(TABLE, i) for i in range(table_view.pages_of(len(rows)))]
     table += [(TEAMS, i) for i in range(table_view.pages_of(len(teams))) if teams]
     rounds = [(BRACKET, i) for i in range(len(bracket))]
-    knocked = event.spec.format is Format.KNOCKOUT
+    parts = [(GROUPS, i) for i in range(table_view.group_pages(groups))]
+    knocked = bool(kind.sides) and any(kind.wins(event.spec, one) for one in event.fixtures)
     return Overview(
         words,
-        heads_of(words, event.spec.format),
+        heads_of(words, kind.figures),
         rows,
         teams,
+        groups,
         tuple(bracket),
-        tuple([*rounds, *table] if knocked else [*table, *rounds]),
-        bracket_view.page_with(bracket, upcoming) if knocked else 0,
+        tuple([*parts, *rounds, *table] if kind.sides else [*table, *rounds]),
+        len(parts) + bracket_view.page_with(bracket, upcoming) if knocked else 0,
     )
 
 
 def _sides(words: Words, event: Event, upcoming: int | None) -> list[list[BracketBox]]:
-    """All matches that are drawn; of a knock-out also those to come: the winners' side with the finals, the losers'."""
-    if event.spec.format is not Format.KNOCKOUT:
+    """All matches that are drawn; of a knock-out also those to come, each side for itself."""
+    sides = event.progress.kind.sides
+    if not sides:
         return [[_box(event, event, fixture, upcoming) for fixture in event.fixtures]]
     shown = outlook(event)
     boxes = [_box(event, shown, fixture, upcoming) for fixture in shown.fixtures]
-    if boxes[-1].state == LATER:
+    if boxes[-1].state == LATER and boxes[-1].stage == FINAL:
         boxes[-1] = replace(boxes[-1], note=words("events.if_needed"), come=frozenset())  # the second final
-    order = {stage: [box for box in boxes if box.stage == stage] for stage in (WINNERS, LOSERS, FINAL)}
-    return [side for side in (order[WINNERS] + order[FINAL], order[LOSERS]) if side]
+    of_stages = [[box for stage in stages for box in boxes if box.stage == stage] for stages in sides.values()]
+    return [side for side in of_stages if side]
 
 
 def _box(event: Event, shown: Event, fixture: Fixture, upcoming: int | None) -> BracketBox:
@@ -80,14 +90,15 @@ def _box(event: Event, shown: Event, fixture: Fixture, upcoming: int | None) -> 
     drawn = fixture.number <= len(event.fixtures)
     state = PLAYED if outcome else NEXT if fixture.number == upcoming else OPEN if drawn else LATER
     best = through(event, fixture, outcome) if outcome else ()
-    names, go, come = fixture.entrants, frozenset(best), frozenset(fixture.entrants)
-    if event.spec.format is not Format.KNOCKOUT:
-        go = frozenset()
-    elif fixture.stage == WINNERS and event.spec.seats == 2:  # its matches to come follow from the draw
-        go = frozenset(through(event, fixture, shown.outcomes[fixture.number]))
+    names, go, come = fixture.entrants, event.through(fixture), frozenset(fixture.entrants)
+    kind = event.progress.kind
+    bound = kind.bound(event.spec)
+    if fixture.stage in bound and fixture.stage != FINAL:
+        go = shown.through(fixture)
     if not drawn:
-        certain = fixture.stage == FINAL or (fixture.stage == WINNERS and event.spec.seats == 2)
-        names = tuple(name if certain and is_settled(event, shown, fixture, name) else "" for name in names)
+        certain = fixture.stage in bound
+        begun = any(kind.wins(event.spec, one) for one in event.fixtures)
+        names = tuple(name if certain and begun and is_settled(event, shown, fixture, name) else "" for name in names)
         come = come if certain else frozenset()
     return BracketBox(
         fixture.number, fixture.stage, fixture.round, names, tuple(name in best for name in names), state, go, come
@@ -119,25 +130,38 @@ def _made_up(event: Event, fixture: Fixture) -> Result:
 
 def through(event: Event, fixture: Fixture, outcome: Result) -> tuple[str, ...]:
     """Who goes on from a match of a knock-out, or has won another."""
-    if event.spec.format is Format.KNOCKOUT:
-        return tuple(knockout.through(fixture, outcome, event.spec.advance))
+    if event.progress.kind.wins(event.spec, fixture):
+        return tuple(event.through(fixture))
     return outcome.places[0] if len(outcome.places) > 1 or outcome.note == WALKOVER else ()
 
 
-def rows_of(words: Words, standings: tuple[Standing, ...], ais: set[str]) -> tuple[TableRow, ...]:
-    """The rows of a table: points, wins, matches, and the first tie-break."""
+def rows_of(
+    words: Words, standings: tuple[Standing, ...], figures: tuple[str, ...], ais: set[str]
+) -> tuple[TableRow, ...]:
+    """The rows of a table with these figures of its entrants."""
     first = [row.entrant for row in standings if row.place == 1]
     return tuple(
-        TableRow(row.place, row.entrant, figures_of(words, row), row.entrant in ais, first == [row.entrant])
+        TableRow(
+            row.place,
+            row.entrant,
+            tuple(figure_of(words, row, key) for key in figures),
+            row.entrant in ais,
+            first == [row.entrant],
+        )
         for row in standings
     )
 
 
-def figures_of(words: Words, row: Standing) -> tuple[str, ...]:
-    """Points, wins, matches and the first tie-break of a row."""
-    first = next(iter(row.tie_breaks.values()), None)
-    figures = [number(words, row.points), str(row.wins), str(row.played)]
-    return (*figures, *([number(words, first)] if first is not None else []))
+def figure_of(words: Words, row: Standing, key: str) -> str:
+    """A figure of a row: points, wins, matches, or a tie-break."""
+    if key in ("best", "second_best"):
+        return worth(words, row.tie_breaks[key])
+    return number(words, {"points": row.points, "wins": row.wins, "played": row.played, **row.tie_breaks}[key])
+
+
+def worth(words: Words, value: float) -> str:
+    """A time, s, to the hundredth, or points; a dash for none."""
+    return words.decimal(numeral(value, 0 if value == int(value) else 2)) if value else "–"
 
 
 def number(words: Words, value: float) -> str:
@@ -145,7 +169,6 @@ def number(words: Words, value: float) -> str:
     return words.decimal(numeral(value, 1).removesuffix(".0"))
 
 
-def heads_of(words: Words, form: Format) -> tuple[str, ...]:
+def heads_of(words: Words, figures: tuple[str, ...]) -> tuple[str, ...]:
     """Headings of the figures of a row."""
-    tie = {Format.ROUND_ROBIN: "head_to_head", Format.SWISS: "buchholz", Format.GRAND_PRIX: "first"}.get(form)
-    return tuple(words(f"events.{name}") for name in ("points", "wins", "played", *([tie] if tie else [])))
+    return tuple(words(f"events.{name}") for name in figures)

@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING
 import pygame
 
 from pigaming_app.events.event import Event
-from pigaming_app.events.formats import knockout
-from pigaming_app.events.spec import Fixture, Format, Standing
-from pigaming_app.scenes.events.overview import number
+from pigaming_app.events.spec import Fixture, Standing
+from pigaming_app.scenes.events.overview import TEAM_FIGURES, figure_of
+from pigaming_app.scenes.events.running import stage_name
 from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic
 from pigaming_app.ui.draw import Color, cut_box, font
@@ -40,6 +40,7 @@ MEDALS: tuple[Color, ...] = ((214, 158, 0), (128, 140, 158), (176, 104, 48))
 STEP = 0.006  # s of drawing in a frame
 TABLE_TOP, FOOT = 1480, H - MARGIN  # px
 ROW, NAME = 190.0, 110  # px, of a table with few rows: between two of them, and its type
+GROUPS_TOP = 600  # px
 BRACKET_TOP, LINE, BESIDE = 660, 116.0, 0.28  # px; height of a name at most, and as a share of its column
 SMALLEST = 26  # px, of type: 6 pt
 SPLIT = 56, 1 / 6  # px between two columns of a bracket at most, and as a share of a column
@@ -131,15 +132,17 @@ def draw_pages(event: Event, words: Words, pages: list[pygame.Surface]) -> Itera
         _medal(page, medal, i)
         yield
     yield from _table(page, event, words)
-    if event.spec.format is Format.KNOCKOUT:
-        losers = [fixture for fixture in event.fixtures if fixture.stage == knockout.LOSERS]
-        winners = [fixture for fixture in event.fixtures if fixture.stage != knockout.LOSERS]
-        for fixtures, title in ((winners, words("events.winners_side")), (losers, words("events.second_chance"))):
-            if fixtures:
-                pages.append(page := _paper())
-                yield
-                _head(page, event, words, title)
-                yield from _bracket(page, event, words, fixtures)
+    if event.part_standings:
+        pages.append(page := _paper())
+        yield
+        _head(page, event, words, words("events.groups_side"))
+        yield from _groups(page, event, words)
+    for side, stages in event.progress.kind.sides.items():
+        if fixtures := [fixture for stage in stages for fixture in event.fixtures if fixture.stage == stage]:
+            pages.append(page := _paper())
+            yield
+            _head(page, event, words, words(f"events.{side}"))
+            yield from _bracket(page, event, words, fixtures)
 
 
 def _paper() -> pygame.Surface:
@@ -188,7 +191,7 @@ def _medal(page: pygame.Surface, row: Standing, index: int) -> None:
 
 def _table(page: pygame.Surface, event: Event, words: Words) -> Iterator[None]:
     """All places, in one to three columns."""
-    rows = event.standings
+    rows, figure = event.standings, event.progress.kind.figures[0]
     columns = 1 if len(rows) <= 16 else 2 if len(rows) <= 40 else 3
     each = -(-len(rows) // columns)
     gap = 80
@@ -197,32 +200,54 @@ def _table(page: pygame.Surface, event: Event, words: Words) -> Iterator[None]:
     size = round(min(NAME, pitch * 0.62))
     for column in range(columns):
         at = MARGIN + column * (wide + gap) + wide, TABLE_TOP - 40
-        _write(page, words("events.points"), 44, at, SOFT, "r")
+        _write(page, words(f"events.{figure}"), 44, at, SOFT, "r")
     for i, row in enumerate(rows):
         x, y = MARGIN + (i // each) * (wide + gap), TABLE_TOP + (i % each + 0.5) * pitch
         _write(page, str(row.place), size, (x + 1.6 * size, y), SOFT, "r")
         _write(page, row.entrant, size, (x + 2.2 * size, y), INK, room=wide - 5.6 * size)
-        _write(page, number(words, row.points), size, (x + wide, y), INK, "r")
+        _write(page, figure_of(words, row, figure), size, (x + wide, y), INK, "r")
         pygame.draw.line(page, RULE, (x, y + pitch / 2), (x + wide, y + pitch / 2), 3)
+        yield
+
+
+def _groups(page: pygame.Surface, event: Event, words: Words) -> Iterator[None]:
+    """The tables of the groups, one to three beside each other."""
+    groups = event.part_standings
+    columns = 1 if len(groups) == 1 else 2 if len(groups) <= 8 else 3
+    lines, most = -(-len(groups) // columns), max(map(len, groups.values()))
+    gap, high = 100, (FOOT - GROUPS_TOP) / lines
+    wide = (W - 2 * MARGIN - gap * (columns - 1)) / columns
+    pitch = min(150.0, (high - 170) / most)
+    size = round(min(90, pitch * 0.6))
+    for i, (name, rows) in enumerate(groups.items()):
+        x, y = MARGIN + (i % columns) * (wide + gap), GROUPS_TOP + (i // columns) * high
+        _write(page, f"{words('events.group')} {name}", round(size * 1.1), (x, y + 40), INK)
+        _write(page, words("events.points"), 44, (x + wide, y + 40), SOFT, "r")
+        pygame.draw.line(page, INK, (x, y + 100), (x + wide, y + 100), 4)
+        for k, row in enumerate(rows):
+            middle = y + 110 + (k + 0.5) * pitch
+            _write(page, str(row.place), size, (x + 1.2 * size, middle), SOFT, "r")
+            _write(page, row.entrant, size, (x + 1.8 * size, middle), INK, room=wide - 4 * size)
+            _write(page, figure_of(words, row, TEAM_FIGURES[0]), size, (x + wide, middle), INK, "r")
+            pygame.draw.line(page, RULE, (x, middle + pitch / 2), (x + wide, middle + pitch / 2), 3)
         yield
 
 
 def _bracket(page: pygame.Surface, event: Event, words: Words, matches: Sequence[Fixture]) -> Iterator[None]:
     """A column for each round of these matches, the final last; lines follow those who go on to the next column."""
     rounds = [list(found) for _, found in groupby(matches, key=lambda one: (one.stage, one.round))]
+    drawn = [(one.stage, one.round) for one in matches]
     split = round(min(SPLIT[0], SPLIT[1] * (W - 2 * MARGIN) / max(1, len(rounds))))
     wide = (W - 2 * MARGIN + split) / max(1, len(rounds))
     before: list[tuple[pygame.Rect, frozenset[str]]] = []  # boxes of the column before, and who goes on
     for i, fixtures in enumerate(rounds):
         x = MARGIN + wide * i
-        final = fixtures[0].stage == knockout.FINAL
-        head = words("events.stage_final") if final else words("events.round", round=i + 1)
+        head = stage_name(words, fixtures[0].stage, fixtures[0].round, drawn)
         _write(page, head, 44, (x, 580), SOFT, room=wide - split)
         pitch = (FOOT - BRACKET_TOP) / len(fixtures)
         now: list[tuple[pygame.Rect, frozenset[str]]] = []
         for k, fixture in enumerate(fixtures):
-            outcome = event.outcomes.get(fixture.number)
-            best = knockout.through(fixture, outcome, event.spec.advance) if outcome else frozenset()
+            best = event.through(fixture)
             line = min(LINE, BESIDE * wide, (pitch - 14) / len(fixture.entrants))
             high = round(line * len(fixture.entrants)) + 8
             middle = BRACKET_TOP + pitch * (k + 0.5)

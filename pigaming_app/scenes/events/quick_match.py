@@ -93,7 +93,7 @@ def play(event: "Event", fixture: "Fixture", person: str = "human") -> "Result":
     match = new_match(setup_of(event, fixture, person))
     while not match.over:
         match.tick()
-    return outcome_of(fixture, match.outcome().rows)
+    return outcome_of(event.spec, fixture, match.outcome().rows)
 
 
 if __name__ == "__main__":

@@ -4,12 +4,12 @@ import contextlib
 import logging
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from datetime import date
 from pathlib import Path
 
 from pigaming_app.ai.registry import find_brain
-from pigaming_app.events import event_files
+from pigaming_app.events import calendar, event_files
 from pigaming_app.events.event import Event
-from pigaming_app.events.formats import knockout
 from pigaming_app.events.journal import Added
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import MOST, Fixture, Result
@@ -49,9 +49,11 @@ class RunningEvent:
         return True
 
     def refresh(self) -> None:
-        """Take over what another process has changed."""
+        """Take over what another process has changed, and close the weeks of a ladder that have passed."""
         with contextlib.suppress(ValueError):  # the file has another event now
             self.event = event_files.latest(self.path, self.event)
+        if calendar.due(self.event, date.today()):
+            self.change(lambda event: calendar.up_to(event, date.today()))
 
     def setup(self, fixture: Fixture) -> Setup | None:
         """The match of a fixture; None, with a line in the log, if a brain or an arena is missing."""
@@ -71,6 +73,8 @@ class RunningEvent:
     def accepts_late(self) -> bool:
         """True as long as late entrants may join: until a match of round two has been played."""
         event = self.event
+        if event.progress.kind.on_call:
+            return not event.over and len(event.entrants) < MOST
         begun = any(fixture.round > 1 and fixture.number in event.played for fixture in event.fixtures)
         return not begun and not event.over and len(event.entrants) < MOST
 
@@ -89,7 +93,13 @@ class RunningEvent:
 
 
 def progress_line(words: Words, event: Event) -> str:
-    """Round, and matches played of those known."""
+    """Round, and matches played of those known; of a ladder the week, of tries how many there were."""
+    on_call, progress = event.progress.kind.on_call, event.progress
+    if on_call and on_call.periods(event.spec) > 1:
+        weeks = on_call.periods(event.spec)
+        return words("events.in_week", week=min(progress.closed + 1, weeks), of=weeks)
+    if on_call:
+        return words("events.tried", count=len(event.played))
     played = len(event.outcomes)
     return words(
         "events.progress", round=max(1, event.round), match=min(played + 1, len(event.fixtures)), of=len(event.fixtures)
@@ -99,7 +109,8 @@ def progress_line(words: Words, event: Event) -> str:
 def stage_name(words: Words, stage: str, number: int, drawn: Iterable[tuple[str, int]]) -> str:
     """The name of a round, counted within its stage; `drawn`: stage and round of all matches."""
     number = len({one for one in drawn if one[0] == stage and one[1] <= number})
-    return words(f"events.stage_{stage}", round=number) if stage else words("events.round", round=number)
+    kind, _, group = stage.partition(" ")
+    return words(f"events.stage_{kind}", round=number, group=group) if stage else words("events.round", round=number)
 
 
 def round_name(words: Words, event: Event, fixture: Fixture) -> str:
@@ -112,7 +123,7 @@ def lots_line(words: Words, event: Event, outcome: Result) -> str:
     if not outcome.extra or not event.lots(outcome.fixture) or outcome != event.played[outcome.fixture][-1]:
         return ""
     fixture = next(one for one in event.fixtures if one.number == outcome.fixture)
-    best = knockout.through(fixture, event.outcomes[fixture.number], event.spec.advance)
+    best = event.through(fixture)
     names = [name for name in outcome.places[0] if name in best]
     return words("events.lots", name=", ".join(map(shortened, names)))
 

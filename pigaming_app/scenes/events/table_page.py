@@ -7,7 +7,7 @@ import pygame
 from pigaming_app.scenes.events import bracket_view, table_view
 from pigaming_app.scenes.events.manage.corrections import ResultsList
 from pigaming_app.scenes.events.manage.event_page import EventPage
-from pigaming_app.scenes.events.overview import BRACKET, overview
+from pigaming_app.scenes.events.overview import BRACKET, GROUPS, TEAM_FIGURES, heads_of, overview
 from pigaming_app.scenes.events.poster import PosterJob
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.flow.context import Context
@@ -93,6 +93,8 @@ class TablePage(Page):
         kind, number = self.overview.pages[self.page]
         if kind == BRACKET:
             bracket_view.draw_bracket(screen, self.overview.bracket[number], self.overview.stages(number))
+        elif kind == GROUPS:
+            table_view.draw_groups(screen, self.overview.groups, heads_of(self.context.words, TEAM_FIGURES), number)
         else:
             table_view.draw_table(screen, *self.overview.table(kind), number, self.turned)
         if len(self.overview.pages) > 1:

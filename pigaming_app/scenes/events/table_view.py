@@ -17,6 +17,7 @@ WIPE, APART = 0.25, 0.03  # s: of one row, from row to row
 CELL = {1: 200, 2: 198, 3: 164}  # px, width of a value, by number of columns
 FIGURES = {1: 4, 2: 2, 3: 1}  # values shown, by number of columns
 PLACE_W = 96  # px
+LOW_ROWS = 6  # of a group whose table takes half the height
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,14 @@ class TableRow:
     figures: tuple[str, ...]
     mark: bool = False
     leads: bool = False
+
+
+@dataclass(frozen=True)
+class Part:
+    """The table of a group, with its heading."""
+
+    head: str
+    rows: tuple[TableRow, ...]
 
 
 Render = Callable[[TableRow, int, int, int], LitImage]
@@ -83,6 +92,40 @@ def draw_table(
             x, y = LEFT + (i // grid.rows) * (wide + GAP), TOP + (i % grid.rows) * pitch
             whole = render(row, wide, pitch - 10, grid.columns)
             whole.draw(screen, dx + x, dy + y, share=1 - (1 - min(1.0, share)) ** 2)
+
+
+def group_grid(groups: Sequence[Part]) -> tuple[int, int]:
+    """Tables beside each other and below each other on a page."""
+    most = max((len(group.rows) for group in groups), default=0)
+    return (1 if len(groups) == 1 else 2), (2 if len(groups) > 2 and most <= LOW_ROWS else 1)
+
+
+def group_pages(groups: Sequence[Part]) -> int:
+    """Pages of the tables of groups."""
+    across, down = group_grid(groups)
+    return -(-len(groups) // (across * down))
+
+
+def draw_groups(
+    screen: pygame.Surface,
+    groups: Sequence[Part],
+    heads: Sequence[str],
+    page: int,
+    dx: int = 0,
+    dy: int = 0,
+    render: Render | None = None,
+) -> None:
+    """Draw a page of the tables of groups, moved by (dx, dy) px; see `draw_table`."""
+    render = render or table_row
+    across, down = group_grid(groups)
+    wide, high = (RIGHT - LEFT - GAP * (across - 1)) // across, (BOTTOM - HEADS_Y + 24) // down
+    for i, group in enumerate(groups[page * across * down : (page + 1) * across * down]):
+        x, y = dx + LEFT + (i % across) * (wide + GAP), dy + HEADS_Y + (i // across) * high
+        text(group.head, BODY, ICE, "head", "l").draw(screen, x, y)
+        _heads(screen, heads, x, y, wide, 2)
+        pitch = min(112, (high - 56) // max(1, len(group.rows)))
+        for k, row in enumerate(group.rows):
+            render(row, wide, pitch - 6, 2).draw(screen, x, y + 32 + k * pitch)
 
 
 def _heads(screen: pygame.Surface, heads: Sequence[str], x: int, y: int, w: int, columns: int) -> None:

@@ -15,6 +15,7 @@ import pytest
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import load
+from pigaming_app.events.spec import Format
 from pigaming_app.jobs.cli import main
 from tests.cases import one_in
 from tests.jobs.test_hostile_options import ANY, POSIX, fault, furnish
@@ -56,10 +57,10 @@ def output(capsys: pytest.CaptureFixture[str]) -> Callable[..., str]:
     return of
 
 
-@pytest.mark.parametrize("form", ["knockout", "roundrobin", "swiss", "grandprix"])
+@pytest.mark.parametrize("form", list(Format))
 def test_an_event_from_its_beginning_to_the_table(form, output):
     rounds = "2" if form == "swiss" else "3"
-    assert new("--game", "pitanks", "--rounds", rounds, form=form) == 0
+    assert new("--game", "race" if form == "timetrial" else "pitanks", "--rounds", rounds, form=form) == 0
     result = json.loads(output("run", "cup.json", "--headless", "--speed", "max", "--json"))
     assert sorted(row["entrant"] for row in result["standings"]) == ["AAA", "BBB", "CCC"]
     points = [row["points"] for row in result["standings"]]
@@ -231,7 +232,7 @@ def test_a_cell_is_never_a_formula(refused):
         (["--minutes", "200"], "200 minutes"),
         (["--seats", "5"], "5"),
         (["--advance", "all"], "no choice for --advance: 'all'"),
-        (["--fill", "level1"], "AIs fill the seats of a Grand Prix only"),
+        (["--fill", "level1"], "AIs fill seats in grandprix, timetrial, highscore only"),
         (["--fill", "nobody", "--format", "grandprix"], "no brain 'nobody'"),
         (["--game", "factory", "--rules", "together"], "nobody wins"),
         (["--title", "x" * 61], "a title has 1 to 60 printable characters"),

@@ -27,7 +27,7 @@ def test_a_match_ends_as_it_does_in_the_arcade(game):
     match = new_match(setup_of(event, fixture, "level3"))
     while not match.over:
         match.tick()
-    assert HeadlessRun(event, fast=False).play(event) == [outcome_of(fixture, match.outcome().rows)]
+    assert HeadlessRun(event, fast=False).play(event) == [outcome_of(event.spec, fixture, match.outcome().rows)]
 
 
 @pytest.mark.long

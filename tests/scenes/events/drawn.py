@@ -4,6 +4,7 @@ from pathlib import Path
 
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
+from pigaming_app.events.formats.registry import KINDS
 from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Format, Result
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.storage.settings import folders
@@ -27,8 +28,10 @@ def an_event(
 ) -> Event:
     """An event of PiTanks in the short form; `brains`: of everybody; empty: people; `wide`: the widest names."""
     entrants = tuple(Entrant(f"{'W' * 21}{name}" if wide else name, brains) for name in names(count))
-    games = ("pitanks", "factory", "race") if form is Format.GRAND_PRIX else ("pitanks",)
-    fill = "level3" if form is Format.GRAND_PRIX else ""
+    kind = KINDS[form]
+    games = ("pitanks", "factory", "race") if kind.series else ("race",) if kind.timed else ("pitanks",)
+    seats = seats if seats in kind.seats else kind.seats[0]
+    fill = "level3" if kind.fills and seats > 1 else ""
     rounds = 0 if form is Format.KNOCKOUT else min(rounds, count - 1)
     return Event(EventSpec(title, form, games, entrants, rounds, seats, minutes={"pitanks": 1.0}, fill=fill))
 
@@ -46,7 +49,8 @@ def played(event: Event, matches: int = 10_000) -> Event:
     for _ in range(matches):
         if event.over:
             break
-        event = event.record(result_of(event.open[0]))
+        event = event if event.open else event.continued()
+        event = event.record(result_of(event.open[0])) if event.open else event
     return event
 
 

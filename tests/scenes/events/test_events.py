@@ -605,7 +605,7 @@ def test_a_match_in_the_background_ends_as_the_show_does(arcade: Arcade) -> None
     shown = new_match(setup_of(event, event.open[0]))
     while not shown.over:
         shown.tick()
-    assert outcome == outcome_of(event.open[0], shown.outcome().rows)
+    assert outcome == outcome_of(event.spec, event.open[0], shown.outcome().rows)
     assert quick.left == 0
 
 

@@ -17,7 +17,7 @@ from pigaming_app.scenes.events import bracket_view, next_view, podium_page, tab
 from pigaming_app.scenes.events.drivers import driver_label, people_of, suggested
 from pigaming_app.scenes.events.names import shortened, versus
 from pigaming_app.scenes.events.next_page import EventMatch, NextMatch
-from pigaming_app.scenes.events.overview import BRACKET, Overview, overview
+from pigaming_app.scenes.events.overview import BRACKET, GROUPS, TEAM_FIGURES, Overview, heads_of, overview
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.features import board_text as text
 from pigaming_app.scenes.features.board_page import BoardPart, Box
@@ -149,6 +149,8 @@ class EventBoardPage:
             parts.append(_podium(now))
         elif kind == BRACKET:
             parts += _bracket(shown, number)
+        elif kind == GROUPS:
+            parts.append(_groups(shown, number))
         else:
             parts += _table(shown, kind, number)
         return parts
@@ -236,6 +238,15 @@ def _bracket(shown: Overview, number: int) -> list[BoardPart]:
 
         parts.append(BoardPart((x, TOP, pitch, H), content, paint))
     return parts
+
+
+def _groups(shown: Overview, number: int) -> BoardPart:
+    heads = heads_of(shown.words, TEAM_FIGURES)
+
+    def paint(surface: pygame.Surface) -> None:
+        table_view.draw_groups(surface, shown.groups, heads, number, -LEFT + EDGE, -TOP, table_row)
+
+    return BoardPart((LEFT - EDGE, TOP, RIGHT - LEFT + 2 * EDGE, H), (shown.groups, heads, number), paint)
 
 
 def _table(shown: Overview, kind: str, number: int) -> list[BoardPart]:

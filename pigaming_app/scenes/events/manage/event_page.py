@@ -24,8 +24,8 @@ from pigaming_app.ui.widgets import setting_row
 from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-RENAME, WITHDRAW, DELETE = "rename", "withdraw", "delete"
-SIGNS = {RENAME: "pencil", WITHDRAW: "cross", DELETE: "cross"}
+RENAME, WITHDRAW, DELETE, WEEK, DAY = "rename", "withdraw", "delete", "close_week", "close_day"
+SIGNS = {RENAME: "pencil", WITHDRAW: "cross", DELETE: "cross", WEEK: "check", DAY: "check"}
 
 log = logging.getLogger("pigaming")
 
@@ -51,7 +51,12 @@ class EventPage(SettingsPage):
     def _rows(self) -> tuple[str, ...]:
         if self.running is None:
             return (DELETE,)
-        return (RENAME, WITHDRAW, DELETE) if self.present and not self.running.event.over else (RENAME, DELETE)
+        event = self.running.event
+        if event.over or not self.present:
+            return (RENAME, DELETE)
+        on_call = event.progress.kind.on_call
+        close = (WEEK if on_call.periods(event.spec) > 1 else DAY,) if on_call else ()
+        return (RENAME, *close, WITHDRAW, DELETE)
 
     @property
     def present(self) -> list[str]:
@@ -70,7 +75,7 @@ class EventPage(SettingsPage):
     def value(self, name: str) -> SettingValue:
         if name == WITHDRAW:
             return SettingValue("arrows", tuple(self.present), min(self.chosen, len(self.present) - 1), endless=True)
-        return self.action("events.change" if name == RENAME else "options.clear")
+        return self.action({RENAME: "events.change", DELETE: "options.clear"}.get(name, "events.close"))
 
     def apply(self, name: str, chosen: int) -> None:
         self.holding.clear()
@@ -95,7 +100,8 @@ class EventPage(SettingsPage):
         return None
 
     def held(self) -> StackOperation:
-        return {RENAME: self._open_title, DELETE: self._delete}.get(self.focus.name, self._withdraw)()
+        acts = {RENAME: self._open_title, DELETE: self._delete, WEEK: self._close, DAY: self._close}
+        return acts.get(self.focus.name, self._withdraw)()
 
     def picture(self, name: str, chosen: int) -> LitImage:
         return sign(SIGNS[name], name != RENAME)
@@ -130,6 +136,17 @@ class EventPage(SettingsPage):
             log.warning("%s", reason)
             self._tell(words("events.elsewhere"), True)
         self.chosen = 0
+        return None
+
+    def _close(self) -> StackOperation:
+        assert self.running
+        words = self.context.words
+        try:
+            saved = self.running.change(lambda event: event.close())
+            self._tell(words("events.closed") if saved else words("app.unsaved"), not saved)
+        except ValueError as reason:
+            log.warning("%s", reason)
+            self._tell(words("events.elsewhere"), True)
         return None
 
     def _delete(self) -> StackOperation:

@@ -2,9 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from datetime import date
 from itertools import permutations
 
-from pigaming_app.events.spec import DEFAULT_AI, SEATS, Entrant, EventSpec, Format
+from pigaming_app.events.formats.field import FormatKind
+from pigaming_app.events.formats.registry import KINDS
+from pigaming_app.events.match_setup import time_record
+from pigaming_app.events.spec import DEFAULT_AI, Entrant, EventSpec, Format
 from pigaming_app.games.game import Variant
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.match_choice import first_arena
@@ -14,11 +18,6 @@ BY_TURNS = "turns"  # another game in every round
 MOST_ORDERED = 5  # games of which all orders are offered
 LENGTHS = ("short", "normal", "long")
 RULES = "party"  # short matches, and an overtime instead of a tie
-ROUNDS = {
-    Format.KNOCKOUT: (1,),
-    Format.ROUND_ROBIN: (1, 2),
-    Format.SWISS: (3, 4, 5, 6, 7, 8, 9),
-}
 TIMES = (1, 2, 3)  # how often a Grand Prix plays each game
 
 
@@ -32,7 +31,7 @@ class Draft:
     game: str = ""
     order: tuple[str, ...] = ()
     length: str = "normal"
-    rounds: int = 1
+    rounds: int = 0
     seats: int = 2
     fill: bool = True
     entrants: list[Entrant] = field(default_factory=list)
@@ -45,15 +44,24 @@ class Draft:
     @property
     def games(self) -> tuple[str, ...]:
         """The games that are played, in their order."""
-        return self.order if self.format is Format.GRAND_PRIX or self.game == BY_TURNS else (self.game,)
+        return self.order if self.kind.series or self.game == BY_TURNS else (self.game,)
+
+    @property
+    def kind(self) -> FormatKind:
+        """The format."""
+        return KINDS[self.format]
 
     def arenas(self, game: str) -> tuple[str, ...]:
         """The arenas of a game, in the order of their turns; at least one."""
-        return self.chosen.get(game) or (first_arena(game),)
+        found = self.chosen.get(game) or (first_arena(game),)
+        return found[:1] if self.kind.single else found
 
     def toggle_arena(self, game: str, arena: str) -> bool:
         """Add an arena behind the others of a game, or leave it out; false for the only one."""
         now = self.arenas(game)
+        if self.kind.single:
+            self.chosen[game] = (arena,)
+            return True
         left = tuple(other for other in now if other != arena) if arena in now else (*now, arena)
         if left:
             self.chosen[game] = left
@@ -62,15 +70,15 @@ class Draft:
     @property
     def rows(self) -> tuple[str, ...]:
         """The rows that offer a choice."""
-        prix = self.format is Format.GRAND_PRIX
+        kind = self.kind
         rows = (
             "format",
-            *(() if prix else ("game",)),
+            *(() if kind.series else ("game",)),
             *(("order",) if len(self.games) > 1 else ()),
             "length",
             "seats",
             "rounds",
-            *(("fill",) if prix else ()),
+            *(("fill",) if kind.fills and not kind.single else ()),
         )
         return tuple(row for row in rows if len(self.options(row)) > 1)
 
@@ -79,25 +87,26 @@ class Draft:
         if row == "format":
             return tuple(Format)
         if row == "game":
-            return (*shown_games(), BY_TURNS)
+            names = [name for name in shown_games() if not self.kind.timed or time_record(name, variant_of(name))]
+            return (*names, *(() if self.kind.single else (BY_TURNS,)))
         if row == "order":
             return _orders(shown_games())
         if row == "length":
             return LENGTHS if any(len(variant_of(game).minutes) > 1 for game in self.games) else ("normal",)
         if row == "rounds":
-            prix = self.format is Format.GRAND_PRIX
-            return tuple(n * len(self.games) for n in TIMES) if prix else ROUNDS[self.format]
-        return SEATS if row == "seats" else (False, True)
+            return tuple(n * len(self.games) for n in TIMES) if self.kind.series else tuple(sorted(self.kind.rounds))
+        return tuple(sorted(self.kind.seats)) if row == "seats" else (False, True)
 
     def choose(self, row: str, option: object) -> None:
         """Choose an option of a row; other rows follow where they have to."""
         setattr(self, row, option)
         if row == "format":
-            self.seats = 4 if self.format is Format.GRAND_PRIX else 2
-        for other in ("length", "rounds"):
+            self.seats = self.kind.seats[0]
+        for other in ("game", "length", "rounds"):
             choices = self.options(other)
             if getattr(self, other) not in choices:
-                setattr(self, other, "normal" if other == "length" else choices[0])
+                usual = {"length": "normal", "rounds": self.kind.rounds[0]}.get(other)
+                setattr(self, other, usual if usual in choices else choices[0])
 
     def minutes(self, game: str) -> float:
         """Minutes of a match of a game; 0: its default."""
@@ -108,7 +117,7 @@ class Draft:
 
     def spec(self, title: str, seed: int) -> EventSpec:
         """The event as it was chosen."""
-        prix, rounds = self.format is Format.GRAND_PRIX, self.rounds
+        kind, rounds = self.kind, self.rounds
         if self.format is Format.SWISS and self.seats == 2:
             rounds = min(rounds, len(self.entrants) - 1)  # nobody meets anybody again
         return EventSpec(
@@ -116,13 +125,14 @@ class Draft:
             format=self.format,
             games=self.games,
             entrants=tuple(self.entrants),
-            rounds=0 if self.format is Format.KNOCKOUT else rounds,
+            rounds=rounds,
             seats=self.seats,
             arenas={game: self.arenas(game) for game in self.games},
             minutes={game: minutes for game in self.games if (minutes := self.minutes(game))},
             variants={game: RULES for game in self.games if RULES in games()[game].variants},
             seed=seed,
-            fill=DEFAULT_AI if prix and self.fill else "",
+            fill=DEFAULT_AI if (self.seats > 1 if kind.single else kind.fills and self.fill) else "",
+            start=date.today().isoformat() if self.format is Format.CHALLENGE else "",
         )
 
 

@@ -13,7 +13,7 @@ from pigaming_app.ai.brain_files import display_name
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.registry import AIS, find_brain, level_of
 from pigaming_app.events.entrant_lists import ListError, entrants_of_text, read_list
-from pigaming_app.events.spec import FEWEST, MAX_NAME, MOST, Entrant, Format
+from pigaming_app.events.spec import FEWEST, MAX_NAME, MOST, Entrant
 from pigaming_app.scenes.events.names import shortened
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.format_pictures import row_picture
@@ -24,7 +24,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.storage.parsing import one_line
-from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon, text_width
+from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, dim, icon, text_width
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, fit_text, text
@@ -72,7 +72,7 @@ class EntrantsPage(Page):
         if event.button is Button.X:
             self._remove(self.focus.name)
             return None
-        if event.button is Button.Y and self.draft.format is Format.GRAND_PRIX:
+        if event.button is Button.Y and self.draft.kind.series:
             self._change_team(self.focus.name)
             return None
         return super().press(event)
@@ -222,7 +222,7 @@ class EntrantsPage(Page):
     @property
     def hints(self) -> Hints:
         """The prompts of what can be done now: an entrant changes, and enough of them begin."""
-        named, teams = self.focus.name not in ACTIONS, self.draft.format is Format.GRAND_PRIX
+        named, teams = self.focus.name not in ACTIONS, self.draft.kind.series
         return [
             *([] if named else [(Button.FIRE, "events.hint_choose")]),
             *([(Button.X, "events.hint_remove")] if named else []),
@@ -250,19 +250,22 @@ class EntrantsPage(Page):
         return brain_name(words, self.draft.games[0], self.brain)
 
     def _spots(self) -> list[FocusSpot]:
-        count = len(self.draft.entrants)
-        columns, down = next(grid for most, grid in GRIDS.items() if count <= most)
-        across = (RIGHT - LEFT + GAP) // columns
-        boxes = (
-            pygame.Rect(LEFT + across * (i % columns), TOP + down * (i // columns), across - GAP, down - GAP)
-            for i in range(count)
-        )
-        cells = [FocusSpot(str(i), box) for i, box in enumerate(boxes)]
         x, spots = LEFT, []
         for name, w in ACTIONS.items():
             spots.append(FocusSpot(name, pygame.Rect(x, ACTIONS_Y, w, ACTION_H)))
             x += w + ACTION_GAP
-        return [*cells, *spots]
+        return [*spots_of(len(self.draft.entrants)), *spots]
+
+
+def spots_of(count: int) -> list[FocusSpot]:
+    """The places of so many entrants, by number from 0."""
+    columns, down = next(grid for most, grid in GRIDS.items() if count <= most)
+    across = (RIGHT - LEFT + GAP) // columns
+    boxes = (
+        pygame.Rect(LEFT + across * (i % columns), TOP + down * (i // columns), across - GAP, down - GAP)
+        for i in range(count)
+    )
+    return [FocusSpot(str(i), box) for i, box in enumerate(boxes)]
 
 
 def brains_for(played: tuple[str, ...]) -> tuple[str, ...]:
@@ -294,18 +297,19 @@ def action(word: str, sign: str, w: int, hot: bool) -> LitImage:
 
 
 @cached
-def cell(name: str, team: str, ai: bool, size: tuple[int, int], hot: bool) -> LitImage:
-    """An entrant; top left at (0, 0)."""
+def cell(name: str, team: str, ai: bool, size: tuple[int, int], hot: bool, lit: bool = True) -> LitImage:
+    """An entrant with the team, or another note; top left at (0, 0). `lit`: can be chosen."""
     w, h = size
     layer = Layer(0, 0, w, h)
     layer.glow.line(cut_box(0, 0, w, h, 12), FOCUS if hot else STEEL, THIN, True)
     left = 58 if ai else 16
     if ai:
         icon(layer.glow, "ai", 34, h / 2, 18, MIST, 3)
-    side = w // 3 if team and w > NARROW else 46 if team else 0
+    side = w // 3 if team and w > NARROW else min(84, text_width(team, BODY) + 14) if team else 0
     right = w - 14 - side
     if team:
         layer.canvas.text(shortened(team, side - 10, BODY), BODY, w - 14, h / 2, MIST, "head", "r")
     name, font_size = fit_text(name, LABEL, right - left, "hero", BODY)
-    layer.canvas.text(name, font_size, (left + right) / 2, h / 2, FOCUS if hot else ICE, "hero", "c")
+    color = FOCUS if hot else ICE if lit else dim(MIST, 0.7)
+    layer.canvas.text(name, font_size, (left + right) / 2, h / 2, color, "hero", "c")
     return layer.render()

@@ -7,6 +7,7 @@ from pigaming_app.events.spec import Format
 from pigaming_app.ui.draw import (
     FOCUS,
     ICE,
+    LABEL,
     LINE,
     MIST,
     PLAYERS,
@@ -79,6 +80,52 @@ def _podium(ink: GlowCanvas) -> None:
         ink.disc(-82 + 80 * i, -128, 14, PLAYERS[i])
 
 
+def _groups(ink: GlowCanvas) -> None:
+    """Two groups, of whose four the first two cross over to the final."""
+    for group, y in enumerate((-150, 20)):
+        for row in range(4):
+            box, color = cut_box(-170, y + 34 * row, 108, 26, 6), PLAYERS[(row + group) % 4]
+            ink.line(box, color if row < 2 else dim(color, 0.45), LINE if row < 2 else THIN, True)
+    pairs = ((-137, 67), (33, -103))  # first of one group, second of the other: middles of their boxes
+    for (one, other), there in zip(pairs, (-62, 62), strict=True):
+        for y in (one, other):
+            ink.line([(-58, y), (-20, there), (-4, there)], STEEL, 3)
+        ink.line(cut_box(0, there - 22, 62, 44, 8), MIST, THIN, True)
+        ink.line([(66, there), (88, there), (88, 0), (104, 0)], STEEL, 3)
+    ink.line(cut_box(108, -26, 70, 52, 8), FOCUS, LINE, True)
+
+
+def _ladder(ink: GlowCanvas) -> None:
+    """Rungs with places; the one at the foot challenges two places up."""
+    for x in (-96, 56):
+        ink.line([(x, -160), (x, 160)], STEEL, LINE)
+    for i, y in enumerate((-126, -42, 42, 126)):
+        color = PLAYERS[(3, 1, 2, 0)[i]]
+        ink.line(cut_box(-78, y - 33, 116, 66, 8), FOCUS if i == 3 else color, LINE if i in (1, 3) else THIN, True)
+        ink.text(str(i + 1), LABEL, -20, y, FOCUS if i == 3 else ICE, "hero", "c")
+    ink.line([(66, 126), (128, 126), (128, -42), (76, -42)], FOCUS, LINE)
+    ink.line([(98, -64), (72, -42), (98, -20)], FOCUS, LINE)
+
+
+def _stopwatch(ink: GlowCanvas) -> None:
+    """A stopwatch, and a course with one robot on it."""
+    ink.ring(0, 22, 118, MIST, LINE).arc(0, 22, 88, -math.pi / 2, math.pi * 0.75, FOCUS, 22)
+    ink.line([(0, -96), (0, -136)], MIST, LINE)
+    ink.line([(-34, -144), (34, -144)], ICE, LINE)
+    ink.line([(92, -76), (114, -98)], MIST, LINE)
+    ink.line([(0, 22), (58, 58)], ICE, LINE)
+    ink.disc(0, 22, 9, ICE)
+
+
+def _high_score(ink: GlowCanvas) -> None:
+    """Tries as bars, the best of which has the crown."""
+    for i, high in enumerate((90, 150, 60, 230, 120)):
+        best = high == 230
+        box = cut_box(-160 + 66 * i, 150 - high, 50, high, 8)
+        ink.line(box, FOCUS if best else dim(PLAYERS[i % 4], 0.8), LINE if best else THIN, True)
+    icon(ink, "crown", 63, -126, 40, FOCUS, LINE)
+
+
 @cached
 def row_picture(row: str, chosen: int) -> LitImage:
     """The picture of the row "length", "rounds", "seats", "fill" or "entrants" with its value, centred on (0, 0)."""
@@ -97,7 +144,7 @@ def _rounds(ink: GlowCanvas, rounds: int) -> None:
     """So many rounds, in an arrow that goes round."""
     ink.arc(0, 0, 120, -math.pi / 2 + 0.5, 1.5 * math.pi - 0.1, FOCUS, LINE)
     ink.line([(-30, -148), (-2, -120), (-30, -92)], FOCUS, LINE)
-    ink.text(str(rounds), TITLE, 0, 0, ICE, "hero", "c")
+    ink.text(str(rounds) if rounds else "∞", TITLE, 0, 0, ICE, "hero", "c")
 
 
 def _seats(ink: GlowCanvas, seats: int) -> None:
@@ -136,4 +183,8 @@ DRAWINGS: dict[Format, Callable[[GlowCanvas], None]] = {
     Format.ROUND_ROBIN: _cross_table,
     Format.SWISS: _swiss,
     Format.GRAND_PRIX: _podium,
+    Format.GROUPS: _groups,
+    Format.CHALLENGE: _ladder,
+    Format.TIME_TRIAL: _stopwatch,
+    Format.HIGH_SCORE: _high_score,
 }

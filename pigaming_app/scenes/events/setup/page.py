@@ -48,7 +48,17 @@ class SetupPage(SettingsPage):
 
     def description(self, name: str) -> tuple[str, str]:
         """That of a row; of the formats that of the chosen one."""
-        return super().description(self.draft.format.value if name == "format" else name)
+        return super().description(self.draft.format.value if name == "format" else self._row_name(name))
+
+    def label(self, name: str) -> str:
+        """The name of a row; rounds are called weeks or tries where they are."""
+        return super().label(self._row_name(name))
+
+    def _row_name(self, name: str) -> str:
+        kind = self.draft.kind
+        if name != "rounds" or not kind.on_call:
+            return name
+        return "tries" if kind.single else "weeks"
 
     def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
         """Draw the picture of a row: of its value, else of the game or the format."""
@@ -67,7 +77,7 @@ class SetupPage(SettingsPage):
     def _rows(self) -> list[str]:
         """The rows of the draft, with the arenas below the games."""
         rows = [*self.draft.rows, NEXT]
-        rows.insert(1 + max(i for i, row in enumerate(rows) if row in ("game", "order")), ARENA)
+        rows.insert(1 + max(i for i, row in enumerate(rows) if row in ("format", "game", "order")), ARENA)
         return rows
 
     def value(self, name: str) -> SettingValue:
@@ -100,7 +110,7 @@ class SetupPage(SettingsPage):
             return self._length(str(option))
         if row == "fill":
             return words("options.on" if option else "options.off")
-        return str(option)
+        return str(option) if option else words("events.unlimited")
 
     def line(self, name: str) -> str:
         """The description of a row; of the games their order, for which the row may have no room."""
