@@ -8,7 +8,7 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Entrant, EventSpec, Format
 from pigaming_app.scenes.events.arrange_page import ArrangePage
 from pigaming_app.scenes.events.choice import EventsPage, page_of
-from pigaming_app.scenes.events.manage.event_page import HOLD, EventPage
+from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
@@ -16,6 +16,7 @@ from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.table_page import TablePage
+from pigaming_app.scenes.flow.access import HOLD
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.ui.input.events import Button
 from tests.events.examples import ranked
