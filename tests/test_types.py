@@ -13,7 +13,7 @@ from pigaming_app.jobs.registry import jobs
 
 PACKAGE = Path(__file__).resolve().parents[1] / "pigaming_app"
 DOCSTRING = re.compile(r'""".*?"""', re.DOTALL)
-PLAIN = [job for job in jobs().values() if job.name not in ("event", "train")]  # without sub-commands
+PLAIN = [job for job in jobs().values() if job.name not in ("event", "kiosk", "train")]  # without sub-commands
 
 
 @pytest.mark.parametrize("room", ["sim", "games", "ai"])

@@ -21,7 +21,7 @@ from pigaming_app.ai.registry import BRAINS
 from pigaming_app.events.spec import Format
 from pigaming_app.jobs.bench.memory import resident_mb
 from pigaming_app.scenes.attract.scene import Attract
-from pigaming_app.scenes.events.poster import drawn, encoded
+from pigaming_app.scenes.events.paper.poster import drawn, encoded
 from pigaming_app.scenes.flow.stack import Home, Stack
 from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.scene import Lab

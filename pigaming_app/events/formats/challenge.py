@@ -7,7 +7,7 @@ they were made. The ladder is open for some weeks. With the end of a week open c
 played for IDLE weeks in a row falls by one place.
 """
 
-from pigaming_app.events import tie_breaks
+from pigaming_app.events.formats import tie_breaks
 from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, OnCall
 from pigaming_app.events.spec import WALKOVER, EventSpec, Standing
 

@@ -7,8 +7,7 @@ In heats of two, an odd one out has a bye, in turn from the last seed up, with t
 
 from random import Random
 
-from pigaming_app.events import tie_breaks
-from pigaming_app.events.formats import scoring
+from pigaming_app.events.formats import scoring, tie_breaks
 from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, MatchUp, meetings
 from pigaming_app.events.formats.grouping import mixed, serpentine
 from pigaming_app.events.spec import WALKOVER, Result, Standing

@@ -11,8 +11,7 @@ next of the group takes the place; later the opponent goes on.
 from itertools import chain, zip_longest
 from string import ascii_uppercase
 
-from pigaming_app.events import tie_breaks
-from pigaming_app.events.formats import round_robin
+from pigaming_app.events.formats import round_robin, tie_breaks
 from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, MatchUp
 from pigaming_app.events.formats.sudden_death import through
 from pigaming_app.events.spec import EventSpec, Fixture, Standing

@@ -17,7 +17,7 @@ A late entrant has missed one round, and so begins in the losers' bracket.
 from collections.abc import Sequence
 from itertools import zip_longest
 
-from pigaming_app.events import tie_breaks
+from pigaming_app.events.formats import tie_breaks
 from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, MatchUp
 from pigaming_app.events.formats.grouping import mixed, neighbours, serpentine
 from pigaming_app.events.formats.sudden_death import through

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from random import Random
 
-from pigaming_app.events import tie_breaks
+from pigaming_app.events.formats import tie_breaks
 from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, MatchUp, meetings
 from pigaming_app.events.formats.grouping import mixed, serpentine, sizes
 from pigaming_app.events.spec import WALKOVER, EventSpec, Fixture, Standing

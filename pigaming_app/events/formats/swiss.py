@@ -18,7 +18,7 @@ from collections.abc import Collection, Iterable, Sequence
 from functools import lru_cache, reduce
 from math import ceil, log2
 
-from pigaming_app.events import tie_breaks
+from pigaming_app.events.formats import tie_breaks
 from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, MatchUp
 from pigaming_app.events.formats.grouping import neighbours
 from pigaming_app.events.formats.scoring import BYE, scores

@@ -8,7 +8,7 @@ the day the event is over; an open try lapses. `rounds` limits the tries of ever
 from dataclasses import replace
 from math import inf
 
-from pigaming_app.events import tie_breaks
+from pigaming_app.events.formats import tie_breaks
 from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, OnCall
 from pigaming_app.events.spec import WALKOVER, EventSpec, Format, Standing
 

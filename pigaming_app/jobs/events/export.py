@@ -51,7 +51,7 @@ def _poster(event: Event, target: Path) -> dict[Path, bytes]:
         raise Refusal(f"--poster: {quote(target.name)} is not the name of a .png or .pdf file")
     if suffix == ".pdf":
         require("events")
-    from pigaming_app.scenes.events.poster import drawn, encoded
+    from pigaming_app.scenes.events.paper.poster import drawn, encoded
     from pigaming_app.storage.settings import Settings, folders
     from pigaming_app.ui.i18n import Words
 

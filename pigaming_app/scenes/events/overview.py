@@ -9,7 +9,7 @@ from pigaming_app.events.spec import WALKOVER, Fixture, Result, Standing
 from pigaming_app.scenes.events import bracket_view, table_view
 from pigaming_app.scenes.events.bracket_view import LATER, NEXT, OPEN, PLAYED, BracketBox, Page
 from pigaming_app.scenes.events.running import stage_name
-from pigaming_app.scenes.events.table_view import Part, TableRow
+from pigaming_app.scenes.events.table_view import GroupTable, TableRow
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.numbers import numeral
 
@@ -25,7 +25,7 @@ class Overview:
     heads: tuple[str, ...]  # of the values of a table
     rows: tuple[TableRow, ...]
     teams: tuple[TableRow, ...]
-    groups: tuple[Part, ...]
+    groups: tuple[GroupTable, ...]
     bracket: tuple[Page, ...]
     pages: tuple[tuple[str, int], ...]
     first: int
@@ -50,7 +50,7 @@ def overview(words: Words, event: Event, playing: int | None = None) -> Overview
     rows = rows_of(words, event.standings, kind.figures, ais)
     teams = rows_of(words, event.team_standings, TEAM_FIGURES, set())
     groups = tuple(
-        Part(f"{words('events.group')} {name}", rows_of(words, part, TEAM_FIGURES, ais))
+        GroupTable(f"{words('events.group')} {name}", rows_of(words, part, TEAM_FIGURES, ais))
         for name, part in event.part_standings.items()
     )
     bracket = bracket_view.pages_of(_sides(words, event, upcoming))

@@ -8,7 +8,7 @@ from pigaming_app.scenes.events import bracket_view, table_view
 from pigaming_app.scenes.events.manage.corrections import ResultsList
 from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.overview import BRACKET, GROUPS, TEAM_FIGURES, heads_of, overview
-from pigaming_app.scenes.events.poster import PosterJob
+from pigaming_app.scenes.events.paper.poster import PosterJob
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation

@@ -32,7 +32,7 @@ class TableRow:
 
 
 @dataclass(frozen=True)
-class Part:
+class GroupTable:
     """The table of a group, with its heading."""
 
     head: str
@@ -94,13 +94,13 @@ def draw_table(
             whole.draw(screen, dx + x, dy + y, share=1 - (1 - min(1.0, share)) ** 2)
 
 
-def group_grid(groups: Sequence[Part]) -> tuple[int, int]:
+def group_grid(groups: Sequence[GroupTable]) -> tuple[int, int]:
     """Tables beside each other and below each other on a page."""
     most = max((len(group.rows) for group in groups), default=0)
     return (1 if len(groups) == 1 else 2), (2 if len(groups) > 2 and most <= LOW_ROWS else 1)
 
 
-def group_pages(groups: Sequence[Part]) -> int:
+def group_pages(groups: Sequence[GroupTable]) -> int:
     """Pages of the tables of groups."""
     across, down = group_grid(groups)
     return -(-len(groups) // (across * down))
@@ -108,7 +108,7 @@ def group_pages(groups: Sequence[Part]) -> int:
 
 def draw_groups(
     screen: pygame.Surface,
-    groups: Sequence[Part],
+    groups: Sequence[GroupTable],
     heads: Sequence[str],
     page: int,
     dx: int = 0,

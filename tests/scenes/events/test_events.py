@@ -20,8 +20,8 @@ from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.next_view import match_line
+from pigaming_app.scenes.events.paper.poster import drawn
 from pigaming_app.scenes.events.podium_page import EventPodiumPage, robots_of
-from pigaming_app.scenes.events.poster import drawn
 from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.seats import EventSeats

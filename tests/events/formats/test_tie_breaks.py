@@ -2,8 +2,8 @@
 
 import pytest
 
+from pigaming_app.events.formats.tie_breaks import CountedMatch, Table, head_to_head
 from pigaming_app.events.spec import Entrant, Format, Result
-from pigaming_app.events.tie_breaks import CountedMatch, Table, head_to_head
 from tests.events.examples import best_seed_wins, new_event, played, ranked
 
 # Round robin of four, worked by hand. P1 beats P2 and P3, loses to P4; P2 beats P3 and P4; P3 beats P4.
