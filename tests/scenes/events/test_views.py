@@ -8,9 +8,10 @@ import pytest
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Format
-from pigaming_app.scenes.events import bracket_view, poster, table_view
+from pigaming_app.scenes.events import bracket_view, table_view
 from pigaming_app.scenes.events.bracket_view import BOTTOM, COLUMNS, LATER, TOP, placed
 from pigaming_app.scenes.events.overview import overview
+from pigaming_app.scenes.events.paper import poster
 from pigaming_app.scenes.events.paper.poster import PosterJob
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.ui.i18n import Words
