@@ -31,6 +31,7 @@ TIMEOUT = 15.0  # s for the drivers to answer
 WHOLE = f"get the whole folder of the program again {DOWNLOAD}".rstrip()
 REINSTALL = "install the package again" if INSTALLED else WHOLE
 RESTART = REINSTALL if INSTALLED or FROZEN else "start main.py again"
+PROGRAM = "pigaming" if INSTALLED or FROZEN else "main.py"
 EXTRAS = {
     "train": "bench, duel, league and train are slow without it; the arcade does not need it",
     "hardware": "only real robots need it",
@@ -176,7 +177,7 @@ def _restarts(data: Path) -> Iterator[Line]:
 def _kiosk(config: Path) -> Line:
     """How visitors could leave a kiosk here."""
     ways = [] if PinFile(config).path.exists() else ["its operator has no PIN"]
-    advice = [] if PinFile(config).path.exists() else ["main.py kiosk pin"]
+    advice = [] if PinFile(config).path.exists() else [f"{PROGRAM} kiosk pin"]
     if sys.platform == "win32":
         ways.append("Ctrl+Alt+Del leads out")
         advice.append("a user with assigned access (docs/open-day.md)")
