@@ -77,7 +77,8 @@ def test_tables_as_python_writes_them(how):
     writer.writerow(["", "", "", ""])
     found = entrants_of_text(text.getvalue())
     assert found.entrants == (Entrant("Ana, M."), Entrant('Rui "R" S;T', "level1"), Entrant("Eva Luz"))
-    assert found.ignored == ("Class", "Notes, if any")
+    assert found.ignored == ("Notes, if any",)
+    assert [*found.classes.values()] == ["5a", "5b", "6"]
 
 
 def test_a_space_may_follow_a_separator():

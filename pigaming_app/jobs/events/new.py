@@ -3,16 +3,17 @@
 import os
 import sys
 from argparse import ArgumentTypeError
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from datetime import date
 from pathlib import Path
+from random import Random
 from typing import TypeVar
 
 from pigaming_app.ai.brain_files import is_path
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
-from pigaming_app.events.entrant_lists import entrants_of_text, entrants_of_words, read_list
+from pigaming_app.events.entrant_lists import EntrantList, entrants_of_text, entrants_of_words, read_list
 from pigaming_app.events.event import Event
 from pigaming_app.events.formats.registry import KINDS
 from pigaming_app.events.match_setup import check_playable
@@ -39,6 +40,7 @@ from pigaming_app.storage.parsing import describe_error, quote
 from pigaming_app.storage.safe_files import require_writable
 
 T = TypeVar("T")
+SEEDINGS = ("list", "random")
 BY_GAME = "for one game, or GAME=VALUE,GAME=VALUE"
 
 
@@ -52,6 +54,8 @@ class NewEventOptions(FileOption, JsonOption):
         f"{FEWEST} to {MOST}: NAME, NAME=AI or NAME/TEAM=AI with commas, or @FILE with one in a line, or CSV",
         required=True,
     )
+    teams: str | None = option("`class`: each class of the list is a team", metavar="class")
+    seeding: str = option("list: best first; or random, by --seed; default list", default="list")
     rounds: int = option(
         "of a Swiss or a Grand Prix; times that everybody meets everybody; weeks of a ladder; most tries of everybody",
         integer(high=MAX_ROUNDS),
@@ -92,6 +96,9 @@ def _spec(options: NewEventOptions) -> EventSpec:
     for name in played:
         require_game(name)
     require_one_of("format", options.format, list(Format))
+    require_one_of("seeding", options.seeding, SEEDINGS)
+    if options.teams is not None:
+        require_one_of("choice for --teams:", options.teams, ["class"])
     require_one_of("choice for --advance:", options.advance, list(Advance))
     form = Format(options.format)
     kind = KINDS[form]
@@ -100,7 +107,7 @@ def _spec(options: NewEventOptions) -> EventSpec:
         title=options.title or options.file.stem[:MAX_TITLE],
         format=form,
         games=played,
-        entrants=tuple(with_whole_path(entrant) for entrant in _entrants(options.entrants, played)),
+        entrants=tuple(with_whole_path(entrant) for entrant in _seeded(options, _entrants(options, played))),
         rounds=options.rounds,
         seats=seats,
         arenas=_by_game("--arena", options.arena, played, _arenas),
@@ -114,8 +121,18 @@ def _spec(options: NewEventOptions) -> EventSpec:
     )
 
 
-def _entrants(text: str, played: tuple[str, ...]) -> tuple[Entrant, ...]:
+def _seeded(options: NewEventOptions, entrants: tuple[Entrant, ...]) -> tuple[Entrant, ...]:
+    """The entrants in the order of their seeding."""
+    if options.seeding == SEEDINGS[0]:
+        return entrants
+    return tuple(Random(f"seeding {options.seed}").sample(entrants, len(entrants)))
+
+
+def _entrants(options: NewEventOptions, played: tuple[str, ...]) -> tuple[Entrant, ...]:
+    text, by_class = options.entrants, options.teams is not None
     if not text.startswith("@"):
+        if by_class:
+            raise Refusal("--teams class needs a list with a column of classes: --entrants @FILE")
         return entrants_of_words(text.split(","))
     file = Path(text[1:])
     try:
@@ -124,17 +141,25 @@ def _entrants(text: str, played: tuple[str, ...]) -> tuple[Entrant, ...]:
         raise Refusal(f"{quote(text[1:])}: cannot be read ({describe_error(error)})") from None
     try:
         found = entrants_of_text(content, lambda brain: require_brain(brain, played))
+        found = found.by_class if by_class else found
     except ValueError as error:
         raise Refusal(f"{file}: {error}") from None
     if (count := len(found.entrants)) < FEWEST:
         where = f"{file}: line {len(content.splitlines())}"
         raise Refusal(f"{where}: the list ends with {count} entrants; an event has {FEWEST} to {MOST}")
-    if found.ignored:
-        print(
-            f"PiGaming: {file}: columns that are not known are ignored: {', '.join(map(quote, found.ignored))}",
-            file=sys.stderr,
-        )
+    for line in _notes(found, by_class):
+        print(f"PiGaming: {file}: {line}", file=sys.stderr)
     return found.entrants
+
+
+def _notes(found: EntrantList, by_class: bool) -> Iterator[str]:
+    """What has become of a list, a line each."""
+    if found.ignored:
+        yield f"columns that are not known are ignored: {', '.join(map(quote, found.ignored))}"
+    if found.told_apart:
+        yield f"equal first names are told apart: {', '.join(found.told_apart)}"
+    if found.classes and not by_class:
+        yield "with --teams class each class is a team"
 
 
 def require_brain(brain: str, played: Sequence[str]) -> None:

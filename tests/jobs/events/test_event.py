@@ -119,8 +119,45 @@ def test_entrants_from_a_file(tmp_path, capsys):
 def test_columns_that_are_not_known_are_named_in_one_line(tmp_path, capsys):
     (tmp_path / "list.csv").write_bytes("Klasse;Spieler;Größe\n5a;Jürgen;1,50\n5b;Bea;\n5c;Eva;\n".encode("mac_roman"))
     assert new(entrants="@list.csv") == 0
-    assert capsys.readouterr().err == "PiGaming: list.csv: columns that are not known are ignored: 'Klasse', 'Größe'\n"
+    assert capsys.readouterr().err == (
+        "PiGaming: list.csv: columns that are not known are ignored: 'Größe'\n"
+        "PiGaming: list.csv: with --teams class each class is a team\n"
+    )
     assert [entrant.name for entrant in cup().entrants] == ["Jürgen", "Bea", "Eva"]
+
+
+def test_classes_become_teams_and_the_seeding_is_drawn_by_lot(tmp_path, capsys):
+    rows = "\n".join(
+        f"5{'ab'[i % 2]};{name};Reis{i}" for i, name in enumerate(["Ana", "Bea", "Eva", "Ana", "Ida", "Ute"])
+    )
+    (tmp_path / "list.csv").write_text(f"Klasse;Vorname;Nachname\n{rows}\n", encoding="utf-8")
+    assert new("--teams", "class", "--seeding", "random", entrants="@list.csv") == 0
+    assert capsys.readouterr().err == "PiGaming: list.csv: equal first names are told apart: Ana Reis0, Ana Reis3\n"
+    drawn = [(entrant.name, entrant.team) for entrant in cup().entrants]
+    assert sorted(drawn) == sorted(
+        [("Ana Reis0", "5a"), ("Bea", "5b"), ("Eva", "5a"), ("Ana Reis3", "5b"), ("Ida", "5a"), ("Ute", "5b")]
+    )
+    assert {row.entrant for row in cup().team_standings} == {"5a", "5b"}
+    orders = set()
+    for seed in range(6):
+        Path("cup.json").unlink()
+        new("--teams", "class", "--seeding", "random", "--seed", str(seed), entrants="@list.csv")
+        orders.add(tuple(entrant.name for entrant in cup().entrants))
+    assert len(orders) > 3
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (["--teams", "class"], "--teams class needs a list with a column of classes"),
+        (["--teams", "age", "--entrants", "@list.csv"], "no choice for --teams: 'age'; there are class"),
+        (["--teams", "class", "--entrants", "@list.csv"], "list.csv: the list has no column of classes"),
+        (["--seeding", "luck"], "no seeding 'luck'; there are list, random"),
+    ],
+)
+def test_teams_and_seedings_that_there_are_not(tmp_path, refused, words, reason):
+    (tmp_path / "list.csv").write_text("Ana\nBea\nEva\n", encoding="utf-8")
+    assert reason in refused(*NEW, *words)
 
 
 @pytest.mark.parametrize(

@@ -36,6 +36,7 @@ class Draft:
     fill: bool = True
     entrants: list[Entrant] = field(default_factory=list)
     chosen: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    classes: dict[str, str] = field(default_factory=dict)  # by name, of a list that has them
 
     def __post_init__(self) -> None:
         names = tuple(shown_games())

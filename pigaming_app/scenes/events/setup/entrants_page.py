@@ -5,6 +5,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from random import shuffle
 from string import ascii_uppercase
 
 import pygame
@@ -33,7 +34,7 @@ from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out
 from pigaming_app.ui.widgets.word_filter import HARMLESS, is_rude
 
-MAX_LIST = 100_000  # bytes of a dropped file
+MAX_LIST = 1_000_000  # bytes of a dropped file
 MAX_SHOWN, MOST_SHOWN = 20, 44  # characters of a file's name, of a line that is refused; of columns
 TEAMS = 4  # that can be chosen here
 TOP, GAP = 204, 14  # px
@@ -66,11 +67,14 @@ class EntrantsPage(Page):
         self.focus.set_spots(self._spots())
 
     def press(self, event: InputEvent) -> StackOperation:
-        """FIRE does what is selected, X removes an entrant, START begins."""
+        """FIRE does what is selected, X removes an entrant or shuffles all, Y turns teams, START begins."""
         if event.button is Button.START:
             return self._begin()
         if event.button is Button.X:
             self._remove(self.focus.name)
+            return None
+        if event.button is Button.Y and self.focus.name in ACTIONS and self.draft.classes:
+            self._turn_classes()
             return None
         if event.button is Button.Y and self.draft.kind.series:
             self._change_team(self.focus.name)
@@ -136,11 +140,16 @@ class EntrantsPage(Page):
             return
         for entrant in found.entrants:
             name = HARMLESS if is_rude(entrant.name.upper()) else entrant.name
-            count += not self._add(replace(entrant, name=name))
+            added = not self._add(replace(entrant, name=name))
+            count += added
+            if added and entrant.name in found.classes:
+                self.draft.classes[name] = found.classes[entrant.name]
         if not count:
             self._refuse(words("events.no_names"), file)
             return
         message = words("events.added", count=count)
+        if found.told_apart:
+            message += "  ·  " + one_line(", ".join(found.told_apart), MOST_SHOWN)
         if found.ignored:
             message += "  ·  " + words("events.ignored", columns=one_line(", ".join(found.ignored), MOST_SHOWN))
         self.show_message(message)
@@ -179,8 +188,25 @@ class EntrantsPage(Page):
             self.draft.entrants[int(spot)] = replace(entrant, team=teams[(now + 1) % len(teams)])
             self.context.sounds.play("move")
 
+    def _turn_classes(self) -> None:
+        """Each class becomes a team; teams that are classes are given up again."""
+        draft = self.draft
+        wanted = [replace(one, team=draft.classes.get(one.name, one.team)) for one in draft.entrants]
+        if wanted == draft.entrants:
+            wanted = [replace(one, team="" if one.name in draft.classes else one.team) for one in draft.entrants]
+        draft.entrants[:] = wanted
+        self.context.sounds.play("move")
+
+    def _shuffle(self) -> None:
+        """Another order of the seeding, by chance."""
+        shuffle(self.draft.entrants)
+        self.show_message(self.context.words("events.shuffled"))
+        self.context.sounds.play("move")
+
     def _remove(self, spot: str) -> None:
         if spot in ACTIONS:
+            if len(self.draft.entrants) > 1:
+                self._shuffle()
             return
         index = int(spot)
         del self.draft.entrants[index]
@@ -226,6 +252,8 @@ class EntrantsPage(Page):
         return [
             *([] if named else [(Button.FIRE, "events.hint_choose")]),
             *([(Button.X, "events.hint_remove")] if named else []),
+            *([(Button.X, "events.hint_shuffle")] if not named and len(self.draft.entrants) > 1 else []),
+            *([(Button.Y, "events.hint_classes")] if not named and self.draft.classes else []),
             *([(Button.Y, "events.hint_team")] if named and teams else []),
             *([(Button.START, "events.hint_begin")] if len(self.draft.entrants) >= FEWEST else []),
             (Button.BACK, "events.hint_back"),
