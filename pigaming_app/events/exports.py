@@ -56,16 +56,19 @@ def plain_standing(row: Standing) -> dict[str, Any]:
     }
 
 
-def standings_csv(event: Event) -> str:
-    """The table of the event."""
+def standings_csv(event: Event, comma: bool = False) -> str:
+    """The table of the event. `comma`: for spreadsheets that write 1,5 and so separate cells by semicolons."""
     breaks = columns(event.standings)
     teams = {entrant.name: entrant.team for entrant in event.entrants}
+    groups = {row.entrant: name for name, rows in event.part_standings.items() for row in rows}
     body = (
-        [row.place, row.entrant, teams[row.entrant], row.points, row.wins, row.played]
-        + [row.tie_breaks[key] for key in breaks]
+        [row.place, row.entrant, teams[row.entrant]]
+        + ([groups[row.entrant]] if groups else [])
+        + [row.points, row.wins, row.played, *(row.tie_breaks[key] for key in breaks)]
         for row in event.standings
     )
-    return _csv(["place", "entrant", "team", "points", "wins", "played", *breaks], body)
+    group = ["group"] if groups else []
+    return _csv(["place", "entrant", "team", *group, "points", "wins", "played", *breaks], body, comma)
 
 
 def columns(rows: Sequence[Standing]) -> list[str]:
@@ -73,8 +76,8 @@ def columns(rows: Sequence[Standing]) -> list[str]:
     return [key for key in rows[0].tie_breaks if key != "wins"]
 
 
-def matches_csv(event: Event) -> str:
-    """All matches in order of play, one row for each entrant of a match."""
+def matches_csv(event: Event, comma: bool = False) -> str:
+    """All matches in order of play, one row for each entrant of a match. `comma`: see `standings_csv`."""
     header = ["match", "round", "stage", "game", "seat", "entrant", "place", "score", "sudden_death", "lots", "note"]
     body = (
         (
@@ -85,7 +88,7 @@ def matches_csv(event: Event) -> str:
         for seat, name in enumerate(match["entrants"], 1)
         for place, score in [(_place(match["places"], name), match["scores"].get(name, ""))]
     )
-    return _csv(header, body)
+    return _csv(header, body, comma)
 
 
 def _match(event: Event, i: int) -> dict[str, Any]:
@@ -118,14 +121,17 @@ def _place(places: Sequence[Sequence[str]], name: str) -> int | str:
     return ""
 
 
-def _csv(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
+def _csv(header: Sequence[str], rows: Iterable[Sequence[Any]], comma: bool) -> str:
     text = StringIO()
-    writer = csv.writer(text)
+    writer = csv.writer(text, delimiter=";" if comma else ",")
     writer.writerow(header)
-    writer.writerows([_cell(value) for value in row] for row in rows)
+    writer.writerows([_cell(value, comma) for value in row] for row in rows)
     return text.getvalue()
 
 
-def _cell(value: Any) -> Any:
+def _cell(value: Any, comma: bool) -> Any:
     """A value that a spreadsheet takes as it is."""
+    if isinstance(value, float):
+        number = f"{value:.6f}".rstrip("0").removesuffix(".")
+        return number.replace(".", ",") if comma else number
     return f"'{value}" if isinstance(value, str) and value.startswith(FORMULAS) else value

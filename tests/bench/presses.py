@@ -21,7 +21,8 @@ from pigaming_app.ai.registry import BRAINS
 from pigaming_app.events.spec import Format
 from pigaming_app.jobs.bench.memory import resident_mb
 from pigaming_app.scenes.attract.scene import Attract
-from pigaming_app.scenes.events.paper.poster import drawn, encoded
+from pigaming_app.scenes.events.paper.poster import poster
+from pigaming_app.scenes.events.paper.sheet import encoded
 from pigaming_app.scenes.flow.stack import Home, Stack
 from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.scene import Lab
@@ -98,7 +99,7 @@ def rounds(presses: int, each: int = 12, seed: int = 1) -> Iterator[Usage]:
     pages = {**SCREENS, "match": match, "attract": lambda arcade: Attract(context), "lab": lambda arcade: lab}
     for module in (*modules(), "cv2", "pigaming_app.ui.input.phones.server"):  # libraries that few presses lead to
         import_module(module)
-    encoded(drawn(event(Format.ROUND_ROBIN, 4, 2, 1).event, Words("en")), Path("poster.pdf"))  # loads a library
+    encoded(poster(event(Format.ROUND_ROBIN, 4, 2, 1).event, Words("en")), [Path("poster.pdf")])  # loads a library
     for kind in chain.from_iterable(kinds.values() for kinds in BRAINS.values()):
         kind.weights(False)  # the tables of q1 and q2 take 12 MB from their first match on
     try:

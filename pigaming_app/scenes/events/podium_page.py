@@ -7,11 +7,13 @@ from functools import partial
 import pygame
 
 from pigaming_app.events.spec import Standing
+from pigaming_app.scenes.events.paper.certificates import print_certificates
+from pigaming_app.scenes.events.paper.sheet import PrintJob, can_pdf
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
-from pigaming_app.scenes.pages.page import Page
+from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.podium import APART, FIRST, HEIGHTS, ORDER, REVEALS, RISE, STEP_W, Podium, Stand
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, MIST, PLAYERS, SUB, THIN, TITLE, GlowCanvas, icon, text_width
@@ -35,7 +37,7 @@ class EventPodiumPage(Page):
     """The podium of an event that is over."""
 
     idle, lockout = math.inf, 1.5
-    hints = ((Button.FIRE, "events.hint_table"), (Button.BACK, "events.hint_back"))
+    stay = 6.0
 
     def __init__(self, context: Context, running: RunningEvent) -> None:
         super().__init__(context)
@@ -49,6 +51,13 @@ class EventPodiumPage(Page):
         self.volleys = [*VOLLEYS]
         self.sounds = [*self.podium.sounds(), (FIRST, "fanfare", None)]
         self.queue = PrewarmQueue(self._jobs())
+        self.printing: PrintJob | None = None
+
+    @property
+    def hints(self) -> Hints:
+        """Certificates need Pillow."""
+        paper = [(Button.Y, "events.hint_certificates")] if can_pdf() else []
+        return [(Button.FIRE, "events.hint_table"), *paper, (Button.BACK, "events.hint_back")]
 
     def prewarm(self, milliseconds: float) -> bool:
         """Prewarm the page for at most this many milliseconds; True when complete."""
@@ -58,10 +67,13 @@ class EventPodiumPage(Page):
         self.context.sounds.music("title")
 
     def press(self, event: InputEvent) -> StackOperation:
-        """FIRE shows the whole table."""
+        """FIRE shows the whole table, Y prints the certificates into a file."""
         if event.button in (Button.FIRE, Button.START, Button.UP):
             self.context.sounds.play("accept")
             return Push(TablePage(self.context, self.running))
+        if event.button is Button.Y and self.printing is None and can_pdf():
+            self.context.sounds.play("accept")
+            self.printing = print_certificates(self.running.event, self.running.path, self.context.words)
         return None
 
     def advance(self, seconds: float) -> StackOperation:
@@ -69,6 +81,9 @@ class EventPodiumPage(Page):
         if not self.running.event.over:
             return Pop()
         self.queue.work(2.0)
+        if self.printing and self.printing.work():
+            self._printed(self.printing)
+            self.printing = None
         self.celebration.update(seconds)
         while self.sounds and self.sounds[0][0] <= self.age:
             _, name, player = self.sounds.pop(0)
@@ -89,6 +104,15 @@ class EventPodiumPage(Page):
         shown = {i for i in range(len(self.best)) if self.age >= REVEALS[i] + RISE}
         rest = self.rest if self.age >= FIRST + RISE else []
         draw_names(screen, self.podium.x, self.best, rest, shown, self.robots)
+
+    @property
+    def message(self) -> str:
+        return self.context.words("events.printing") if self.printing else super().message
+
+    def _printed(self, job: PrintJob) -> None:
+        words = self.context.words
+        self.show_message(words("events.poster", name=job.name) if job.saved else words("app.unsaved"), not job.saved)
+        self.context.sounds.play("ready" if job.saved else "error")
 
     def draw_foot(self, screen: pygame.Surface) -> None:
         """Draw the prompts once they count."""

@@ -8,7 +8,8 @@ from pigaming_app.scenes.events import bracket_view, table_view
 from pigaming_app.scenes.events.manage.corrections import ResultsList
 from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.overview import BRACKET, GROUPS, TEAM_FIGURES, heads_of, overview
-from pigaming_app.scenes.events.paper.poster import PosterJob
+from pigaming_app.scenes.events.paper.poster import print_poster
+from pigaming_app.scenes.events.paper.sheet import PrintJob
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
@@ -40,7 +41,7 @@ class TablePage(Page):
     def __init__(self, context: Context, running: RunningEvent) -> None:
         super().__init__(context)
         self.running, self.turned = running, 0.0
-        self.poster: PosterJob | None = None
+        self.poster: PrintJob | None = None
         self._read()
 
     def on_enter(self) -> None:
@@ -68,7 +69,7 @@ class TablePage(Page):
             case Button.Y if self.poster is None:
                 self.context.sounds.play("accept")
                 self.wrong = False
-                self.poster = PosterJob(self.running.event, self.running.path, self.context.words)
+                self.poster = print_poster(self.running.event, self.running.path, self.context.words)
             case _:
                 pass
         return None
@@ -115,7 +116,7 @@ class TablePage(Page):
         self.page = (self.page + by) % len(self.overview.pages)
         self.turned = 0.0
 
-    def _posted(self, poster: PosterJob) -> None:
+    def _posted(self, poster: PrintJob) -> None:
         words = self.context.words
         line = words("events.poster", name=poster.name) if poster.saved else words("app.unsaved")
         self.show_message(line, wrong=not poster.saved)

@@ -191,11 +191,11 @@ def test_exports(output):
     output("run", "cup.json", "--headless")
     assert output("export", "cup.json", "--csv", "a.csv", "--matches", "b.csv", "--json", "a.json") == ""
     whole = json.loads(Path("a.json").read_text(encoding="utf-8"))
-    with open("a.csv", newline="", encoding="utf-8") as file:
+    with open("a.csv", newline="", encoding="utf-8-sig") as file:
         table = [*csv.DictReader(file)]
     assert [row["entrant"] for row in table] == [row["entrant"] for row in whole["standings"]]
     assert [float(row["points"]) for row in table] == [row["points"] for row in whole["standings"]]
-    with open("b.csv", newline="", encoding="utf-8") as file:
+    with open("b.csv", newline="", encoding="utf-8-sig") as file:
         matches = [*csv.DictReader(file)]
     assert [(int(row["match"]), row["entrant"]) for row in matches] == [
         (match["match"], name) for match in whole["matches"] for name in match["entrants"]
@@ -247,7 +247,7 @@ def test_a_cell_is_never_a_formula(refused):
     Path("list.txt").write_text("-1\n+2\n@x\n")
     assert new(entrants="@list.txt") == 0
     assert main(["event", "export", "cup.json", "--csv", "a.csv"]) == 0
-    assert "'@x" in Path("a.csv").read_text()
+    assert "'@x" in Path("a.csv").read_text(encoding="utf-8-sig")
 
 
 @pytest.mark.parametrize(
@@ -288,7 +288,10 @@ def test_a_wrong_option_is_one_line(words, reason, refused):
         (["run", "cup.json", "--json"], "need --headless"),
         (["run", "cup.json", "--headless", "--speed", "fast"], "'fast' is not a number"),
         (["show", "."], "cannot be read"),
-        (["export", "cup.json"], "--csv, --matches, --json or --poster"),
+        (["export", "cup.json"], "--csv, --matches, --json, --poster or --certificates"),
+        (["export", "cup.json", "--certificates", "a.png"], "is not the name of a .pdf file"),
+        (["export", "cup.json", "--certificates", "a.pdf"], "no match has been played"),
+        (["export", "cup.json", "--csv", "a.csv", "--places", "3"], "--places goes with --certificates"),
         (["export", "cup.json", "--csv", "cup.json"], "a name of its own"),
         (["export", "cup.json", "--csv", "a", "--json", "./a"], "a name of its own"),
         (["export", "cup.json", "--csv", "."], "it is a folder"),

@@ -20,7 +20,7 @@ from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.next_view import match_line
-from pigaming_app.scenes.events.paper.poster import drawn
+from pigaming_app.scenes.events.paper.poster import poster
 from pigaming_app.scenes.events.podium_page import EventPodiumPage, robots_of
 from pigaming_app.scenes.events.quick_match import QuickMatches
 from pigaming_app.scenes.events.running import RunningEvent
@@ -589,7 +589,7 @@ def test_an_event_of_a_game_that_was_removed_is_shown_and_plays_nothing(arcade: 
     assert page.fixture
     assert match_line(arcade.context.words, page.fixture, page.running.setup(page.fixture)) == "Gone Game"
     page.draw(arcade.screen)
-    assert drawn(event, arcade.context.words)
+    assert [*filter(None, poster(event, arcade.context.words))]
     for button in (Button.FIRE, Button.START, Button.Y):
         arcade.press(button)
         arcade.wait(0.5, draw=True)

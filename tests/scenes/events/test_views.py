@@ -1,9 +1,8 @@
-"""Tables, brackets and posters of every size: everybody is on a page, nothing lies outside."""
+"""Tables and brackets of every size: everybody is on a page, nothing lies outside."""
 
 from collections import Counter, defaultdict
 from itertools import pairwise
 
-import pygame
 import pytest
 
 from pigaming_app.events.event import Event
@@ -11,8 +10,6 @@ from pigaming_app.events.spec import Format
 from pigaming_app.scenes.events import bracket_view, table_view
 from pigaming_app.scenes.events.bracket_view import BOTTOM, COLUMNS, LATER, TOP, placed
 from pigaming_app.scenes.events.overview import overview
-from pigaming_app.scenes.events.paper import poster
-from pigaming_app.scenes.events.paper.poster import PosterJob
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.ui.i18n import Words
 from tests.events.examples import by_chance, new_event, ranked
@@ -136,30 +133,3 @@ def test_pages_turn_by_themselves(arcade: Arcade) -> None:
     for _ in range(6):
         page.update(2.0)
     assert page.page == 1
-
-
-@pytest.mark.parametrize(("form", "count", "pages"), [(Format.SWISS, 16, 1), (Format.KNOCKOUT, 8, 3)])
-def test_a_poster_is_a_picture_and_a_pdf(arcade: Arcade, form: Format, count: int, pages: int) -> None:
-    pytest.importorskip("PIL")
-    run = running(played(an_event(form, count)))
-    job = PosterJob(run.event, run.path, Words("pt"))
-    while not job.work():
-        pygame.time.wait(1)
-    assert job.saved
-    assert pygame.image.load(run.path.with_suffix(".png")).get_size() == poster.SIZE
-    pdf = run.path.with_suffix(".pdf").read_bytes()
-    assert pdf.startswith(b"%PDF")
-    assert pdf.count(b"/Type /Page\n") == pages or f"/Count {pages}".encode() in pdf
-    assert (run.path.with_name("event-2.png").exists()) == (pages == 3)
-
-
-def test_without_pillow_a_poster_is_a_picture_only(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(poster, "can_pdf", lambda: False)
-    run = running(played(an_event(count=3)))
-    job = PosterJob(run.event, run.path, Words("en"))
-    while not job.work():
-        pass
-    assert job.saved
-    assert job.name == "event.png"
-    assert run.path.with_suffix(".png").is_file()
-    assert not run.path.with_suffix(".pdf").exists()

@@ -1,1 +1,1 @@
-"""What an event prints: poster and certificates, A4 at 300 dpi."""
+"""What an event prints: poster and certificates."""
