@@ -34,6 +34,7 @@ EXTRA_OF_WORD = {  # words that require an extra anywhere on the command line
     **dict.fromkeys(("--curve", "--plots"), "plots"),
     **dict.fromkeys(("phones", "--phones"), "phones"),
     "--poster": "events",
+    "--certificates": "events",
     **dict.fromkeys(("--ray", "--long"), "ray"),  # the long proofs train on several machines
 }
 EXTRA_OF_FILE = {".onnx": "onnx"}  # suffixes of files that require an extra, wherever one is named

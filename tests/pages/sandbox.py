@@ -37,6 +37,7 @@ from tests.pages.stand_ins import EMULATED, LIMITS, MINUTES, WITHOUT_ROBOTS
 
 ENTRANTS = "AAA=level1,BBB=idle,CCC=random"
 EVENT = ("--game", "pitanks", "--format", "roundrobin", "--entrants", ENTRANTS)
+CLASS = "Klasse;Name;Vorname\n5a;Silva;Ana\n5b;Moreira;Ana\n5a;Reis;Eva\n5b;Sousa;Rui\n"
 FILES: dict[str, Callable[[Path], object]] = {  # that a page takes for granted, made where it names them
     "mine.npz": lambda file: file.write_bytes(encode(random_network(1, "pitanks"))),
     "racer.npz": lambda file: file.write_bytes(encode(random_network(1, "race"))),
@@ -44,6 +45,7 @@ FILES: dict[str, Callable[[Path], object]] = {  # that a page takes for granted,
     "agent.onnx": lambda file: file.write_bytes(model(np.zeros((128, 14)))),
     "robots.toml": lambda file: file.write_text(to_toml([NOMINAL] * 4), encoding="utf-8"),
     "mine.toml": lambda file: shutil.copy(ROOT / "assets/arenas/pitanks/islands.toml", file),
+    "class.csv": lambda file: file.write_text(CLASS, encoding="utf-8"),
     "cup.json": lambda file: cli.main(["event", "new", str(file), *EVENT]),
     "match.replay": lambda file: cli.main(["play", *["--seats", "idle,idle", "--headless", "--record"], str(file)]),
 }
