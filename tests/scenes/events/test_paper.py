@@ -13,7 +13,7 @@ from pigaming_app.events.spec import Entrant, EventSpec, Format
 from pigaming_app.scenes.events.paper import poster as posters
 from pigaming_app.scenes.events.paper.certificates import certificates, print_certificates
 from pigaming_app.scenes.events.paper.poster import poster, print_poster
-from pigaming_app.scenes.events.paper.sheet import MARGIN, SIZE, H, PrintJob, Sheet, W, encoded
+from pigaming_app.scenes.events.paper.sheet import MARGIN, SIZE, H, PaperSheet, PrintJob, W, encoded
 from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.events import Button
@@ -181,7 +181,7 @@ def test_accents_do_not_move_a_line() -> None:
     """The base line of Í is that of I."""
     rows = []
     for text in ("IIII", "ÍÍÍÍ"):
-        sheet = Sheet()
+        sheet = PaperSheet()
         sheet.write(text, 200, (200, 400), (0, 0, 0))
         mask = pygame.mask.from_threshold(sheet.picture, (0, 0, 0), (100, 100, 100, 255))
         rows.append(max(rect.bottom for rect in mask.get_bounding_rects()))

@@ -9,7 +9,7 @@ import pygame
 from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Standing
 from pigaming_app.scenes.events.overview import figure_of
-from pigaming_app.scenes.events.paper.sheet import INK, MARGIN, MEDALS, RULE, SOFT, H, PrintJob, Sheet, W
+from pigaming_app.scenes.events.paper.sheet import INK, MARGIN, MEDALS, RULE, SOFT, H, PaperSheet, PrintJob, W
 from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.ui.draw import FOCUS, ICE, MIST, PLAYERS, STEEL, Color, GlowCanvas, badge, cut_box, dim, icon, mix
 from pigaming_app.ui.i18n import Words
@@ -28,14 +28,14 @@ def print_certificates(event: Event, path: Path, words: Words) -> PrintJob:
     return PrintJob(certificates(event, words), [path.with_name(f"{path.stem}-certificates.pdf")])
 
 
-def certificates(event: Event, words: Words, most: int = 0) -> Iterator[Sheet | None]:
+def certificates(event: Event, words: Words, most: int = 0) -> Iterator[PaperSheet | None]:
     """Draw a sheet for everybody who has played, best first, a part at each step: a sheet that is complete, or None.
 
     `most`: places up to which there is one; 0: for all. Needs no display.
     """
     pygame.font.init()
     teams = {entrant.name: entrant.team for entrant in event.entrants}
-    blanks: dict[int, Sheet] = {}  # by place
+    blanks: dict[int, PaperSheet] = {}  # by place
     for row in event.standings:
         if not row.played or (most and row.place > most):
             continue
@@ -43,12 +43,12 @@ def certificates(event: Event, words: Words, most: int = 0) -> Iterator[Sheet | 
         if place not in blanks:
             blanks[place] = _blank(place)
             yield None
-        yield _written(Sheet(blanks[place].picture), row, teams[row.entrant], event, words)
+        yield _written(PaperSheet(blanks[place].picture), row, teams[row.entrant], event, words)
 
 
-def _blank(place: int) -> Sheet:
+def _blank(place: int) -> PaperSheet:
     """What is the same for all of a place: frame and picture. 0: for those who have taken part."""
-    sheet, color = Sheet(), MEDALS[place - 1] if place else SOFT
+    sheet, color = PaperSheet(), MEDALS[place - 1] if place else SOFT
     edge = MARGIN - 40
     pygame.draw.polygon(sheet.picture, color, cut_box(edge, edge, W - 2 * edge, H - 2 * edge, 90), 14)
     pygame.draw.polygon(sheet.picture, INK, cut_box(PANEL.x, PANEL.y, PANEL.w, PANEL.h, 70))
@@ -99,7 +99,7 @@ def robot(ink: GlowCanvas, x: float, y: float, color: Color, r: float) -> None:
     ink.line([(x - r * 0.26, y + r * 0.24), (x, y + r * 0.36), (x + r * 0.26, y + r * 0.24)], ICE, 5)
 
 
-def _written(sheet: Sheet, row: Standing, team: str, event: Event, words: Words) -> Sheet:
+def _written(sheet: PaperSheet, row: Standing, team: str, event: Event, words: Words) -> PaperSheet:
     place = row.place if row.place <= HONOURED else 0
     color = MEDALS[place - 1] if place else INK
     middle = W / 2

@@ -10,7 +10,19 @@ import pygame
 from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Fixture, Standing
 from pigaming_app.scenes.events.overview import TEAM_FIGURES, figure_of
-from pigaming_app.scenes.events.paper.sheet import INK, MARGIN, MEDALS, PDF, RULE, SOFT, H, PrintJob, Sheet, W, can_pdf
+from pigaming_app.scenes.events.paper.sheet import (
+    INK,
+    MARGIN,
+    MEDALS,
+    PDF,
+    RULE,
+    SOFT,
+    H,
+    PaperSheet,
+    PrintJob,
+    W,
+    can_pdf,
+)
 from pigaming_app.scenes.events.running import stage_name
 from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.ui.draw import cut_box
@@ -29,10 +41,10 @@ def print_poster(event: Event, path: Path, words: Words) -> PrintJob:
     return PrintJob(poster(event, words), targets)
 
 
-def poster(event: Event, words: Words) -> Iterator[Sheet | None]:
+def poster(event: Event, words: Words) -> Iterator[PaperSheet | None]:
     """Draw the poster, a part at each step, which is a sheet that is complete, or None. Needs no display."""
     pygame.font.init()
-    page = Sheet()
+    page = PaperSheet()
     yield None
     _head(page, event, words)
     yield None
@@ -42,20 +54,20 @@ def poster(event: Event, words: Words) -> Iterator[Sheet | None]:
     yield from _table(page, event, words)
     yield page
     if event.part_standings:
-        page = Sheet()
+        page = PaperSheet()
         _head(page, event, words, words("events.groups_side"))
         yield from _groups(page, event, words)
         yield page
     for side, stages in event.progress.kind.sides.items():
         if fixtures := [fixture for stage in stages for fixture in event.fixtures if fixture.stage == stage]:
-            page = Sheet()
+            page = PaperSheet()
             yield None
             _head(page, event, words, words(f"events.{side}"))
             yield from _bracket(page, event, words, fixtures)
             yield page
 
 
-def _head(page: Sheet, event: Event, words: Words, part: str = "") -> None:
+def _head(page: PaperSheet, event: Event, words: Words, part: str = "") -> None:
     """Title, format, games and date. `part`: name of the part of the event on this page, if it is not all of it."""
     spec = event.spec
     page.write(spec.title, 190, (MARGIN, 260), INK, room=W - 2 * MARGIN)
@@ -71,7 +83,7 @@ def _medals(event: Event) -> list[Standing]:
     return list(event.standings[:3])
 
 
-def _medal(page: Sheet, row: Standing, index: int) -> None:
+def _medal(page: PaperSheet, row: Standing, index: int) -> None:
     """A step of the podium, with the name above."""
     x = W / 2 + (0, -1, 1)[index] * 700
     high, foot = (560, 420, 320)[index], 1290
@@ -82,7 +94,7 @@ def _medal(page: Sheet, row: Standing, index: int) -> None:
     page.write(row.entrant, 170, (x, foot - high - 110), INK, "c", 620)
 
 
-def _table(page: Sheet, event: Event, words: Words) -> Iterator[None]:
+def _table(page: PaperSheet, event: Event, words: Words) -> Iterator[None]:
     """All places, in one to three columns."""
     rows, figure = event.standings, event.progress.kind.figures[0]
     columns = 1 if len(rows) <= 16 else 2 if len(rows) <= 40 else 3
@@ -103,7 +115,7 @@ def _table(page: Sheet, event: Event, words: Words) -> Iterator[None]:
         yield None
 
 
-def _groups(page: Sheet, event: Event, words: Words) -> Iterator[None]:
+def _groups(page: PaperSheet, event: Event, words: Words) -> Iterator[None]:
     """The tables of the groups, one to three beside each other."""
     groups = event.part_standings
     columns = 1 if len(groups) == 1 else 2 if len(groups) <= 8 else 3
@@ -126,7 +138,7 @@ def _groups(page: Sheet, event: Event, words: Words) -> Iterator[None]:
         yield None
 
 
-def _bracket(page: Sheet, event: Event, words: Words, matches: Sequence[Fixture]) -> Iterator[None]:
+def _bracket(page: PaperSheet, event: Event, words: Words, matches: Sequence[Fixture]) -> Iterator[None]:
     """A column for each round of these matches, the final last; lines follow those who go on to the next column."""
     rounds = [list(found) for _, found in groupby(matches, key=lambda one: (one.stage, one.round))]
     drawn = [(one.stage, one.round) for one in matches]
@@ -154,14 +166,14 @@ def _bracket(page: Sheet, event: Event, words: Words, matches: Sequence[Fixture]
         before = now
 
 
-def _link(page: Sheet, one: pygame.Rect, other: pygame.Rect, split: int) -> None:
+def _link(page: PaperSheet, one: pygame.Rect, other: pygame.Rect, split: int) -> None:
     """A line from a match to the one that follows, `split` px between their columns."""
     middle = other.left - split // 2
     path = [(one.right, one.centery), (middle, one.centery), (middle, other.centery), (other.left, other.centery)]
     pygame.draw.lines(page.picture, RULE, False, path, 4)
 
 
-def _match(page: Sheet, fixture: Fixture, best: Collection[str], box: pygame.Rect, line: float) -> None:
+def _match(page: PaperSheet, fixture: Fixture, best: Collection[str], box: pygame.Rect, line: float) -> None:
     """A match, each name `line` px high; who goes on is in dark ink, with a tick."""
     pygame.draw.rect(page.picture, RULE, box, 4, 10)
     for i, name in enumerate(fixture.entrants):

@@ -36,7 +36,7 @@ PATIENCE = 30.0  # s after which a job that nobody works on ends
 log = logging.getLogger("pigaming")
 
 
-class Sheet:
+class PaperSheet:
     """A white sheet. `lines`: what is written on it, with the left end of the base line and the size, px."""
 
     def __init__(self, picture: pygame.Surface | None = None) -> None:
@@ -61,11 +61,11 @@ class PrintJob:
     sheet at a step that completes one, else None; `targets`: files, see `encoded`.
     """
 
-    def __init__(self, drawing: Iterator[Sheet | None], targets: Sequence[Path]) -> None:
+    def __init__(self, drawing: Iterator[PaperSheet | None], targets: Sequence[Path]) -> None:
         self.targets = targets
         self.saved = False
         self._drawing, self._drawn = drawing, False
-        self._sheets: Queue[Sheet | None] = Queue()
+        self._sheets: Queue[PaperSheet | None] = Queue()
         self._thread = Thread(target=self._save, daemon=True)
         self._thread.start()
 
@@ -99,7 +99,7 @@ class PrintJob:
         except NotSaved as reason:
             log.warning("%s", reason)
 
-    def _next(self) -> Sheet | None:
+    def _next(self) -> PaperSheet | None:
         return self._sheets.get(timeout=PATIENCE)
 
 
@@ -108,7 +108,7 @@ def can_pdf() -> bool:
     return find_spec("PIL") is not None
 
 
-def encoded(drawing: Iterable[Sheet | None], targets: Sequence[Path]) -> dict[Path, bytes]:
+def encoded(drawing: Iterable[PaperSheet | None], targets: Sequence[Path]) -> dict[Path, bytes]:
     """The files: of a target that ends with .pdf one PDF, of another a picture a sheet: NAME.png, NAME-2.png …"""
     pdf, pictures = _PdfFile(), [target for target in targets if target.suffix.lower() != PDF]
     files: dict[Path, bytes] = {}
@@ -120,11 +120,11 @@ def encoded(drawing: Iterable[Sheet | None], targets: Sequence[Path]) -> dict[Pa
     return files | {target: pdf.packed() for target in targets if target not in pictures}
 
 
-def _png(sheet: Sheet) -> bytes:
+def _png(sheet: PaperSheet) -> bytes:
     return _packed(sheet, "PNG") if can_pdf() else png_of(sheet.picture)
 
 
-def _packed(sheet: Sheet, form: str, **more: int) -> bytes:
+def _packed(sheet: PaperSheet, form: str, **more: int) -> bytes:
     from PIL import Image
 
     packed = BytesIO()
@@ -144,7 +144,7 @@ class _PdfFile:
         ]
         self.pages: list[int] = []
 
-    def add(self, sheet: Sheet) -> None:
+    def add(self, sheet: PaperSheet) -> None:
         image = _packed(sheet, "JPEG", quality=92)
         head = (
             f"/Type/XObject/Subtype/Image/Width {W}/Height {H}/ColorSpace/DeviceRGB/BitsPerComponent 8/Filter/DCTDecode"
