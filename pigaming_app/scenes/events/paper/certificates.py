@@ -125,5 +125,5 @@ def _figures(row: Standing, event: Event, words: Words) -> str:
     if figures[0] == "best":
         return words("events.best_of", best=figure_of(words, row, "best"), tries=row.played)
     if row.wins:
-        return words.counted("events.won", row.wins, wins=row.wins, matches=row.played)
+        return words("events.won", wins=row.wins, matches=row.played)
     return words.counted("events.has_played", row.played, matches=row.played)

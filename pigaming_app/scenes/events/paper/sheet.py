@@ -19,12 +19,12 @@ from pigaming_app.storage.safe_files import NotSaved, write_all_atomic
 from pigaming_app.ui.draw import Color
 from pigaming_app.ui.draw.text import fit_text
 from pigaming_app.ui.draw.theme import baseline, line_image
+from pigaming_app.ui.pdf import PdfFile, WrittenLine
 from pigaming_app.ui.png import png_of
 
 PDF = ".pdf"
 SIZE = W, H = 2480, 3508  # px
 DPI = 300
-POINTS = 72 / DPI  # of a px
 MARGIN = 160  # px
 INK, SOFT, RULE, PAPER = (16, 22, 36), (96, 108, 130), (196, 204, 218), (255, 255, 255)
 MEDALS: tuple[Color, ...] = ((214, 158, 0), (128, 140, 158), (176, 104, 48))
@@ -37,13 +37,13 @@ log = logging.getLogger("pigaming")
 
 
 class PaperSheet:
-    """A white sheet. `lines`: what is written on it, with the left end of the base line and the size, px."""
+    """A white sheet. `lines`: what is written on it."""
 
     def __init__(self, picture: pygame.Surface | None = None) -> None:
         self.picture = picture.copy() if picture else pygame.Surface(SIZE, depth=24)
         if not picture:
             self.picture.fill(PAPER)
-        self.lines: list[tuple[str, float, float, int]] = []
+        self.lines: list[WrittenLine] = []
 
     def write(
         self, line: str, size: int, at: tuple[float, float], color: Color, align: str = "l", room: float = W
@@ -110,11 +110,11 @@ def can_pdf() -> bool:
 
 def encoded(drawing: Iterable[PaperSheet | None], targets: Sequence[Path]) -> dict[Path, bytes]:
     """The files: of a target that ends with .pdf one PDF, of another a picture a sheet: NAME.png, NAME-2.png …"""
-    pdf, pictures = _PdfFile(), [target for target in targets if target.suffix.lower() != PDF]
+    pdf, pictures = PdfFile(DPI), [target for target in targets if target.suffix.lower() != PDF]
     files: dict[Path, bytes] = {}
     for number, sheet in enumerate((sheet for sheet in drawing if sheet), 1):
         if len(pictures) < len(targets):
-            pdf.add(sheet)
+            pdf.add(_packed(sheet, "JPEG", quality=92), SIZE, sheet.lines)
         for target in pictures:
             files[target if number == 1 else target.with_stem(f"{target.stem}-{number}")] = _png(sheet)
     return files | {target: pdf.packed() for target in targets if target not in pictures}
@@ -131,55 +131,3 @@ def _packed(sheet: PaperSheet, form: str, **more: int) -> bytes:
     image = Image.frombytes("RGB", SIZE, pygame.image.tobytes(sheet.picture, "RGB"))
     image.save(packed, form, **more)  # Pillow, unlike pygame, lets other threads run meanwhile
     return packed.getvalue()
-
-
-class _PdfFile:
-    """A PDF of sheets (ISO 32000-1), each a JPEG below its invisible text."""
-
-    def __init__(self) -> None:
-        self.objects: list[bytes] = [
-            b"",
-            b"",
-            b"<</Type/Font/Subtype/Type1/BaseFont/Helvetica/Encoding/WinAnsiEncoding>>",
-        ]
-        self.pages: list[int] = []
-
-    def add(self, sheet: PaperSheet) -> None:
-        image = _packed(sheet, "JPEG", quality=92)
-        head = (
-            f"/Type/XObject/Subtype/Image/Width {W}/Height {H}/ColorSpace/DeviceRGB/BitsPerComponent 8/Filter/DCTDecode"
-        )
-        picture = self._object(_stream(image, head))
-        w, h = W * POINTS, H * POINTS
-        drawn = [f"q {w:.2f} 0 0 {h:.2f} 0 0 cm /Im Do Q BT 3 Tr".encode()]
-        for line, x, y, size in sheet.lines:
-            drawn.append(f"/F {size * POINTS:.2f} Tf 1 0 0 1 {x * POINTS:.2f} {h - y * POINTS:.2f} Tm".encode())
-            drawn.append(b"<" + line.encode("cp1252", "replace").hex().encode() + b"> Tj")
-        content = self._object(_stream(b"\n".join([*drawn, b"ET"])))
-        used = f"<</Font<</F 3 0 R>>/XObject<</Im {picture} 0 R>>>>"
-        box = f"/MediaBox[0 0 {w:.2f} {h:.2f}]"
-        page = f"<</Type/Page/Parent 2 0 R{box}/Resources{used}/Contents {content} 0 R>>"
-        self.pages.append(self._object(page.encode()))
-
-    def packed(self) -> bytes:
-        kids = " ".join(f"{page} 0 R" for page in self.pages)
-        self.objects[0] = b"<</Type/Catalog/Pages 2 0 R>>"
-        self.objects[1] = f"<</Type/Pages/Count {len(self.pages)}/Kids[{kids}]>>".encode()
-        out, places = BytesIO(), []
-        out.write(b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n")
-        for number, body in enumerate(self.objects, 1):
-            places.append(out.tell())
-            out.write(b"%d 0 obj\n%s\nendobj\n" % (number, body))
-        start = out.tell()
-        out.write(b"xref\n0 %d\n0000000000 65535 f \n" % (len(places) + 1))
-        out.write(b"".join(b"%010d 00000 n \n" % place for place in places))
-        out.write(b"trailer\n<</Size %d/Root 1 0 R>>\nstartxref\n%d\n%%%%EOF\n" % (len(places) + 1, start))
-        return out.getvalue()
-
-    def _object(self, body: bytes) -> int:
-        self.objects.append(body)
-        return len(self.objects)
-
-
-def _stream(raw: bytes, head: str = "") -> bytes:
-    return f"<<{head}/Length {len(raw)}>>\nstream\n".encode() + raw + b"\nendstream"
