@@ -39,12 +39,12 @@ class Desktop:
         self.started: list[subprocess.Popen[bytes]] = []
         read, write = os.pipe()
         self.variables = dict(os.environ)
-        words = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x720x24"]
+        words = ["Xvfb", "-displayfd", str(write), "-nolisten", "tcp", "-noreset", "-screen", "0", "1280x720x24"]
         self.started.append(subprocess.Popen(words, pass_fds=[write], stderr=subprocess.DEVNULL))
-        self.variables |= {"DISPLAY": f":{os.read(read, 20).decode().strip()}", "PIGAMING_HOME": str(home)}
+        os.close(write)
+        with os.fdopen(read) as numbers:
+            self.variables |= {"DISPLAY": f":{numbers.readline().strip()}", "PIGAMING_HOME": str(home)}
         self.variables |= {"SDL_AUDIODRIVER": "dummy", "SDL_VIDEODRIVER": "x11", "PYTHONPATH": str(ROOT)}
-        for end in (read, write):
-            os.close(end)
 
     def open(self) -> None:
         self.start("openbox")
