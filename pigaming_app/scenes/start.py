@@ -7,9 +7,10 @@ import os
 import signal
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from datetime import date, datetime
 from pathlib import Path
+from threading import Timer
 from typing import IO, Any
 
 import pygame
@@ -35,6 +36,7 @@ from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.sounds import Sounds
 from pigaming_app.ui.window import Canvas
 
+CLOSING = 4.0  # s for devices and window to close; a supervisor waits 5 s for a sign of life
 SWITCH_INTERVAL = 0.001  # s for which a thread in the background may hold up the one that draws
 
 log = logging.getLogger("pigaming")
@@ -44,9 +46,22 @@ def run(options: Options) -> int:
     """Run the arcade until it is closed. Returns the exit code. Raises NoDisplay."""
     with opened(options) as app:
         try:
-            return app.loop()
+            code = app.loop()
         except KeyboardInterrupt:
-            return 0
+            code = 0
+        end = Timer(CLOSING, _end_hanging, (code,))
+        end.daemon = True
+        end.start()
+    end.cancel()
+    return code
+
+
+def _end_hanging(code: int) -> None:
+    """End a program that does not close, such as in a driver: a kiosk that was closed must not be started again."""
+    log.warning("closing took longer than %g s; the crash log has the stacks", CLOSING)
+    with suppress(OSError, RuntimeError), (folders().data / CRASH_FILE).open("a", encoding="utf-8") as file:
+        faulthandler.dump_traceback(file)
+    os._exit(code)
 
 
 @contextmanager
@@ -103,10 +118,10 @@ def opened(options: Options) -> "Iterator[App]":
         if context.mat:
             context.mat.end()
         context.day_log.note("end")
-        context.sounds.close()
         _save(settings, data_folders.config)
         if scores.unsaved:
             _save(scores, data_folders.data)
+        context.sounds.close()
         canvas.close()
         _close_log(crash_file)
 

@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import subprocess
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
@@ -38,6 +39,7 @@ MORE: list[dict[str, Any]] = [{"kiosk": True}, {"display": 0}, {"display": 1}, {
 MORE += [{"emulator_seed": 1, "kiosk": True}] * (find_spec("cv2") is not None)
 pytestmark = pytest.mark.usefixtures("_cache_of_its_own")
 STEP = 1 / 60
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(autouse=True)
@@ -418,3 +420,23 @@ def test_a_title_that_cannot_be_made_again_ends_the_arcade_in_one_line(
     assert error.count("\n") == 1
     assert "pigaming.log" in error
     assert "ZeroDivisionError" in (home / "data" / "pigaming.log").read_text()
+
+
+CLOSED = """
+import sys, time
+from pigaming_app.scenes import start
+from pigaming_app.scenes.launch import Options
+from pigaming_app.ui.sounds import Sounds
+
+start.CLOSING = 0.5
+Sounds.close = lambda self: time.sleep(600)
+sys.exit(start.run(Options(headless=True, frames=2, changed_settings={"music": 3})))
+"""
+
+
+def test_a_driver_that_hangs_while_closing_ends_with_everything_saved(home: Path) -> None:
+    done = subprocess.run([sys.executable, "-c", CLOSED], cwd=ROOT, timeout=60, check=False)
+    assert done.returncode == 0
+    assert "music = 3" in (home / "config" / "settings.toml").read_text()
+    assert "closing took longer" in (home / "data" / "pigaming.log").read_text()
+    assert "<string>" in (home / "data" / "crash.log").read_text()

@@ -42,6 +42,11 @@ def kiosk(how: str, *words: str) -> int:
     return supervise([sys.executable, "-c", KIOSK, how, *words, "--kiosk", "--frames", "3"], QUICK)
 
 
+def reports(config: Path) -> str:
+    """The crash reports: why there were others than wanted."""
+    return "\n".join(path.read_text() for path in sorted((config.parent / "data" / "crashes").glob("*.txt")))
+
+
 def saved(config: Path) -> Settings:
     return Settings.load(config)[0]
 
@@ -77,7 +82,7 @@ def test_an_option_that_ends_every_start_leads_to_defaults_and_no_setting_is_los
     changed(config, display=1, phones_port=9999, music=3)
     safe_start.keep(config, safe_start.contents(config))
     assert kiosk("raise", "--scoreboard", "2") == 0
-    assert len(restarts(config.parent / "data")) == 5
+    assert len(restarts(config.parent / "data")) == 5, reports(config)
     now = saved(config)
     assert (now.display, now.phones_port, now.music) == (1, 9999, 3)
     assert safe_start.taken_back(config) == []
