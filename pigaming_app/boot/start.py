@@ -32,7 +32,7 @@ OPTIONAL |= {"bundle": {"train", "hardware", "phones", "events"}}
 EXTRA_OF_WORD = {  # words that require an extra anywhere on the command line
     **dict.fromkeys(("robots", "calibrate", "fidelity", "ros", "--emulate", "--real"), "hardware"),
     **dict.fromkeys(("--curve", "--plots"), "plots"),
-    **dict.fromkeys(("phones", "--phones"), "phones"),
+    **dict.fromkeys(("phones", "--phones", "desk"), "phones"),
     "--poster": "events",
     "--certificates": "events",
     **dict.fromkeys(("--ray", "--long"), "ray"),  # the long proofs train on several machines

@@ -96,6 +96,15 @@ def latest(path: Path, known: Event | None = None) -> Event:
     return _joined(path, event, known) if known is not None else event
 
 
+def version(path: Path) -> tuple[int, ...]:
+    """Changes with the file, as each save replaces it; empty without one."""
+    try:
+        found = path.stat()
+    except OSError:
+        return ()
+    return found.st_mtime_ns, found.st_size, found.st_ino
+
+
 def _joined(path: Path, event: Event, known: Event) -> Event:
     """An event with the entries that only `known` has, as far as they are still possible."""
     if replace(event.spec, title=known.spec.title) != known.spec:

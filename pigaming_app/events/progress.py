@@ -63,7 +63,9 @@ class Progress:
                 return self._without(name)
             case Postponed(number):
                 self._open_fixture(number)
-                return replace(self, postponed={**self.postponed, number: self.postponed.get(number, 0) + 1})
+                called = {other: where for other, where in self.called.items() if other != number}
+                later = {**self.postponed, number: self.postponed.get(number, 0) + 1}
+                return replace(self, postponed=later, called=called)
             case Substituted(name, brain):
                 self._present(name)
                 entrants = (replace(one, brain=brain) if one.name == name else one for one in self.entrants)

@@ -3,7 +3,16 @@
 import os
 
 VARIABLE = "PIGAMING_SAFE_MODE"  # of the environment, set by a supervisor
-DEFAULTS = ("display", "fullscreen", "corners", "scoreboard", "phones", "phones_network", "phones_port")  # settings
+DEFAULTS = (
+    "display",
+    "fullscreen",
+    "corners",
+    "scoreboard",
+    "phones",
+    "phones_network",
+    "phones_port",
+    "desk",
+)  # settings
 
 
 def is_safe() -> bool:

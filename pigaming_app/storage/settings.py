@@ -117,6 +117,7 @@ class Settings:
     phones: bool = False  # phones may join as pads
     phones_network: Short = ""  # name or address of their interface; empty: the first one
     phones_port: Annotated[int, between(1024, 65535)] = 8787
+    desk: bool = False  # pages of the running event for browsers, on the network of the phones
     attract_seconds: Annotated[float, between(5.0, 3600.0)] = 60.0  # without input
     corners: Annotated[list[Annotated[int, Meta(gt=-10_000, lt=10_000)]], none_or_eight] = field(
         default_factory=list

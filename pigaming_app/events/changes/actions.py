@@ -49,7 +49,7 @@ def entered(event: Event, word: str, complete: Callable[[Entrant, Sequence[str]]
 def seats(event: Event, number: int, words: Sequence[str]) -> Reseated:
     """The seats of a match: A=2 B=1; those who are not named keep the order of the others."""
     fixture = _fixture(event, number)
-    wanted = {name: _number(text, "seat") for name, text in map(_pair, words)}
+    wanted = {name: figure(text, "seat") for name, text in map(_pair, words)}
     places = range(1, len(fixture.entrants) + 1)
     if not wanted or not {*wanted.values()} <= {*places} or len({*wanted.values()}) < len(words):
         raise ValueError(f"match {number} has the seats 1 to {len(places)}, each for one: A=2 B=1")
@@ -74,7 +74,7 @@ def _read(fixture: Fixture, words: Sequence[str]) -> tuple[Places, dict[str, flo
     """Places and scores: `A=3 B=1` are scores, more is better; `A B` are places, best first; `A+B` share one."""
     if any("=" in word and word not in fixture.entrants for word in words):
         pairs = [*map(_pair, words)]
-        scores = {name: _number(text, "score") for name, text in pairs}
+        scores = {name: figure(text, "score") for name, text in pairs}
         if len(scores) < len(pairs):
             raise ValueError(f"match {fixture.number}: each entrant has one score")
         return by_score(fixture, scores), scores
@@ -90,9 +90,10 @@ def _pair(word: str) -> tuple[str, str]:
     return name, text
 
 
-def _number(text: str, what: str) -> float:
+def figure(text: str, what: str) -> float:
+    """A number with a decimal point or comma. Raises ValueError with `what` it is not."""
     try:
-        return float(text.replace(",", "."))
+        return float(text.strip().replace(",", ".").replace("−", "-"))
     except ValueError:
         raise ValueError(f"{quote(text)} is not a {what}") from None
 

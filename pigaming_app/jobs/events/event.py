@@ -1,6 +1,6 @@
 """Tournaments and Grand Prix: knock-out, round robin, Swiss. A file holds the whole event."""
 
-from pigaming_app.jobs.events import arrange, close, export, new, play, show
+from pigaming_app.jobs.events import arrange, close, desk, export, new, play, show
 from pigaming_app.jobs.events.changes import call, correct, enter, pause, result, seat, swap, withdraw
 
 WORDS = {
@@ -18,4 +18,5 @@ WORDS = {
     "close": close,
     "break": pause,
     "export": export,
+    "desk": desk,
 }

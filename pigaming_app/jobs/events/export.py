@@ -3,6 +3,7 @@
 import json
 import os
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,7 @@ from pigaming_app.events.exports import matches_csv, plain, standings_csv
 from pigaming_app.jobs.events.files import FileOption, loaded
 from pigaming_app.jobs.terminal.options import integer, option, path
 from pigaming_app.jobs.terminal.refusal import Refusal, require
-from pigaming_app.storage.parsing import quote
+from pigaming_app.storage.parsing import describe_error, quote
 from pigaming_app.storage.safe_files import write_all_atomic
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ class ExportOptions(FileOption):
     csv: Path | None = option("the table, for spreadsheets in the language of the arcade", path, metavar="OUT")
     matches: Path | None = option("all matches, alike", path, metavar="OUT")
     json: Path | None = option("everything as JSON", path, metavar="OUT")
+    site: Path | None = option("the public page as a folder of files, in all languages", path, metavar="FOLDER")
     poster: Path | None = option("A4: NAME.png, a file a page, or NAME.pdf (extra `events`)", path, metavar="OUT")
     certificates: Path | None = option("A4: NAME.pdf, a page for each entrant (extra `events`)", path, metavar="OUT")
     places: int = option("with --certificates: for the first ones only", integer(1), 0, metavar="NUMBER")
@@ -46,8 +48,10 @@ def run(options: ExportOptions) -> int:
         files += _poster(event, options.poster).items()
     if options.certificates:
         files += _certificates(event, options.certificates, options.places).items()
+    if options.site:
+        files += _site(event, options.site).items()
     if not files:
-        raise Refusal("--csv, --matches, --json, --poster or --certificates with the name of a file is needed")
+        raise Refusal("--csv, --matches, --json, --poster, --certificates or --site with a name is needed")
     names = [os.path.realpath(name) for name in (options.file, *(target for target, _ in files))]
     if len({*names}) < len(names):
         raise Refusal("every file needs a name of its own")
@@ -62,6 +66,18 @@ def _words() -> "Words":
 
     settings, _ = Settings.load(folders().config)
     return Words(settings.language)
+
+
+def _site(event: Event, folder: Path) -> dict[Path, bytes]:
+    """The files of the public page."""
+    from pigaming_app.scenes.events.desk.site import site
+
+    found = site(event, _words().language, datetime.now())
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        raise Refusal(f"--site {quote(str(folder))}: {describe_error(error)}") from None
+    return {folder / name: content for name, content in found.items()}
 
 
 def _poster(event: Event, target: Path) -> dict[Path, bytes]:

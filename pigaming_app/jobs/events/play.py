@@ -15,13 +15,13 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files, resume
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
-from pigaming_app.events.spec import Result
+from pigaming_app.events.spec import Result, check_name
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.jobs import arcade
 from pigaming_app.jobs.events.files import FileOption, loaded
 from pigaming_app.jobs.events.headless import HeadlessRun, seconds_of
 from pigaming_app.jobs.events.show import print_event
-from pigaming_app.jobs.terminal.options import JsonOption, KioskOptions, decimal, flag, option
+from pigaming_app.jobs.terminal.options import JsonOption, KioskOptions, decimal, flag, option, word
 from pigaming_app.jobs.terminal.refusal import Refusal, module_of, refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage.safe_files import require_writable
@@ -37,6 +37,7 @@ def _speed(text: str) -> float:
 class PlayEventOptions(FileOption, KioskOptions, JsonOption):
     """The event, and how to play it."""
 
+    arcade: str = option("name of this arcade, if several play the event", word, "", metavar="NAME")
     headless: bool = flag("no window, no sound")
     speed: float = option("with --headless: times real time, or max; default max", _speed, inf)
 
@@ -44,10 +45,13 @@ class PlayEventOptions(FileOption, KioskOptions, JsonOption):
 def run(options: PlayEventOptions) -> int:
     """Play all matches that are left and print the table, or open the event in the arcade. Raises Refusal, NotSaved."""
     event = loaded(options.file)
+    if options.arcade:
+        with refused(ValueError):
+            check_name(options.arcade, "name of an arcade")
     if not options.headless:
         return _in_window(options, event)
-    if options.kiosk or options.display is not None or options.scoreboard:
-        raise Refusal("event run: --kiosk, --display and --scoreboard open a window; they go without --headless")
+    if options.kiosk or options.display is not None or options.scoreboard or options.arcade:
+        raise Refusal("event run: --kiosk, --display, --scoreboard and --arcade go without --headless")
     module_of("learning", "learning")  # whose compiled loops play the matches
     require_writable(options.file)
     require_for_brains(entrant.brain for entrant in event.entrants)
@@ -79,7 +83,7 @@ def _in_window(options: PlayEventOptions, event: Event) -> int:
     if options.json or options.speed < inf:
         raise Refusal("event run: --json and --speed need --headless")
     if arcade.needs_supervisor(options):
-        resume.mark(folders().data, options.file)
+        resume.mark(folders().data, options.file, options.arcade)
         return arcade.supervised(options)
     from pigaming_app.boot.fetch import COMMAND
     from pigaming_app.scenes.events.choice import page_of
@@ -89,7 +93,8 @@ def _in_window(options: PlayEventOptions, event: Event) -> int:
     plain = Options(display=options.display, scoreboard=options.scoreboard, kiosk=options.kiosk, fetch_networks=COMMAND)
     if options.kiosk:  # which opens the event that is marked, until somebody leaves it
         return arcade.show(plain)
-    return arcade.show(replace(plain, first_scene=lambda context: page_of(context, RunningEvent(options.file, event))))
+    running = RunningEvent(options.file, event, arcade=options.arcade)
+    return arcade.show(replace(plain, first_scene=lambda context: page_of(context, running)))
 
 
 def _continued(event: Event) -> Event:

@@ -44,6 +44,7 @@ INPUT_LOCKOUT = 0.6  # s during which input is ignored: players may still hammer
 ALL_READY = 2.5  # s from the last seat taken to the match
 MESSAGE_SECONDS = 4.0
 NAME_ROOM = 640  # px, of a name in a sentence
+LOOK = 1.0  # s between two looks at the file
 SHOW_AFTER = 8.0  # s until the next match of AIs begins, after one that was watched
 
 log = logging.getLogger("pigaming")
@@ -58,12 +59,13 @@ class NextMatch:
         self, context: Context, running: RunningEvent, notice: str = "", show: bool = False, again: bool = False
     ) -> None:
         self.context, self.running, self.show = context, running, show
-        self.seats, self._seated = EventSeats(context, running), self.fixture
+        self.seats = EventSeats(context, running)
+        self._seated = self.fixture
         if again:
             self.seats.keep()
         self.quick: QuickMatches | None = None  # matches of AIs in the background
         self.access = Access(context, lambda: [self.seats.claims.get(seat) for seat in range(ROBOTS)])  # of phones
-        self.clock, self.ready = 0.0, 0.0
+        self.clock, self.ready, self.looked = 0.0, 0.0, 0.0
         self.going = False  # a match is wanted, but not loaded yet
         self.message, self.message_left = notice, MESSAGE_SECONDS if notice else 0.0
         self.queue = PrewarmQueue(self._jobs())
@@ -76,8 +78,7 @@ class NextMatch:
 
     def on_enter(self) -> None:
         self.context.sounds.music("title")
-        self.running.refresh()
-        self._reset_if_changed()
+        self._look()
         self.ready = 0.0
 
     def on_leave(self) -> None:
@@ -86,9 +87,8 @@ class NextMatch:
 
     @property
     def fixture(self) -> Fixture | None:
-        """The match; None when all have been played."""
-        open_now = self.running.event.open
-        return open_now[0] if open_now else None
+        """The match; None when all have been played, or are played elsewhere."""
+        return self.seats.fixture
 
     def handle(self, event: InputEvent) -> StackOperation:
         """FIRE takes a seat, START begins, X skips the match, Y lets an AI drive, UP shows the table, BACK leaves."""
@@ -112,10 +112,13 @@ class NextMatch:
                 self.context.sounds.play("back")
             case Button.BACK:
                 self.context.sounds.play("back")
+                self.running.release()
                 return Pop()
             case Button.UP:
                 self.context.sounds.play("accept")
                 return Push(TablePage(self.context, self.running))
+            case _ if self.fixture is None:
+                return None
             case Button.DOWN if self.running.accepts_late:
                 self.context.sounds.play("accept")
                 return Push(LettersPage(self.context, self._add, self._names))
@@ -140,8 +143,12 @@ class NextMatch:
         self.clock += seconds
         self.message_left -= seconds
         self.queue.work(2.0)
+        self.looked += seconds
+        if self.looked > LOOK and not self.going:
+            self._look()
         if self.fixture is None:
-            return self._after_last() if self.message_left <= 0.0 else None
+            waits = self.running.event.open or self.running.event.pause is not None  # for other arcades, or its end
+            return self._after_last() if not waits and self.message_left <= 0.0 else None
         if self.going:
             return self._begin()
         if self.quick:
@@ -149,7 +156,7 @@ class NextMatch:
         else:
             self.ready = self.ready + seconds if self.seats.people and not self.seats.waiting else 0.0
             shown = self.show and not self.seats.people and self.clock > SHOW_AFTER
-            if shown or self.ready > ALL_READY:
+            if (shown or self.ready > ALL_READY) and self.running.event.pause is None:
                 return self._start()
         return None
 
@@ -168,12 +175,15 @@ class NextMatch:
         screen.blit(backdrop(), (0, 0))
         if fixture is None:
             self._draw_message(screen)
+            if self.running.event.open:
+                heading(words("events.next"), "").draw(screen)
+                self.prompts.draw(screen)
             return
         title = words("events.sudden_death" if fixture.extra else "events.next")
         heading(title, view.match_line(words, fixture, self.running.setup(fixture))).draw(screen)
         self.seats.draw(screen, self.clock)
         self._draw_message(screen)
-        view.draw_following(screen, words, self.running.event)
+        view.draw_following(screen, words, self.running.event, self.running.queue)
         self.prompts.draw(screen)
 
     @property
@@ -181,6 +191,9 @@ class NextMatch:
         """The prompts of this match."""
         if self.quick:
             return self.context.prompts([(Button.BACK, "events.hint_stop")], view.PROMPTS_Y)
+        if self.fixture is None:
+            hints = [(Button.UP, "events.hint_table"), (Button.BACK, "events.hint_back")]
+            return self.context.prompts(hints, view.PROMPTS_Y)
         if self.seats.people:
             own = [(Button.START, "events.hint_begin"), (Button.X, "events.hint_skip"), (Button.Y, "events.hint_ai")]
         else:
@@ -228,11 +241,12 @@ class NextMatch:
     def _postpone(self) -> None:
         fixture = self.fixture
         assert fixture is not None
-        if len(self.running.event.open) == 1:
+        if len(self.running.queue) == 1:
             self._say("events.only_one")
             return
         if self._change(lambda event: event.postpone(fixture.number)):
             self._say("events.skipped", "move")
+            self._look()
 
     def _replace_absent(self) -> None:
         """An AI drives for everybody who is absent; without people, play the matches of AIs in the background."""
@@ -264,6 +278,13 @@ class NextMatch:
             self._say(trouble, "error")
         return not trouble
 
+    def _look(self) -> None:
+        """Follow what others have changed, and claim the match for this arcade."""
+        self.looked = 0.0
+        self.running.refresh()
+        self.running.claim()
+        self._reset_if_changed()
+
     def _reset_if_changed(self) -> None:
         """Free all seats if another match is the next one."""
         if self.fixture != self._seated:
@@ -278,6 +299,9 @@ class NextMatch:
     # ---- matches
 
     def _start(self) -> StackOperation:
+        if self.running.event.pause is not None:
+            self.context.sounds.play("refused")
+            return None
         if self.seats.waiting:
             self._say("events.missing")
             return None
@@ -309,9 +333,12 @@ class NextMatch:
 
     def _play_quick(self) -> None:
         """Play the matches up to the next one with people in the background."""
-        open_now = self.running.event.open
+        if self.running.event.pause is not None:
+            self.context.sounds.play("refused")
+            return
+        queue = takewhile(self.running.without_people, self.running.queue)
         try:
-            self.quick = QuickMatches(self.running.event, list(takewhile(self.running.without_people, open_now)))
+            self.quick = QuickMatches(self.running.event, list(queue))
         except OSError as error:
             log.warning("%s", error)
             self._say("events.failed", "error")
@@ -343,8 +370,12 @@ class NextMatch:
         if self.message_left > 0.0:
             grave = self.message in (words("app.unsaved"), words("events.failed"))
             caption(self.message, ALARM if grave else FOCUS).draw(screen, 960, view.MESSAGE_Y)
+        elif (note := self.running.event.pause) is not None:
+            line = f"{words('desk.pause')}  {note}".strip()
+            caption(shortened(line, 1600), FOCUS).draw(screen, 960, view.MESSAGE_Y)
         elif fixture is None:
-            return
+            if self.running.event.open:
+                caption(words("desk.elsewhere"), FOCUS).draw(screen, 960, view.MESSAGE_Y)
         elif self.quick:
             call_to_action(words("events.playing"), "", LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
         elif (self.seats.people and not self.seats.waiting) or (self.show and not self.seats.people):
@@ -393,7 +424,7 @@ class EventMatch:
         except ValueError as reason:  # another process has played this match
             log.warning("%s", reason)
             return NextMatch(scene.context, running, words("events.elsewhere"), show=not scene.drivers.people)
-        follows = running.event.open[0] if running.event.open else None
-        again = follows is not None and (follows.number, follows.extra) == (self.fixture.number, self.fixture.extra + 1)
+        follows = next((one for one in running.event.open if one.number == self.fixture.number), None)
+        again = follows is not None and follows.extra == self.fixture.extra + 1
         notice = notice or lots_line(words, running.event, outcome) or (words("events.tied") if again else "")
         return NextMatch(scene.context, running, notice, not scene.drivers.people, again)

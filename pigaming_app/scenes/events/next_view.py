@@ -89,11 +89,11 @@ def match_line(words: Words, fixture: Fixture, setup: Setup | None) -> str:
     return "  ·  ".join((words(f"games.{setup.game}"), length, arena))
 
 
-def draw_following(screen: pygame.Surface, words: Words, event: Event) -> None:
-    """Draw who plays after the next match, and how far the event is."""
+def draw_following(screen: pygame.Surface, words: Words, event: Event, queue: Sequence[Fixture]) -> None:
+    """Draw who plays after the next match, the first of the queue, and how far the event is."""
     line = progress_line(words, event)
     text(line, kit.BODY, kit.MIST, "body", "r").draw(screen, RIGHT, THEN_Y)
-    if then := [versus(other.entrants) for other in event.open[1:4]]:
+    if then := [versus(other.entrants) for other in queue[1:4]]:
         room = RIGHT - LEFT - 48 - kit.text_width(line, kit.BODY, "body")
         sentence = following(lambda names: words("events.then", names=names), then, room)
         sentence, size = fit_text(sentence, kit.LABEL, room)

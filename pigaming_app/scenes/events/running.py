@@ -10,7 +10,7 @@ from pathlib import Path
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import calendar, event_files
 from pigaming_app.events.event import Event
-from pigaming_app.events.journal import Added
+from pigaming_app.events.journal import Added, Summoned
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import MOST, Fixture, Result
 from pigaming_app.games.game import Setup
@@ -29,6 +29,8 @@ class RunningEvent:
     path: Path
     event: Event
     devices: dict[str, Device] = field(default_factory=dict)
+    arcade: str = ""  # its name, if several play this event
+    _version: tuple[int, ...] | None = None  # of the file that was read last
     _known: tuple[Event, Fixture, Setup | None] | None = None  # the latest answer of `setup`
 
     def change(self, change: Callable[[Event], Event]) -> bool:
@@ -50,10 +52,42 @@ class RunningEvent:
 
     def refresh(self) -> None:
         """Take over what another process has changed, and close the weeks of a ladder that have passed."""
-        with contextlib.suppress(ValueError):  # the file has another event now
-            self.event = event_files.latest(self.path, self.event)
+        version = event_files.version(self.path)
+        if version != self._version:
+            self._version = version
+            with contextlib.suppress(ValueError):  # the file has another event now
+                self.event = event_files.latest(self.path, self.event)
         if calendar.due(self.event, date.today()):
             self.change(lambda event: calendar.up_to(event, date.today()))
+
+    @property
+    def queue(self) -> tuple[Fixture, ...]:
+        """The open matches that this arcade may play, the next one first; empty while all are played elsewhere."""
+        event, first = self.event, self.event.next_at(self.arcade)
+        if first is None:
+            return ()
+        calls = event.calls
+        rest = (one for one in event.open if one != first and calls.get(one.number, self.arcade) == self.arcade)
+        return (first, *rest)
+
+    def claim(self) -> None:
+        """Call the next match to this arcade, if it has a name and nobody was faster."""
+
+        def claimed(event: Event) -> Event:
+            fixture = event.next_at(self.arcade)
+            if fixture is None or event.pause is not None or fixture.number in event.calls:
+                return event
+            return event.after(Summoned(fixture.number, self.arcade))
+
+        if self.arcade and claimed(self.event) is not self.event:
+            with contextlib.suppress(ValueError):
+                self.change(claimed)
+
+    def release(self) -> None:
+        """Take back the calls to this arcade, so that others play these matches."""
+        if own := [number for number, arcade in self.event.calls.items() if self.arcade and arcade == self.arcade]:
+            with contextlib.suppress(ValueError):
+                self.change(lambda event: event.after(Summoned(own[0], None)))
 
     def setup(self, fixture: Fixture) -> Setup | None:
         """The match of a fixture; None, with a line in the log, if a brain or an arena is missing."""
@@ -72,11 +106,7 @@ class RunningEvent:
     @property
     def accepts_late(self) -> bool:
         """True as long as late entrants may join: until a match of round two has been played."""
-        event = self.event
-        if event.progress.kind.on_call:
-            return not event.over and len(event.entrants) < MOST
-        begun = any(fixture.round > 1 and fixture.number in event.played for fixture in event.fixtures)
-        return not begun and not event.over and len(event.entrants) < MOST
+        return accepts_late(self.event)
 
     def brain(self, name: str) -> str:
         """The brain of an entrant now; empty: a person."""
@@ -90,6 +120,14 @@ class RunningEvent:
     def without_people(self, fixture: Fixture) -> bool:
         """True if only AIs play."""
         return all(self.brain(name) for name in fixture.entrants)
+
+
+def accepts_late(event: Event) -> bool:
+    """True as long as late entrants may join: until a match of round two has been played."""
+    if event.progress.kind.on_call:
+        return not event.over and len(event.entrants) < MOST
+    begun = any(fixture.round > 1 and fixture.number in event.played for fixture in event.fixtures)
+    return not begun and not event.over and len(event.entrants) < MOST
 
 
 def progress_line(words: Words, event: Event) -> str:

@@ -25,9 +25,8 @@ class EventSeats:
 
     @property
     def fixture(self) -> Fixture | None:
-        """The match; None when all have been played."""
-        open_now = self.running.event.open
-        return open_now[0] if open_now else None
+        """The match; None when all have been played, or are played elsewhere."""
+        return self.running.event.next_at(self.running.arcade)
 
     @property
     def people(self) -> list[int]:

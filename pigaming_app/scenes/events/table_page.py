@@ -19,6 +19,7 @@ from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.arrows import Arrows, as_direction, draw_arrows
 from pigaming_app.ui.widgets.labels import heading
 
+LOOK = 1.0  # s between two looks at the file
 TURN = 10.0  # s without input after which the next page is shown
 ARROWS: Arrows = {Button.LEFT: (56, 592), Button.RIGHT: (1864, 592)}
 
@@ -40,7 +41,7 @@ class TablePage(Page):
 
     def __init__(self, context: Context, running: RunningEvent) -> None:
         super().__init__(context)
-        self.running, self.turned = running, 0.0
+        self.running, self.turned, self.looked = running, 0.0, 0.0
         self.poster: PrintJob | None = None
         self._read()
 
@@ -77,6 +78,9 @@ class TablePage(Page):
     def advance(self, seconds: float) -> StackOperation:
         """Turn the pages when idle; draw the poster, part by part."""
         self.turned += seconds
+        self.looked += seconds
+        if self.looked > LOOK:
+            self._look()
         if self.poster and self.poster.work():
             self._posted(self.poster)
             self.poster = None
@@ -111,6 +115,15 @@ class TablePage(Page):
         """Derive the pages from the event, and open the one with the next match."""
         self.overview = overview(self.context.words, self.running.event)
         self.page = self.overview.first
+
+    def _look(self) -> None:
+        """Follow what others have changed, on the same page."""
+        before, self.looked = self.running.event, 0.0
+        self.running.refresh()
+        if self.running.event is not before:
+            page = self.page
+            self._read()
+            self.page = min(page, len(self.overview.pages) - 1)
 
     def _turn(self, by: int) -> None:
         self.page = (self.page + by) % len(self.overview.pages)

@@ -287,6 +287,8 @@ def test_a_wrong_option_is_one_line(words, reason, refused):
         (["run", "broken.json", "--headless"], "cannot be read"),
         (["run", "cup.json", "--json"], "need --headless"),
         (["run", "cup.json", "--headless", "--speed", "fast"], "'fast' is not a number"),
+        (["run", "cup.json", "--arcade", "left", "--headless"], "--arcade go without --headless"),
+        (["run", "cup.json", "--arcade", "x" * 25], "1 to 24 printable characters"),
         (["show", "."], "cannot be read"),
         (["export", "cup.json"], "--csv, --matches, --json, --poster or --certificates"),
         (["export", "cup.json", "--certificates", "a.png"], "is not the name of a .pdf file"),

@@ -8,7 +8,7 @@ from pigaming_app.events import event_files
 from pigaming_app.events.spec import Format
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.manage.corrections import MAX_NOTE, NOTES, Correction, ResultsList
-from pigaming_app.scenes.events.manage.event_page import DELETE, RENAME, WITHDRAW, EventPage
+from pigaming_app.scenes.events.manage.event_page import DELETE, DESK, RENAME, WITHDRAW, EventPage
 from pigaming_app.scenes.events.manage.text_page import ALPHABET, TextPage
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.running import RunningEvent
@@ -89,7 +89,7 @@ def test_whoever_withdraws_is_chosen_and_the_opponent_wins(arcade: Arcade) -> No
     run.change(lambda event: event.withdraw(page.present[0]))
     run.change(lambda event: event.withdraw(page.present[0]))
     arcade.frame()
-    assert page.rows == (RENAME, DELETE), "nobody is left to play"
+    assert page.rows == (RENAME, DESK, DELETE), "nobody is left to play"
 
 
 def test_a_withdrawal_by_pad_and_by_mouse(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:

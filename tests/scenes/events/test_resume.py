@@ -135,7 +135,7 @@ def test_without_its_file_it_is_just_the_title(data: Path, damage: str) -> None:
 
 
 def test_a_full_disk_stops_nothing(data: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(data: Path, path: Path) -> None:
+    def full(data: Path, path: Path, arcade: str) -> None:
         raise NotSaved("the disk is full")
 
     monkeypatch.setattr(resume, "mark", full)

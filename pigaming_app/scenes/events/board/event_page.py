@@ -86,7 +86,7 @@ def event_now(context: Context, scenes: Sequence[Scene]) -> EventNow | None:
         running = match.running if match else getattr(page, "running", None)
         if isinstance(running, RunningEvent):
             fixture = match.fixture if match and match.fixture.number not in running.event.outcomes else None
-            coming = tuple(one for one in running.event.open if one != fixture)
+            coming = tuple(one for one in running.queue if one != fixture)
             claims = page.seats.claims if isinstance(page, NextMatch) else {}
             seats = called(context, running, coming[0], claims) if coming else ()
             return EventNow(running, fixture, coming, seats)

@@ -8,6 +8,8 @@ from pathlib import Path
 
 from pigaming_app.events import event_files
 from pigaming_app.events.spec import MAX_TITLE
+from pigaming_app.scenes.events.desk.host import can_serve
+from pigaming_app.scenes.events.manage.desk_page import DeskPage
 from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.flow.access import HOLD, Right, Roles
@@ -24,8 +26,9 @@ from pigaming_app.ui.widgets import setting_row
 from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-RENAME, WITHDRAW, DELETE, WEEK, DAY = "rename", "withdraw", "delete", "close_week", "close_day"
-SIGNS = {RENAME: "pencil", WITHDRAW: "cross", DELETE: "cross", WEEK: "check", DAY: "check"}
+RENAME, WITHDRAW, DESK, DELETE = "rename", "withdraw", "desk", "delete"
+WEEK, DAY = "close_week", "close_day"
+SIGNS = {RENAME: "pencil", WITHDRAW: "cross", DESK: "phone", DELETE: "cross", WEEK: "check", DAY: "check"}
 
 log = logging.getLogger("pigaming")
 
@@ -40,6 +43,7 @@ class EventPage(SettingsPage):
         self.path, self.running, self.gone = path, running, gone
         self.roles = context.shared(Roles)
         self.hold = self.roles.hold
+        self.serves = can_serve()
         self.chosen = 0  # among those who have not withdrawn
         super().__init__(context, self._rows)
 
@@ -51,12 +55,12 @@ class EventPage(SettingsPage):
     def _rows(self) -> tuple[str, ...]:
         if self.running is None:
             return (DELETE,)
-        event = self.running.event
+        event, desk = self.running.event, (DESK,) if self.serves else ()
         if event.over or not self.present:
-            return (RENAME, DELETE)
+            return (RENAME, *desk, DELETE)
         on_call = event.progress.kind.on_call
         close = (WEEK if on_call.periods(event.spec) > 1 else DAY,) if on_call else ()
-        return (RENAME, *close, WITHDRAW, DELETE)
+        return (RENAME, *close, WITHDRAW, *desk, DELETE)
 
     @property
     def present(self) -> list[str]:
@@ -75,14 +79,18 @@ class EventPage(SettingsPage):
     def value(self, name: str) -> SettingValue:
         if name == WITHDRAW:
             return SettingValue("arrows", tuple(self.present), min(self.chosen, len(self.present) - 1), endless=True)
-        return self.action({RENAME: "events.change", DELETE: "options.clear"}.get(name, "events.close"))
+        texts = {RENAME: "events.change", DESK: "options.open", DELETE: "options.clear"}
+        return self.action(texts.get(name, "events.close"))
 
     def apply(self, name: str, chosen: int) -> None:
         self.holding.clear()
         self.chosen = chosen
 
     def fire(self, name: str, event: InputEvent) -> StackOperation:
-        """FIRE renames; held, it withdraws or deletes."""
+        """FIRE renames, or opens the page of the desk; held, it withdraws or deletes."""
+        if name == DESK:
+            self.context.sounds.play("accept")
+            return Push(DeskPage(self.context))
         if name == RENAME and self.hold == HOLD:
             return self._open_title()
         self.context.sounds.play("move")
@@ -104,7 +112,7 @@ class EventPage(SettingsPage):
         return acts.get(self.focus.name, self._withdraw)()
 
     def picture(self, name: str, chosen: int) -> LitImage:
-        return sign(SIGNS[name], name != RENAME)
+        return sign(SIGNS[name], name not in (RENAME, DESK))
 
     draw_foot = Page.draw_foot
 

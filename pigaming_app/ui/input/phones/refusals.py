@@ -13,20 +13,23 @@ log = logging.getLogger("pigaming")
 class Refusals:
     """The refusals since the server was started, by kind."""
 
-    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, clock: Callable[[], float] = time.monotonic, server: str = "phones") -> None:
+        self.server = server  # that the lines name
         self.counts: Counter[str] = Counter()
         self._clock = clock
         self._logged: dict[str, tuple[float, int]] = {}  # time of the last line of each kind, and the count then
 
     def note(self, kind: str, peer: str = "") -> None:
-        """Count a refusal of a phone at the address `peer`, and log it unless one of its kind was logged lately."""
+        """Count a refusal of a peer at the address `peer`, and log it unless one of its kind was logged lately."""
         self.counts[kind] += 1
         now = self._clock()
         at, count = self._logged.get(kind, (-LOG_SECONDS, 0))
         if now - at >= LOG_SECONDS:
             self._logged[kind] = now, self.counts[kind]
             more = self.counts[kind] - count - 1
-            log.warning("phones: %s%s%s.", kind, f", {peer}" if peer else "", f", and {more} more" if more else "")
+            log.warning(
+                "%s: %s%s%s.", self.server, kind, f", {peer}" if peer else "", f", and {more} more" if more else ""
+            )
 
 
 class ErrorsOfLibrary(logging.Handler):

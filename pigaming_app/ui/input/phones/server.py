@@ -98,7 +98,7 @@ class PhoneServer:
         try:
             asyncio.run(self._serve())
         except OSError as error:
-            self._error = _cause(error)
+            self._error = cause(error)
         finally:
             self._ready.set()
 
@@ -267,7 +267,7 @@ async def _closed(request: web.Request, code: int) -> web.WebSocketResponse:
     return answer
 
 
-def _cause(error: OSError) -> str:
+def cause(error: OSError) -> str:
     """The key of the sentence for an address that cannot be listened on."""
     if error.errno in FORBIDDEN_ERRORS:
         return "port_forbidden"

@@ -1,0 +1,279 @@
+"""The pages of an event by their addresses, and what their forms do.
+
+Everything a browser sends is text that may be wrong. A form needs the session of the operator, its key, and an Origin
+that is this server; it becomes one entry of the journal, as on the command line.
+"""
+
+import threading
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from pigaming_app.ai.brain_files import is_path
+from pigaming_app.ai.registry import find_brain
+from pigaming_app.events import event_files
+from pigaming_app.events.changes import actions
+from pigaming_app.events.event import Event
+from pigaming_app.events.journal import (
+    Added,
+    Entry,
+    Paused,
+    Postponed,
+    Reseated,
+    Resumed,
+    Substituted,
+    Summoned,
+    Swapped,
+    Withdrawn,
+)
+from pigaming_app.events.live import LiveMatch, LiveMatches
+from pigaming_app.events.spec import DEFAULT_AI, Entrant, Fixture
+from pigaming_app.scenes.events.desk import desk_pages
+from pigaming_app.scenes.events.desk.desk_pages import DeskView
+from pigaming_app.scenes.events.desk.document import FILES, contents, languages
+from pigaming_app.scenes.events.desk.public_page import public_page
+from pigaming_app.scenes.events.desk.sessions import COOKIE, Session, Sessions, cookie, is_key
+from pigaming_app.storage.pin import PinFile
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.ui.i18n import LANGUAGES, Words
+from pigaming_app.ui.web.markup import Markup, tag
+from pigaming_app.ui.web.server import WebReply, WebRequest, tagged
+
+LOOKS = 1.5  # s between two looks of the public page
+MAX_LENGTH = 400  # characters of a field; longer ones are cut
+
+
+class Desk:
+    """Answers requests about the event in a file; each method may run in any thread. `language`: of the arcade."""
+
+    def __init__(self, path: Path, pin: PinFile, language: str) -> None:
+        """Raises ValueError if there is no event in the file."""
+        self.path, self.language = path, language
+        self.sessions, self._live = Sessions(pin), LiveMatches(path)
+        self._files = contents()
+        self._lock = threading.Lock()  # of the event and of the live matches
+        self._version: tuple[int, ...] = ()
+        self._event = event_files.latest(path)
+
+    def __call__(self, request: WebRequest) -> WebReply:
+        """The answer to any request."""
+        name = request.path[1:]
+        if name in FILES and request.method != "POST":
+            return WebReply(self._files[name], kind=FILES[name][1], headers={"Cache-Control": "max-age=3600"})
+        if request.path == "/" and request.method != "POST":
+            return self._public(request)
+        if name.partition("/")[0] == "desk":
+            return self._desk(request)
+        return WebReply(status=404)
+
+    def event(self) -> Event:
+        """The event in the file, read again if it has changed; the last one while it cannot be read."""
+        with self._lock:
+            if (version := event_files.version(self.path)) != self._version:
+                found, _ = event_files.load(self.path)
+                if found is not None:
+                    self._event, self._version = found, version
+            return self._event
+
+    # ---- pages
+
+    def _public(self, request: WebRequest) -> WebReply:
+        words = self._words(request, request.query.get("language", ""))
+        foot = [languages(words, "?language={language}")]
+        return tagged(request, _page(public_page(words, self.event(), self._now(), foot, LOOKS)))
+
+    def _desk(self, request: WebRequest) -> WebReply:
+        token = request.cookies.get(COOKIE, "")
+        session = self.sessions.find(token)
+        post = request.method == "POST"
+        if post and request.path == "/desk/login":
+            return self._log_in(request)
+        if session is None:
+            words = self._words(request, request.query.get("language", ""))
+            return _page(
+                desk_pages.login_page(words, self.event().spec.title), 403 if request.method == "POST" else 200
+            )
+        if (chosen := request.query.get("language", "")) in LANGUAGES:
+            session.language = chosen
+        if not post:
+            return self._shown(request, session)
+        if not request.own or not is_key(session, request.form.get("key", "")):
+            return self._shown(request, session, "desk.old", status=403)
+        if request.path == "/desk/logout":
+            self.sessions.end(token)
+            return _see("/desk", cookie(""))
+        return self._changed(request, session)
+
+    def _log_in(self, request: WebRequest) -> WebReply:
+        words = self._words(request, "")
+        token = self.sessions.begin(request.form.get("pin", ""), request.peer) if request.own else ""
+        if token:
+            return _see("/desk", cookie(token))
+        wait = self.sessions.pin.wait(request.peer)
+        told = words("access.wait", seconds=round(wait + 0.5)) if wait else words("access.wrong")
+        return _page(desk_pages.login_page(words, self.event().spec.title, told), 403)
+
+    def _shown(self, request: WebRequest, session: Session, key: str = "", status: int = 200) -> WebReply:
+        """The page of an address."""
+        view = self._view(request, session, key)
+        match request.path.strip("/").split("/"):
+            case ["desk"]:
+                reply = _page(desk_pages.overview_page(view), status)
+                return reply if key else tagged(request, reply)
+            case ["desk", "enter"]:
+                return _page(desk_pages.enter_page(view, request.form), status)
+            case ["desk", "break"]:
+                return _page(desk_pages.pause_page(view), status)
+            case ["desk", "match", number]:
+                if fixture := fixture_of(view.event, number):
+                    return _page(desk_pages.match_page(view, fixture), status)
+            case ["desk", "entrant", number]:
+                if (i := index(number)) < len(view.event.entrants):
+                    return _page(desk_pages.entrant_page(view, i), status)
+        return WebReply(status=404)
+
+    def _view(self, request: WebRequest, session: Session, key: str = "", detail: str = "") -> DeskView:
+        words = self._words(request, session.language)
+        message = words(key, reason=detail) if key else ""
+        return DeskView(words, self.event(), self._now(), session.key, message)
+
+    # ---- forms
+
+    def _changed(self, request: WebRequest, session: Session) -> WebReply:
+        """The page after a form: that of the event, or the same with the reason why it was refused."""
+        form = {name: text[:MAX_LENGTH] for name, text in request.form.items()}
+        action = action_of(request.path, form)
+        if action is None:
+            return WebReply(status=404)
+        try:
+            with self._lock:
+                self._event = event_files.update(self.path, lambda event: event.after(action(event)))
+                self._version = event_files.version(self.path)
+        except (ValueError, NotSaved) as reason:
+            view = self._view(request, session, "desk.refused", str(reason))
+            return _page(_again(request, view, form), 409)
+        return _see("/desk")
+
+    def _now(self) -> tuple[LiveMatch, ...]:
+        with self._lock:
+            return self._live.now()
+
+    def _words(self, request: WebRequest, chosen: str) -> Words:
+        """The language that is chosen, else the browser's first one that has texts, else that of the arcade."""
+        asked = (part.strip()[:2].lower() for part in request.headers.get("accept-language", "").split(",")[:10])
+        found = chosen if chosen in LANGUAGES else next((one for one in asked if one in LANGUAGES), self.language)
+        return Words(found)
+
+
+Action = Callable[[Event], Entry]
+
+
+def action_of(path: str, form: Mapping[str, str]) -> Action | None:
+    """What a form does; None if there is no such form. The action raises ValueError."""
+    match [*path.strip("/").split("/"), form.get("do", "")]:
+        case ["desk", "enter", _]:
+            return lambda event: _entered(event, form)
+        case ["desk", "break", "begin"]:
+            return lambda _: Paused(plain(form.get("note", ""))[: actions.MAX_NOTE])
+        case ["desk", "break", "end"]:
+            return lambda _: Resumed()
+        case ["desk", "entrant", number, do] if do in ENTRANT_ACTIONS:
+            return lambda event: ENTRANT_ACTIONS[do](_name(event, number), form)
+        case ["desk", "match", number, do] if do in MATCH_ACTIONS:
+            return lambda event: MATCH_ACTIONS[do](event, _fixture(event, number), form)
+    return None
+
+
+def _result(event: Event, fixture: Fixture, form: Mapping[str, str]) -> Entry:
+    extra = index(form.get("extra", "0"))
+    return actions.scored(event, fixture.number, extra, _scores(fixture, form))
+
+
+def _correction(event: Event, fixture: Fixture, form: Mapping[str, str]) -> Entry:
+    words = [f"{name}={score!r}" for name, score in _scores(fixture, form).items()]
+    return actions.corrected(event, fixture.number, words, plain(form.get("reason", "")))
+
+
+def _reseated(event: Event, fixture: Fixture, form: Mapping[str, str]) -> Entry:
+    return Reseated(fixture.number, tuple(form.get(f"seat{i}", "") for i in range(len(fixture.entrants))))
+
+
+MATCH_ACTIONS: Mapping[str, Callable[[Event, Fixture, Mapping[str, str]], Entry]] = {
+    "result": _result,
+    "correct": _correction,
+    "seats": _reseated,
+    "call": lambda event, fixture, form: Summoned(fixture.number, form.get("arcade", "").strip()),
+    "call_off": lambda event, fixture, form: Summoned(fixture.number, None),
+    "postpone": lambda event, fixture, form: Postponed(fixture.number),
+}
+ENTRANT_ACTIONS: Mapping[str, Callable[[str, Mapping[str, str]], Entry]] = {
+    "withdraw": lambda name, form: Withdrawn(name),
+    "absent": lambda name, form: Substituted(name, DEFAULT_AI),
+    "back": lambda name, form: Substituted(name, ""),
+    "swap": lambda name, form: Swapped(name, form.get("other", "")),
+}
+
+
+def fixture_of(event: Event, number: str) -> Fixture | None:
+    """The match of a number, its extra match if that is open."""
+    wanted = index(number)
+    return next((one for one in (*event.open, *event.fixtures) if one.number == wanted), None)
+
+
+def index(text: str) -> int:
+    """A small whole number; a huge one for anything else."""
+    return int(text) if text.isascii() and text.isdigit() and len(text) < 6 else 10**6
+
+
+def plain(text: str) -> str:
+    """A text on one line, without spaces around it."""
+    return "".join(char for char in " ".join(text.split()) if char.isprintable())
+
+
+def _scores(fixture: Fixture, form: Mapping[str, str]) -> dict[str, float]:
+    return {name: actions.figure(form.get(f"score{i}", ""), "score") for i, name in enumerate(fixture.entrants)}
+
+
+def _fixture(event: Event, number: str) -> Fixture:
+    fixture = fixture_of(event, number)
+    if fixture is None:
+        raise ValueError("there is no such match")
+    return fixture
+
+
+def _name(event: Event, number: str) -> str:
+    if (i := index(number)) >= len(event.entrants):
+        raise ValueError("there is no such entrant")
+    return event.entrants[i].name
+
+
+def _entered(event: Event, form: Mapping[str, str]) -> Added:
+    name, team, brain = (plain(form.get(field, "")) for field in ("name", "team", "brain"))
+    if brain and is_path(brain):
+        raise ValueError("the desk takes AIs by their names only")
+    for game in event.spec.games if brain else ():
+        find_brain(game, brain)
+    return Added(Entrant(name, brain, team))
+
+
+def _again(request: WebRequest, view: DeskView, form: Mapping[str, str]) -> Markup:
+    """The page that a refused form came from."""
+    match request.path.strip("/").split("/"):
+        case ["desk", "enter"]:
+            return desk_pages.enter_page(view, form)
+        case ["desk", "match", number]:
+            if fixture := fixture_of(view.event, number):
+                return desk_pages.match_page(view, fixture)
+        case ["desk", "entrant", number]:
+            if (i := index(number)) < len(view.event.entrants):
+                return desk_pages.entrant_page(view, i)
+    return view.page(view.words("desk.title"), tag("a", view.words("desk.title"), href="/desk"))
+
+
+def _page(page: Markup, status: int = 200) -> WebReply:
+    return WebReply(page.encode(), status)
+
+
+def _see(address: str, set_cookie: str = "") -> WebReply:
+    """Go on at another address."""
+    more = {"Set-Cookie": set_cookie} if set_cookie else {}
+    return WebReply(status=303, headers={"Location": address, **more})
