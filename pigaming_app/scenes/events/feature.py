@@ -84,8 +84,8 @@ class LiveScores(Service):
         if running is None:
             self.close()
             return
-        from pigaming_app.events import live
-        from pigaming_app.scenes.events.desk.live_scores import live_match
+        from pigaming_app.events.changes import live
+        from pigaming_app.scenes.events.board.live_scores import live_match
 
         self._written, self._beat = (running.path, running.arcade), self._beat + 1
         live.write(running.path, live_match(self.context.words, scenes, running, match, self._beat))
@@ -93,7 +93,7 @@ class LiveScores(Service):
     def close(self) -> None:
         """Nothing of an event is shown."""
         if self._written:
-            from pigaming_app.events import live
+            from pigaming_app.events.changes import live
 
             live.remove(*self._written)
             self._written = None

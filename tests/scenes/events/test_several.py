@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.events import event_files
+from pigaming_app.events.changes.live import LiveMatch, LiveMatches
 from pigaming_app.events.event import Event
 from pigaming_app.events.journal import Paused, Recorded, Reseated, Resumed, Summoned
-from pigaming_app.events.live import LiveMatch, LiveMatches
 from pigaming_app.events.spec import Entrant, EventSpec, Format
 from pigaming_app.scenes.events.board.event_page import event_now
 from pigaming_app.scenes.events.feature import LiveScores

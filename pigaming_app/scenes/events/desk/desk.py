@@ -12,6 +12,7 @@ from pigaming_app.ai.brain_files import is_path
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files
 from pigaming_app.events.changes import actions
+from pigaming_app.events.changes.live import LiveMatch, LiveMatches
 from pigaming_app.events.event import Event
 from pigaming_app.events.journal import (
     Added,
@@ -25,7 +26,6 @@ from pigaming_app.events.journal import (
     Swapped,
     Withdrawn,
 )
-from pigaming_app.events.live import LiveMatch, LiveMatches
 from pigaming_app.events.spec import DEFAULT_AI, Entrant, Fixture
 from pigaming_app.scenes.events.desk import desk_pages
 from pigaming_app.scenes.events.desk.desk_pages import DeskView

@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from pigaming_app.events.changes.live import LiveMatch
 from pigaming_app.events.event import Event
-from pigaming_app.events.live import LiveMatch
 from pigaming_app.events.spec import MAX_NAME, Fixture
 from pigaming_app.scenes.events.desk.document import document, languages
 from pigaming_app.scenes.events.desk.public_page import head, now, result_line, tables, versus

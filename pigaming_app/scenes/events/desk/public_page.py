@@ -7,8 +7,8 @@ The same page is served, and written as files. Its parts with the class `page` f
 from collections.abc import Iterator, Sequence
 from typing import TypeVar
 
+from pigaming_app.events.changes.live import LiveMatch
 from pigaming_app.events.event import Event
-from pigaming_app.events.live import LiveMatch
 from pigaming_app.events.spec import Fixture, Result
 from pigaming_app.scenes.events.bracket_view import BracketBox, Column
 from pigaming_app.scenes.events.desk.document import document

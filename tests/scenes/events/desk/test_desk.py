@@ -6,8 +6,8 @@ from random import Random
 
 import pytest
 
+from pigaming_app.events.changes.live import LiveMatch, write
 from pigaming_app.events.event_files import update
-from pigaming_app.events.live import LiveMatch, write
 from pigaming_app.events.spec import Format
 from pigaming_app.scenes.events.desk.sessions import LASTS, MOST, Sessions
 from pigaming_app.storage.pin import PinFile

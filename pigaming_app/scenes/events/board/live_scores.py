@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from pigaming_app.events.live import LiveMatch
+from pigaming_app.events.changes.live import LiveMatch
 from pigaming_app.scenes.events.next_page import EventMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.flow.stack import Scene
