@@ -6,6 +6,8 @@ your team mates. After a hit you blink and cannot be hit again for three quarter
 while its meter lasts. Pick-ups: a shield, which takes the next hit for you; speed; rapid fire; three bullets at once;
 bullets that bounce off walls; a mine, which your next shot lays behind you.
 
+In `party` and `pickups` a gun holds five shots, and loads one after the other; rapid fire needs none.
+
 By the party rules being hit costs no point, but knocks you out for a moment, in which you roll back. Stay in one place
 and you are lit. A leader far ahead is worth more, the last 20 s count double, and if the leaders are level at the end,
 the next hit wins.
@@ -27,6 +29,7 @@ from pigaming_app.games.pitanks.state import (
     TRIPLE,
     Bullet,
     PiTanks,
+    PiTanksRules,
     Tank,
 )
 from pigaming_app.sim.grid import NEAR_UNIT, node_at, wall_on_grid
@@ -48,7 +51,7 @@ def judge(match: PiTanks) -> None:
         return
     for k in range(ROBOTS):
         if match.robots[k].present:
-            count_down(match.tanks[k])
+            count_down(match.rules, match.tanks[k])
             use_gun(match, k)
     if move_bullets(match):
         resolve_hits(match)
@@ -68,8 +71,8 @@ def judge(match: PiTanks) -> None:
 
 
 @kernel
-def count_down(tank: Tank) -> None:
-    """One tick of a tank's timers: gun cooldown, knock-out, protection, powers."""
+def count_down(rules: PiTanksRules, tank: Tank) -> None:
+    """One tick of a tank's timers: gun cooldown, knock-out, protection, powers, magazine."""
     if tank.knocked_out:
         tank.knocked_out -= 1
     if tank.cooldown:
@@ -79,6 +82,11 @@ def count_down(tank: Tank) -> None:
     for power in range(ALL_POWERS):
         if tank.powers[power]:
             tank.powers[power] -= 1
+    if tank.spent:
+        tank.spent -= 1
+        is_empty = tank.spent > (rules.magazine - 1) * rules.loading
+        if is_empty and not tank.cooldown and not tank.powers[RAPID]:
+            tank.cooldown = 1
 
 
 @kernel
@@ -122,7 +130,12 @@ def use_gun(match: PiTanks, k: int) -> None:
     if tank.powers[TRIPLE]:
         fire_bullet(match, k, max_alive, heading - rules.triple_spread, bounces)
         fire_bullet(match, k, max_alive, heading + rules.triple_spread, bounces)
-    tank.cooldown = rules.rapid_cooldown if tank.powers[RAPID] else rules.cooldown
+    if tank.powers[RAPID]:
+        tank.cooldown = rules.rapid_cooldown
+        return
+    tank.cooldown = rules.cooldown
+    if rules.magazine:
+        tank.spent += rules.loading
 
 
 @kernel

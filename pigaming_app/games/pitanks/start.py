@@ -47,6 +47,7 @@ def set_rules(rules: PiTanksRules, setup: Setup) -> None:
         rules.turbo = 0
     if setup.variant in ("party", "pickups"):
         rules.camping = 4 * HZ
+        rules.magazine = 5
     if setup.variant == "party":
         rules.penalty = 0
         rules.knockout, rules.protection = KNOCKOUT, PARTY_PROTECTION

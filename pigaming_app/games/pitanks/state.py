@@ -31,6 +31,8 @@ class PiTanksRules(MatchRules):
     muzzle: float = 64.0  # from the robot's centre
     cooldown: int = HZ // 2
     bullets_alive: int = 5
+    magazine: int  # shots; 0: endless
+    loading: int = 7 * HZ // 5  # of one shot
     protection: int = round(0.75 * HZ)
     pickups: int = 1  # 0: disabled
     pickup_every: int = 7 * HZ
@@ -61,6 +63,7 @@ class Tank:
     """State of a robot that only PiTanks has."""
 
     cooldown: int
+    spent: int  # ticks until its magazine is full
     protected: int
     shots: int  # bullets fired
     landed: int  # bullets that scored

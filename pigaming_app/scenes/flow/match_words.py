@@ -10,7 +10,9 @@ from pigaming_app.ui.i18n import Words
 
 def limits_line(words: Words, game: str, minutes: float, variant: str) -> str:
     """The rule limits of a game whose matches last at most `minutes`, as one line."""
-    return words(f"howto.limits_{game}", **rule_numbers(game, minutes, variant))
+    numbers = rule_numbers(game, minutes, variant)
+    magazine = words("howto.magazine", **numbers) + "  " if numbers["magazine"] != "0" else ""
+    return magazine + words(f"howto.limits_{game}", **numbers)
 
 
 def game_title(words: Words, game: str) -> str:
@@ -61,7 +63,9 @@ def rule_numbers(game: str, minutes: float, variant: str) -> dict[str, str]:
         "minutes": rules.ticks * DT / 60.0,
         "protection": getattr(rules, "protection", 0) * DT,
         "patience": getattr(rules, "patience", 0) * DT,
+        "magazine": getattr(rules, "magazine", 0),
+        "loading": getattr(rules, "loading", 0) * DT,
         "turbo": 1.0 / (rules.turbo_drain * HZ) if rules.turbo_drain else 0.0,
         "refill": 1.0 / (rules.turbo_refill * HZ) if rules.turbo_refill else 0.0,
     }
-    return {name: f"{round(4 * value) / 4:g}" for name, value in numbers.items()}  # rounded to 0.25
+    return {name: f"{round(20 * value) / 20:g}" for name, value in numbers.items()}  # rounded to 0.05

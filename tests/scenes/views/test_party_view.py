@@ -57,6 +57,22 @@ def test_the_points_rise_at_the_hit_in_the_colour_of_the_shooter():
     assert (popup.text, popup.player, popup.x) == ("+2", 0, LEFT + 800.0)
 
 
+@pytest.mark.parametrize(("variant", "dots"), [("party", 5), ("pickups", 5), ("plain", 0)])
+def test_dots_above_a_robot_are_the_shots_it_has_left(screen, variant, dots):
+    state, view = match(variant)
+    x, y, _ = POSES[0]
+    places = [(x + 60.0 * math.sin(0.3 * i), y - 60.0 * math.cos(0.3 * i)) for i in range(-2, 3)]
+    for shots in range(5):
+        view.draw(screen, state, 1.0, 0.0)
+        lights = [screen.get_at((round(LEFT + px), round(TOP + py)))[2] for px, py in places]
+        assert [light > 200 for light in lights] == [i < dots - shots for i in range(5)], shots
+        assert [light > 40 for light in lights] == [i < dots for i in range(5)]
+        state.actions[0].fire, state.tanks[0].cooldown = 1, 0
+        sounds(view, state)
+        for bullet in state.bullets:
+            bullet.alive = 0
+
+
 def test_of_two_hits_in_one_tick_both_points_rise():
     state, view = match()
     hit(state, 0, 1)

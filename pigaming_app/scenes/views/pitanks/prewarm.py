@@ -18,7 +18,7 @@ from pigaming_app.ui.numbers import signed
 def jobs(state: Any, walls: int, seats: Sequence[int]) -> Iterator[Job]:
     """One small job per sprite; a cached sprite costs nothing. `walls`: number of walls of the arena itself."""
     yield from (partial(tank.ghost, seat) for seat in seats)
-    yield from _shooting(seats)
+    yield from _shooting(seats, state.rules.magazine)
     yield from _points(seats, ("+1", "−1") if state.rules.penalty else ("+1",))
     yield from _walls(state, walls)
     yield from _hits(seats)
@@ -28,8 +28,11 @@ def jobs(state: Any, walls: int, seats: Sequence[int]) -> Iterator[Job]:
         yield from _party(seats)
 
 
-def _shooting(seats: Sequence[int]) -> Iterator[Job]:
+def _shooting(seats: Sequence[int], magazine: int) -> Iterator[Job]:
     for seat in seats:
+        if magazine:
+            r = effects.MAGAZINE_R
+            yield from (partial(effects.magazine, seat, left, magazine, r) for left in range(magazine + 1))
         for turn in range(HEADINGS):
             yield partial(effects.bullet, seat, turn)
         for turn in range(effects.TURNS):

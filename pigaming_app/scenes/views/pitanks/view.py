@@ -94,6 +94,9 @@ class PiTanksView(SimpleView):
         if held.knocked_out:
             turn = int(now * 40) % party.STAR_TURNS
             put(light, party.stars(turn, self.reach(seat, party.STAR_R)), x, y)
+        elif size := state.rules.magazine:
+            left = size + -held.spent // state.rules.loading
+            put(light, effects.magazine(seat, left, size, self.reach(seat, effects.MAGAZINE_R)), x, y)
         if now - self.flashed[seat] < FLASH and self.options.flashes != "off":
             flash = effects.flash(seat, coarse)
             put(light, flash, x + MUZZLE * math.cos(heading), y + MUZZLE * math.sin(heading))

@@ -20,6 +20,7 @@ LIGHT_LEVELS = 8
 BEAM_TURNS = 64
 BEAM_ARM = 114  # px from a robot to the centre of its headlight
 FLAME_ARM = -66
+MAGAZINE_R = 60  # px from a robot to the shots in its magazine
 
 
 @cached
@@ -175,4 +176,16 @@ def timer_ring(color: Color, left: int, r: int, width: int = LINE) -> Sprite:
     ink = GlowCanvas(2 * half, 2 * half)
     if left:
         ink.arc(half, half, r, math.tau * (0.75 - left / 48), math.tau * 0.75, color, width)
+    return trim(ink.lit(0.8), half, half)
+
+
+@cached
+def magazine(player: int, left: int, size: int, r: int) -> Sprite:
+    """The shots of a magazine on an arc of radius `r` px above a robot, `left` of `size` lit."""
+    half = r + 22
+    ink, pitch, color = GlowCanvas(2 * half, 2 * half), 0.3, PLAYERS[player]
+    for i in range(size):
+        a = (i - (size - 1) / 2) * pitch
+        x, y = half + r * math.sin(a), half - r * math.cos(a)
+        ink.disc(x, y, 6.5, color if i < left else dim(color, 0.3))
     return trim(ink.lit(0.8), half, half)
