@@ -23,8 +23,8 @@ from pigaming_app.ui.widgets.labels import black_out, button_label, chip, chip_w
 
 TOP, HIGH = 220, 620
 PICTURE, KEYS_Y = 384, TOP + 438  # px: height of a lesson's picture, and the middle of its keys
-CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 884, 950
-LARGE, PITCH, LOWER = 46, 46, 20  # px, of larger text: size and pitch of the limits on two lines; the foot is lower
+CAPTION_Y, LIMITS_Y, FOOT_Y = TOP + 546, 900, 988
+LARGE, PITCH = 46, 48  # px: size of the limits in larger text, and pitch of their lines
 BADGE = 40  # px, radius of a lesson's number
 IDLE = 90.0  # seconds without input until the title
 GAP = 24  # px on either side of the arrows between heading and names
@@ -94,7 +94,7 @@ class HowTo:
             frame(i + 1, box.w).draw(screen, *box.topleft)
             caption(words(f"howto.{clip.name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)
         self._foot(screen)
-        keys(self._keys()).draw(screen, 0, LOWER * kit.reads_large())
+        keys(self._keys()).draw(screen)
 
     def _show(self, game: str, page: int = 0) -> None:
         if (game, page) != (self.game, self.page):
@@ -115,11 +115,8 @@ class HowTo:
             pages(name, self.page, count).draw(screen)
             left += pages_width(name, count) + 40
         limits = limits_line(words, self.game, self.minutes(), self._variant())
-        size, lines = kit.BODY, [limits]
-        if kit.reads_large():
-            size, lines = fit_lines(limits, RIGHT - left, 2, range(LARGE, SMALLEST, -2))
-            lines = wrap_balanced(limits, len(lines), size)
-        for i, line in enumerate(lines):
+        size, lines = fit_lines(limits, RIGHT - left, 2, range(LARGE if kit.reads_large() else kit.BODY, SMALLEST, -2))
+        for i, line in enumerate(wrap_balanced(limits, len(lines), size)):
             y = LIMITS_Y + PITCH * (i - (len(lines) - 1) / 2)
             text(line, size, kit.ICE, "body", "l", round(RIGHT - left)).draw(screen, left, y)
 
