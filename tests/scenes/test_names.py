@@ -209,7 +209,7 @@ def test_the_race_says_how_many_laps_it_has(arcade: Arcade, monkeypatch: pytest.
 
 def test_the_numbers_of_the_rules_are_those_of_the_game() -> None:
     assert rule_numbers("pitanks", 2, "plain") == {
-        "minutes": "2", "protection": "0.75", "patience": "0", "magazine": "0", "loading": "1.4", "turbo": "2",
+        "minutes": "2", "protection": "0.75", "patience": "0", "magazine": "0", "loading": "1.6", "turbo": "2",
         "refill": "4",
     }  # fmt: skip
     assert rule_numbers("race", 10, "standard")["patience"] == "30"
@@ -223,8 +223,8 @@ def test_the_lessons_say_what_limits_a_match() -> None:
     assert "0.75 s of protection" in limits_line(english, "pitanks", 2, "pickups")
     assert "0,75 s" in limits_line(portuguese, "pitanks", 2, "pickups")
     assert "After a hit: 2 s of protection" in limits_line(english, "pitanks", 2, "party")
-    assert limits_line(english, "pitanks", 2, "pickups").startswith("5 shots, then one every 1.4 s.  After")
-    assert limits_line(portuguese, "pitanks", 2, "party").startswith("5 tiros, depois um a cada 1,4 s.  Após")
+    assert limits_line(english, "pitanks", 2, "pickups").startswith("5 shots, then one every 1.6 s.  After")
+    assert limits_line(portuguese, "pitanks", 2, "party").startswith("5 tiros, depois um a cada 1,6 s.  Após")
     assert limits_line(english, "pitanks", 2, "original").startswith("After a hit")
     assert "Time limit: 5 min." in limits_line(english, "factory", 5, "standard")
     assert "Time limit: 10 min, 30 s after the winner." in limits_line(english, "race", 10, "standard")

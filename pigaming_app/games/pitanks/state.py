@@ -32,7 +32,7 @@ class PiTanksRules(MatchRules):
     cooldown: int = HZ // 2
     bullets_alive: int = 5
     magazine: int  # shots; 0: endless
-    loading: int = 7 * HZ // 5  # of one shot
+    loading: int = 8 * HZ // 5  # of one shot
     protection: int = round(0.75 * HZ)
     pickups: int = 1  # 0: disabled
     pickup_every: int = 7 * HZ

@@ -10,7 +10,7 @@ from pigaming_app.sim.world import HZ
 from tests.floor import pitanks
 
 BESIDE_A_WALL = (1500.0, 100.0, 0.0)  # its bullets are gone at once, so their number does not hold fire
-PAUSE, LOADING = 25, 70  # ticks
+PAUSE, LOADING = 25, 80  # ticks
 
 
 class Gun:
@@ -56,12 +56,12 @@ def test_each_shot_is_fired_in_the_tick_of_the_second_implementation(seed, varia
     assert sum(fired) > 15
 
 
-def test_fire_held_is_seven_shots_and_then_one_every_1_4_s():
-    """The first two load again while the other five are fired."""
+def test_fire_held_is_six_shots_and_then_one_every_1_6_s():
+    """The first loads again while the other five are fired."""
     fired = shots(pitanks([BESIDE_A_WALL], variant="party"), [1] * (20 * HZ))
     at = [tick for tick, shot in enumerate(fired) if shot]
-    assert at[:7] == [PAUSE * i for i in range(7)]
-    assert {b - a for a, b in zip(at[7:], at[8:], strict=False)} == {LOADING}
+    assert at[:6] == [PAUSE * i for i in range(6)]
+    assert at[6:] == [LOADING * i for i in range(2, 2 + len(at[6:]))]
 
 
 @pytest.mark.parametrize("variant", ["original", "plain", "classic"])
@@ -74,11 +74,10 @@ def test_other_rules_have_endless_magazines(variant):
 def test_rapid_fire_takes_no_shots_and_needs_none():
     match = pitanks([BESIDE_A_WALL], variant="party")
     tank = match.tanks[0]
-    tank.spent, tank.powers[RAPID] = 5 * LOADING, 2 * HZ + 1
-    assert sum(shots(match, [1] * (2 * HZ))) == 10
-    assert tank.spent == 5 * LOADING - 2 * HZ
-    assert sum(shots(match, [1] * (LOADING - 2 * HZ - 1))) == 0
-    assert sum(shots(match, [1, 1])) == 1
+    tank.spent, tank.powers[RAPID] = 5 * LOADING, HZ + 1
+    assert sum(shots(match, [1] * HZ)) == 5
+    assert tank.spent == 5 * LOADING - HZ
+    assert shots(match, [1] * (LOADING - HZ)) == [0] * (LOADING - HZ - 1) + [1]
 
 
 def test_three_bullets_at_once_are_one_shot_and_a_mine_is_none():
@@ -93,7 +92,9 @@ def test_three_bullets_at_once_are_one_shot_and_a_mine_is_none():
     assert match.mines[0].alive
 
 
-def test_who_is_knocked_out_loads():
+@pytest.mark.parametrize("protected", [0, 38, 100])
+def test_an_empty_gun_loads_once_the_robot_no_longer_blinks(protected):
     match = pitanks([BESIDE_A_WALL], variant="party")
-    match.tanks[0].spent, match.tanks[0].knocked_out = 5 * LOADING, 40
-    assert sum(shots(match, [1] * LOADING)) == 1
+    match.tanks[0].spent, match.tanks[0].protected = 5 * LOADING, protected
+    fired = shots(match, [1] * 200)
+    assert fired.index(1) == LOADING + max(0, protected - 1) - 1
