@@ -49,6 +49,7 @@ class BusyPiTanks:
             robot.y = min(850.0, max(50.0, robot.y + robot.linear * DT * math.sin(robot.heading)))
             robot.turbo, robot.boosting = 0.5 + 0.5 * math.sin(t + seat), int(math.sin(t + seat) > 0.3)
             tank.protected = max(0, tank.protected - 1)
+            tank.spent = (state.tick + 90 * seat) % max(1, state.rules.magazine * state.rules.loading)
             tank.powers = [max(0, left - 1) for left in tank.powers]
             if state.rules.knockout:
                 tank.knocked_out = state.rules.knockout - (state.tick + 10 * seat) % state.rules.knockout

@@ -10,12 +10,12 @@ from tests.matches import match_of, run
 
 SEED, TICKS = 7, 1500
 DIGESTS = {
-    ("fsm", "classic", "pickups"): "5c09a07d8a743825b5067a6895a847a4ca41aeca7cd080322f6ecf67e7aeb742",
-    ("fsm", "labyrinth", "plain"): "2b6aada99d526233d7f8a69b1f7a685c056ffc50e8b1764d871b3ab21d5016a2",
-    ("fsm", "trenches", "classic"): "059a78e9a365afa74b1894e1ab52870b921b3bf95e190cd20ba6c02cc0af9f56",
-    ("classic", "classic", "pickups"): "78900901150c97f10514c595658e94886f9ddb8462d64983940789a0efac7d41",
-    ("classic", "labyrinth", "plain"): "b55e57440847188f0b8e9dc8b8bef513b808c25323c6e93a8560c0fef09930a3",
-    ("classic", "trenches", "classic"): "3584fc63bccbb793cf81e9fa4d97335a036fb4acd2461bcec4162cd6da9a0066",
+    ("fsm", "classic", "pickups"): "74e2311489b4966480d1438abdd15c730312660ede7c9119a216ee3ae6b28c5f",
+    ("fsm", "labyrinth", "plain"): "ca2ec254e0ae72f335000e3a25aea87d518ab50083dfc1e7d76b530dca3ac371",
+    ("fsm", "trenches", "classic"): "5dc9e48671eb668f36a7138c71f2d7bc440fe49371787cc66006f1297586bf8e",
+    ("classic", "classic", "pickups"): "55683c9e618ea6aa74a67ef2cc18e644a6b83b40883ce610925394cf3fd0edd3",
+    ("classic", "labyrinth", "plain"): "a71c49b7ee61d1459d86f5c90782ccadb016111ab5b3c41706a69038baaf6f14",
+    ("classic", "trenches", "classic"): "70a20bfc05a8eeaf83eed40a22cfe4cf02c3c7c7b577396a56acdb5423566865",
 }
 
 
