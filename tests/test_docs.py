@@ -361,7 +361,7 @@ def test_the_page_on_networks_has_the_rewards():
 def test_the_page_on_opponents_has_the_handicaps_of_pitanks():
     levels = [body for head, body in tables(OPPONENTS_PAGE) if head[1:] == [f"`level{n}`" for n in range(1, 6)]]
     (body,) = [body for body in levels if body[0][0] == "share of full speed"]
-    for row, name in zip(body, ("speed", "thrift", "delay", "error", "turns"), strict=True):
+    for row, name in zip(body, ("speed", "thrift", "reluctance", "delay", "error", "turns"), strict=True):
         shown = [0.0 if cell == "–" else float(cell.split()[0]) for cell in row[1:]]
         assert shown == [handicap.get(name, 0.0) for handicap in HANDICAPS], row
 

@@ -1,8 +1,10 @@
 """The AIs of PiTanks by name: by hand, from tables, from a network. The five levels: one network with handicaps.
 
-The levels are set against models of people (`ai/people`). All see others late and beside where they are, drive more
-slowly than people, and go for one opponent after the other, so that they hunt nobody; weaker ones save more shots. No
-level skips decisions, which would look like a machine that hangs. The network alone is `net`: no person beats it.
+The levels are set against models of people (`ai/people`). All see others late and beside where they are, and go for one
+opponent after the other, so that they hunt nobody; weaker ones save more shots, and the weakest drive more slowly than
+people. Shooting less rather than driving slowly is what makes a level easy without making it prey for whoever stands
+and holds FIRE. No level skips decisions, which would look like a machine that hangs. The network alone is `net`: no
+person beats it.
 """
 
 from pigaming_app.ai.game_ai import LEVELS as NAMES
@@ -14,8 +16,14 @@ from pigaming_app.ai.qlearning import table_files
 NETWORK = "pitanks"  # file in assets/brains
 TURNS = 6.0  # s
 HANDICAPS = tuple(
-    {"delay": 0.4, "error": 0.3, "thrift": thrift, "speed": speed, "turns": TURNS}
-    for thrift, speed in ((1.0, 0.4), (0.89, 0.45), (0.81, 0.5), (0.68, 0.52), (0.58, 0.62))
+    {"delay": 0.4, "error": 0.3, "thrift": thrift, "speed": speed, "reluctance": reluctance, "turns": TURNS}
+    for thrift, speed, reluctance in (
+        (1.0, 0.65, 3.8),
+        (1.0, 0.9, 2.0),
+        (0.94, 0.95, 0.7),
+        (0.78, 1.0, 0.5),
+        (0.66, 1.0, 0.0),
+    )
 )
 EASIEST, HARDEST = (
     shipped_brain(name, "pitanks", NETWORK, handicap={**handicap, "turns": TURNS})

@@ -41,6 +41,7 @@ class PiTanksRules(MatchRules):
     power_life: int = 8 * HZ
     speed_factor: float = 1.25
     rapid_cooldown: int = HZ // 5
+    rapid_loading: int = 3  # times as fast
     boosted_alive: int = 8  # bullets alive with rapid or triple
     triple_spread: float = 0.21  # rad
     bounces: int = 2  # of a ricochet bullet

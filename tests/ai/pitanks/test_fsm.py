@@ -10,12 +10,12 @@ from tests.matches import match_of, run
 
 SEED, TICKS = 7, 1500
 DIGESTS = {
-    ("fsm", "classic", "pickups"): "74e2311489b4966480d1438abdd15c730312660ede7c9119a216ee3ae6b28c5f",
-    ("fsm", "labyrinth", "plain"): "ca2ec254e0ae72f335000e3a25aea87d518ab50083dfc1e7d76b530dca3ac371",
-    ("fsm", "trenches", "classic"): "5dc9e48671eb668f36a7138c71f2d7bc440fe49371787cc66006f1297586bf8e",
-    ("classic", "classic", "pickups"): "55683c9e618ea6aa74a67ef2cc18e644a6b83b40883ce610925394cf3fd0edd3",
-    ("classic", "labyrinth", "plain"): "a71c49b7ee61d1459d86f5c90782ccadb016111ab5b3c41706a69038baaf6f14",
-    ("classic", "trenches", "classic"): "70a20bfc05a8eeaf83eed40a22cfe4cf02c3c7c7b577396a56acdb5423566865",
+    ("fsm", "classic", "pickups"): "aa6b057dd23d4bfa6f98bdf8949d5051cdb29388f86317ef26b949fb62277454",
+    ("fsm", "labyrinth", "plain"): "71e854d8aa97ce764077e8b461bbdbc5e8c40efda1a49bd91796714740ed2eb0",
+    ("fsm", "trenches", "classic"): "0418fef5e23dde57e28f6e50bf0af5021874146b244fc1f61b0145d43931cee0",
+    ("classic", "classic", "pickups"): "9a97f007dc1e69c268d73ead0d0719a42a5809bf0fb77cecb696bf4664a87e9c",
+    ("classic", "labyrinth", "plain"): "35ac2858e6128eb105697ea89ca4c92e12182651a5617dad66da75d6081a0d85",
+    ("classic", "trenches", "classic"): "98112ff37c6bedfb7707fc9348d2b7b150d6736f6644d8562bf329d032a4d3a1",
 }
 
 

@@ -1,5 +1,6 @@
 """PiTanks' magazine against a second implementation, which keeps the times at which spent shots are loaded again."""
 
+from itertools import pairwise
 from random import Random
 
 import pytest
@@ -40,7 +41,8 @@ def shots(match, presses):
 
 def presses(random, ticks):
     """FIRE, held and released for random times."""
-    held, fire = [], 0
+    held: list[int] = []
+    fire = 0
     while len(held) < ticks:
         fire = 1 - fire
         held += [fire] * random.choice((1, 2, 10, 30, 100, 400))
@@ -71,13 +73,13 @@ def test_other_rules_have_endless_magazines(variant):
     assert match.tanks[0].spent == 0
 
 
-def test_rapid_fire_takes_no_shots_and_needs_none():
+def test_rapid_fire_empties_a_magazine_in_a_second_and_loads_three_times_as_fast():
     match = pitanks([BESIDE_A_WALL], variant="party")
-    tank = match.tanks[0]
-    tank.spent, tank.powers[RAPID] = 5 * LOADING, HZ + 1
-    assert sum(shots(match, [1] * HZ)) == 5
-    assert tank.spent == 5 * LOADING - HZ
-    assert shots(match, [1] * (LOADING - HZ)) == [0] * (LOADING - HZ - 1) + [1]
+    match.tanks[0].powers[RAPID] = 8 * HZ + 1
+    fired = shots(match, [1] * (8 * HZ))
+    at = [tick for tick, shot in enumerate(fired) if shot]
+    assert at[:7] == [0, 10, 20, 30, 40, 50, 60]
+    assert {b - a for a, b in pairwise(at[7:])} == {LOADING // 3, LOADING // 3 + 1}
 
 
 def test_three_bullets_at_once_are_one_shot_and_a_mine_is_none():
