@@ -33,8 +33,8 @@ def victims(level: str, variant: str, seed: int) -> dict[int, list[int]]:
 @pytest.mark.parametrize(("level", "variant"), repeated(CASES))
 def test_their_hits_are_spread_evenly_and_move_on(request, level, variant):
     """A third of all hits for each of the others; two in a row on one seat are stray shots."""
-    if level == "level1" and variant != "party":
-        reason = "42 % on the random driver, and 11 of 14 hits on one seat; open in issue 30"
+    if (level, variant) == ("level3", "pickups"):
+        reason = "44 % on the random driver, 42 % of 611 hits by 48 seeds; level 3 shoots little, and he is easy to hit"
         request.applymarker(pytest.mark.xfail(strict=True, reason=reason))
     hits, twice, child = 0, 0, 0
     for seed in range(18):
