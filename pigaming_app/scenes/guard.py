@@ -25,9 +25,11 @@ class Guard:
         if right is not Right.PLAY and event.button not in HARMLESS:
             if self.roles.may(event.device, right):
                 self.roles.used(event.device)
+            elif self.roles.left_open and event.button is Button.BACK:
+                pass
             elif event.device.kind == "phone" or self.roles.in_session:
                 return self._refuse(event.device)
-            elif event.button is not Button.BACK:  # whoever finds it open may leave it
+            else:
                 return self._ask(None, scenes[-1])
         return self.checked(scenes[-1].handle(event), event.device)
 

@@ -91,6 +91,7 @@ class Roles:
         self.context, self.pin = context, PinFile(folders().config)
         self._who: Device | None = None  # in session
         self._left = 0.0  # s of the session
+        self._unused = 0.0  # s since the last press on a screen that needs a right
 
     @property
     def guarded(self) -> bool:
@@ -125,13 +126,20 @@ class Roles:
         """The operator leaves."""
         self._who = None
 
+    @property
+    def left_open(self) -> bool:
+        """True if nobody uses the screen that needs a right: everybody may leave it."""
+        return self._who is None and self._unused >= BREAK
+
     def used(self, device: Device) -> None:
         """A press on a screen that needs a right: the session of this device goes on."""
+        self._unused = 0.0
         if self._who == _person(device):
             self._left = SESSION
 
     def update(self, seconds: float, scenes: Sequence[Scene]) -> None:
         """Advance by `seconds`."""
+        self._unused = self._unused + seconds if right_of(scenes) is not Right.PLAY else 0.0
         if self._who is None:
             return
         self._left = min(self._left, SESSION if right_of(scenes) is not Right.PLAY else BREAK) - seconds

@@ -18,6 +18,7 @@ STICK = {Button.UP: (0.0, -1.0), Button.DOWN: (0.0, 1.0), Button.LEFT: (-1.0, 0.
 KEYS = {
     Button.FIRE: pygame.KSCAN_RCTRL, Button.BACK: pygame.KSCAN_ESCAPE, Button.UP: pygame.KSCAN_UP,
     Button.DOWN: pygame.KSCAN_DOWN, Button.LEFT: pygame.KSCAN_LEFT, Button.RIGHT: pygame.KSCAN_RIGHT,
+    Button.START: pygame.KSCAN_RETURN,
 }  # fmt: skip
 
 
@@ -136,11 +137,16 @@ class KeyHands:
     def hold_f10(self, down: bool) -> None:
         """Hold F10, or release it."""
         kind = pygame.KEYDOWN if down else pygame.KEYUP
-        pygame.event.post(pygame.Event(kind, key=pygame.K_F10, scancode=pygame.KSCAN_F10, mod=0))
+        pygame.event.post(pygame.Event(kind, key=pygame.K_F10, unicode="", scancode=pygame.KSCAN_F10, mod=0))
+
+    def type(self, letter: str) -> None:
+        """Type a letter."""
+        self._post(pygame.KEYDOWN, pygame.KSCAN_0, letter)
+        self._post(pygame.KEYUP, pygame.KSCAN_0, letter)
 
     @staticmethod
-    def _post(kind: int, scancode: int) -> None:
-        pygame.event.post(pygame.Event(kind, key=0, scancode=scancode, mod=0))
+    def _post(kind: int, scancode: int, letter: str = "") -> None:
+        pygame.event.post(pygame.Event(kind, key=0, unicode=letter, scancode=scancode, mod=0))
 
 
 Hands = PadHands | PhoneHands | KeyHands

@@ -14,6 +14,8 @@ from tests.bench.open_day.clock import OPENING
 SIZES, WEIGHTS = (1, 2, 3, 4), (2, 4, 3, 2)  # people of a group, and how often
 PADS = 3
 MISHAPS = ("pull", "lock", "pause", "stop", "rest")  # pad pulled, phone locked, pause, end by hand, nobody drives
+PIN = "274918"  # of the operator
+GUESS = "guess"  # look for the way out, and guess the PIN
 ONLY = ("events", "phones")  # parts of a day
 LONG_DAY = 2.0  # h from which a day has events, quiet hours and a time limit
 LAST_ARRIVAL = 0.93  # share of the day
@@ -42,7 +44,7 @@ class EventWish:
 @dataclass(frozen=True)
 class Group:
     """People who come together. `at`: s since the opening; `matches`: as many as they want to play; `language`: changed
-    to on the title; `look`: a page of the title's menu that they visit first; `mishap`: one of MISHAPS.
+    to on the title; `look`: a page of the title's menu that they visit first, or GUESS; `mishap`: one of MISHAPS.
     """
 
     number: int
@@ -141,7 +143,7 @@ def a_group(rng: random.Random, i: int, at: float, crew: tuple[Visitor, ...], lo
         rng.choice(list(games())),
         rng.choice((1, 1, 1, 2, 2, 3)) if long else 1,
         rng.choice(list(LANGUAGES)) if rng.random() < 0.4 else "",
-        rng.choice(("howto", "replays", "ladder")) if rng.random() < 0.2 else "",
+        rng.choice(("howto", "replays", "ladder", GUESS)) if rng.random() < 0.3 else "",
         mishap,
     )
 

@@ -12,11 +12,12 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app import ROOT
+from pigaming_app.storage.pin import PinFile
 from tests.bench.open_day import ledger as ledgers
 from tests.bench.open_day.arcade import PORT
 from tests.bench.open_day.audit import memory_of_runs, problems
 from tests.bench.open_day.clock import OPENING, DayClock
-from tests.bench.open_day.plan import Day, plan
+from tests.bench.open_day.plan import PIN, Day, plan
 
 KILLS = 5
 POLL = 0.002  # s
@@ -36,6 +37,7 @@ def outcome_of_day(
     home = folder / "home"
     wishes = {"hours": hours, "visitors": visitors, "seed": seed, "kills": kills, "only": only}
     (folder / "day.json").write_text(json.dumps(wishes), encoding="utf-8")
+    PinFile(home / "config").set(PIN)
     environment = {
         **os.environ,
         "PIGAMING_HOME": str(home),

@@ -9,8 +9,11 @@ from typing import Any
 from pigaming_app.scenes.app import App
 from pigaming_app.scenes.attract.scene import Attract
 from pigaming_app.scenes.kiosk.operator.figures_page import FiguresPage
+from pigaming_app.scenes.kiosk.operator.page import QUIET as QUIET_ROWS
 from pigaming_app.scenes.kiosk.operator.page import OperatorPage
 from pigaming_app.scenes.lobby.scene import Lobby
+from pigaming_app.scenes.options.page import OptionsPage
+from pigaming_app.scenes.pages.pin_page import PinPage
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
@@ -19,7 +22,7 @@ from pigaming_app.ui.widgets.focus import Focus
 from tests.bench.open_day.hands import Hands, KeyHands, PadHands, PhoneHands
 from tests.bench.open_day.handsets import Handsets
 from tests.bench.open_day.ledger import Ledger
-from tests.bench.open_day.plan import PADS, Day, Group, Task, Visitor, time_of
+from tests.bench.open_day.plan import PADS, PIN, Day, Group, Task, Visitor, time_of
 from tests.bench.open_day.watch import Watch
 
 TEMPO = 0.35  # s between two presses of a person
@@ -73,6 +76,8 @@ class Stage:
             if isinstance(self.top, MatchScene):
                 self._let_go()
             self.top, self.changed = top, now
+            if isinstance(top, OptionsPage) and top.operator:
+                self.watch.trouble("visitors have opened the options of the operator")
         due = [held for held in self.held if held[0] <= now]
         self.held = [held for held in self.held if held not in due]
         for _, hands, button in due:
@@ -272,6 +277,12 @@ class Stage:
                 self.someone(self.keys, Button.BACK)
             elif 1.0 < self.now - self.changed < 1.2:
                 self.someone(self.keys, Button.FIRE)
+        elif isinstance(top, PinPage):
+            self.keys.hold_f10(False)
+            if len(top.digits) == len(PIN):
+                self.all_press(Button.START, [operator])
+            elif self.ready(operator):
+                self.keys.type(PIN[len(top.digits)])
         elif isinstance(top, OperatorPage):
             self.keys.hold_f10(False)
             if self.now - self.changed > 240.0:
@@ -280,16 +291,25 @@ class Stage:
             elif wrong := [
                 row for row, value in task.settings.items() if getattr(self.app.context.settings, row) != value
             ]:
-                if self.focus(top.focus, wrong[0], operator):
+                row = wrong[0] if wrong[0] in top.rows else "quiet" if wrong[0] in QUIET_ROWS else ""
+                if not row:
+                    self.someone(self.keys, Button.BACK)
+                elif not self.focus(top.focus, row, operator):
+                    pass
+                elif row == "quiet":
+                    self.all_press(Button.FIRE, [operator])
+                else:
                     self._change(wrong[0], task.settings[wrong[0]], operator)
+            elif top.rows == QUIET_ROWS:
+                self.someone(self.keys, Button.BACK)
             elif task.figures and not self.figures_seen:
                 if self.focus(top.focus, "figures", operator):
                     self.all_press(Button.FIRE, [operator])
             elif task.end_all:
                 if self.focus(top.focus, "end_all", operator) and self.ready(operator):
                     self.tap(self.keys, Button.FIRE, 1.3)
-            else:
-                self.someone(self.keys, Button.BACK)
+            elif self.ready(operator):
+                self.tap(self.keys, Button.BACK)
                 self._finish_task()
         elif self.now - self.changed > 1.0 and task.end_all and isinstance(top, Title):
             self._finish_task()

@@ -17,6 +17,7 @@ from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.ladder.choice import LadderChoice
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby
+from pigaming_app.scenes.pages.pin_page import PinPage
 from pigaming_app.scenes.phones.join import JoinByPhone
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import Reconnect, StillThere
@@ -32,6 +33,7 @@ from pigaming_app.storage.settings import Choice
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.letter_picker import LetterPicker
 from tests.bench.open_day.hands import PadHands, PhoneHands
+from tests.bench.open_day.plan import GUESS
 from tests.bench.open_day.stage import Player, Stage
 
 FAST = 0.1  # s between two letters
@@ -72,6 +74,7 @@ class Visit:
             HowTo: self.look_around,
             ReplaysPage: self.look_around,
             LadderChoice: self.look_around,
+            PinPage: self.guess,
         }
 
     @property
@@ -87,9 +90,35 @@ class Visit:
         if self.group.language and top.context.words.language != self.group.language and not stage.matches:
             stage.one_presses(Button.Y)
             return
+        if self.group.look == GUESS and not stage.looked:
+            self.seek_a_way_out()
+            return
         goal = "events" if self.group.event else self.group.game if stage.looked else self.group.look
         if stage.focus(top.focus, goal):
             stage.one_presses(Button.FIRE)
+
+    def seek_a_way_out(self) -> None:
+        """Hold the combination that the page for operators tells, on a pad."""
+        stage = self.stage
+        pads = [player.hands for player in stage.players if isinstance(player.hands, PadHands)]
+        if not pads:
+            stage.looked = True
+        else:
+            pads[0].steer(0.0, -1.0, False, True)
+
+    def guess(self) -> None:
+        """Enter what comes to mind, until the arcade makes them wait."""
+        stage, page = self.stage, self.stage.top
+        stage.looked = True
+        pads = [player for player in stage.players if isinstance(player.hands, PadHands)]
+        pads[0].hands.steer(0.0, 0.0, False, False)
+        if page.waiting:
+            stage.all_press(Button.BACK, pads[:1])
+        elif len(page.digits) == 4:
+            stage.watch.count("guesses of the PIN")
+            stage.all_press(Button.START, pads[:1])
+        else:
+            stage.all_press(stage.rng.choice((Button.FIRE, Button.FIRE, Button.UP, Button.LEFT)), pads[:1])
 
     def look_around(self) -> None:
         """Look at a page, turn it over, and go back."""
