@@ -1,16 +1,17 @@
-// The pad on a phone: touches become frames of four bytes, see ui/input/phones/protocol.py.
+// The pad on a phone: touches become frames of four bytes, see ui/input/phone_messages.py.
 "use strict";
 (() => {
   let texts = JSON.parse(document.getElementById("texts").textContent);
   const element = (id) => document.getElementById(id);
   const BITS = { fire: 1, turbo: 2, x: 4, y: 8, start: 16 };
-  const FINAL = { 4000: "page_refused", 4001: "page_refused", 4003: "page_elsewhere" }; // no second attempt
+  const FINAL = { 4000: "page_refused", 4001: "page_refused", 4003: "page_elsewhere", 4005: "page_removed" }; // no second attempt
   const SHAPES = ["M-.95 0A.95 .95 0 1 1 .95 0A.95 .95 0 1 1-.95 0Z", "M0-1 1 .75H-1Z", "M-.85-.85H.85V.85H-.85Z", "M0-1.1 1.1 0 0 1.1-1.1 0Z"];
-  const FRAME_MS = 1000 / 60, ALIVE_MS = 200, FLASH_MS = 160, RETRY_MS = [300, 600, 1000, 2000];
+  const FRAME_MS = 1000 / 60, ALIVE_MS = 200, FLASH_MS = 160, OPEN_MS = 1500, RETRY_MS = [200, 400, 800, 1500];
 
   let socket = null, resume = sessionStorage.getItem("resume") || "", attempts = 0, retry = 0;
-  let state = { seat: -1, color: "", playing: false, score: "", clock: "", place: "" };
-  let x = 0, y = 0, buttons = 0, sentAt = 0, sent = "", waiting = 0;
+  let state = { seat: -1, color: "", playing: false, score: "", clock: "", place: "", before: -1, line: "", name: "" };
+  let x = 0, y = 0, buttons = 0, sentAt = 0, waiting = 0;
+  const hall = window.hall((frame) => { if (socket && socket.readyState === 1) socket.send(Uint8Array.from(frame)); }, press);
 
   // ---- the connection
 
@@ -20,9 +21,10 @@
     const base = location.pathname.split("/")[1];
     const mine = socket = new WebSocket(`ws://${location.host}/${base}/pad?resume=${encodeURIComponent(resume)}`);
     mine.binaryType = "arraybuffer";
-    mine.onopen = () => { sent = ""; send(); };
+    const late = setTimeout(() => mine.close(), OPEN_MS); // a radio that is still waking up
+    mine.onopen = () => { clearTimeout(late); send(); };
     mine.onmessage = (event) => receive(JSON.parse(event.data));
-    mine.onclose = (event) => { if (socket === mine) closed(event.code); };
+    mine.onclose = (event) => { clearTimeout(late); if (socket === mine) closed(event.code); };
   }
 
   function closed(code) {
@@ -57,6 +59,8 @@
     if (message.texts) texts = message.texts;
     if (message.state) state = message.state;
     if (message.texts || message.state) dress();
+    if (message.ballot) hall.ballot(message.ballot);
+    if ("name" in message) hall.named(message);
     if (message.rumble) shake(...message.rumble);
   }
 
@@ -65,9 +69,10 @@
   // ---- what the arcade reports
 
   function dress() {
-    const seated = state.seat >= 0;
-    document.documentElement.style.setProperty("--seat", seated ? state.color : "#96acce");
-    element("seat").textContent = !seated ? texts.page_join : state.place || texts.page_player.replace("{player}", state.seat + 1);
+    const seated = state.seat >= 0, turn = !seated && state.before === -1;
+    document.documentElement.style.setProperty("--seat", state.color || "#96acce");
+    const who = state.place || state.name || texts.page_player.replace("{player}", state.seat + 1);
+    element("seat").textContent = seated ? who : turn ? texts.page_join : state.name;
     element("score").textContent = state.score;
     element("clock").textContent = state.clock;
     element("shape").style.display = seated ? "" : "none";
@@ -75,6 +80,8 @@
     document.body.classList.toggle("playing", state.playing);
     const words = state.playing ? ["page_fire", "page_turbo"] : ["page_ok", "page_back"];
     ["fire", "turbo"].forEach((id, i) => { element(id).lastElementChild.textContent = texts[words[i]]; });
+    hall.dress(state, texts);
+    if (!seated && !turn && (buttons || x || y)) release();
   }
 
   function shake(strong, weak, milliseconds) {
@@ -90,7 +97,6 @@
     if (!socket || socket.readyState !== 1) return;
     const frame = Int8Array.of(1, Math.round(127 * x), Math.round(127 * y), buttons);
     sentAt = performance.now();
-    sent = frame.join();
     socket.send(frame);
   }
 
@@ -122,7 +128,10 @@
     return distance("fire") <= distance("turbo") ? "fire" : "turbo";
   }
 
+  const own = (event) => event.target.closest("#hall, #sheet, #me, #full"); // what the browser handles
+
   function touch(event) {
+    if (own(event)) return;
     event.preventDefault();
     const target = event.target.closest("button, #stick, #buttons");
     if (!target || event.pointerId in fingers) return;
@@ -197,18 +206,24 @@
   addEventListener("pointerup", lift);
   addEventListener("pointercancel", lift);
   addEventListener("contextmenu", (event) => event.preventDefault());
-  addEventListener("touchmove", (event) => event.preventDefault(), { passive: false });
+  addEventListener("touchmove", (event) => { if (!own(event)) event.preventDefault(); }, { passive: false });
   if (!document.documentElement.requestFullscreen) element("full").style.display = "none"; // iPhones
   element("full").addEventListener("click", () => {
     if (document.fullscreenElement) document.exitFullscreen();
-    else document.documentElement.requestFullscreen();
+    else document.documentElement.requestFullscreen().then(
+      () => screen.orientation?.lock?.("landscape")?.catch(() => {}), () => {}); // which some allow in full screen only
   });
 
   // A locked phone, or another page in front, is an unplugged pad.
   document.addEventListener("visibilitychange", () => {
     if (document.hidden) { clearTimeout(retry); if (socket) socket.close(); }
-    else connect();
+    else back();
   });
+  addEventListener("pageshow", back);
+  addEventListener("online", back);
+
+  // Unlocked: at once, whatever was attempted before.
+  function back() { attempts = 0; connect(); }
 
   show(texts.page_lost);
   dress();

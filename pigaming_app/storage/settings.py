@@ -117,6 +117,10 @@ class Settings:
     phones: bool = False  # phones may join as pads
     phones_network: Short = ""  # name or address of their interface; empty: the first one
     phones_port: Annotated[int, between(1024, 65535)] = 8787
+    phones_stay: bool = False  # the winner plays the next match, too, when others wait
+    phones_teams: bool = False  # a lobby begins with two teams
+    phones_wifi: Annotated[str, PRINTABLE, Meta(max_length=32)] = ""  # name of the Wi-Fi for a code of its own
+    phones_wifi_key: Annotated[str, PRINTABLE, Meta(max_length=63)] = ""  # its password; empty: an open network
     desk: bool = False  # pages of the running event for browsers, on the network of the phones
     attract_seconds: Annotated[float, between(5.0, 3600.0)] = 60.0  # without input
     corners: Annotated[list[Annotated[int, Meta(gt=-10_000, lt=10_000)]], none_or_eight] = field(

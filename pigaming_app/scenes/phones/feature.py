@@ -15,7 +15,7 @@ from pigaming_app.ui.input.events import Device, InputEvent
 
 
 class PhoneService(Service):
-    """Follows the settings, and shows each phone its seat and score."""
+    """Follows the settings, gives phones their turns, and shows each its seat and score; those who wait cheer."""
 
     def __init__(self, context: Context) -> None:
         from pigaming_app.scenes.phones.link import PhoneLink
@@ -24,6 +24,10 @@ class PhoneService(Service):
 
     def update(self, seconds: float, stack: Stack) -> None:
         self.link.update(stack.scenes)
+        self.link.audience.advance(seconds)
+
+    def draw(self, screen: pygame.Surface) -> None:
+        self.link.audience.draw(screen)
 
     def close(self) -> None:
         self.link.host.close()

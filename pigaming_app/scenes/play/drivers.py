@@ -3,7 +3,8 @@
 A seat whose device is unplugged asks for a new one; without an answer an AI drives until somebody presses FIRE. The
 same happens at idle seats: one without input for a while is asked, then an AI takes over. Only running match time
 counts, and the device keeps its claim: any button takes the seat back at once. Any free device takes the seat of an AI
-by holding FIRE (see `access`).
+by holding FIRE (see `access`). A phone that is locked keeps its claim, too, and no other phone takes its seat; it halts
+the match once only.
 """
 
 import math
@@ -58,8 +59,9 @@ class IdleSeats:
         self.claims = {claimant: left for claimant, left in self.claims.items() if left != seat and claimant != device}
 
     def forget(self, device: Device) -> None:
-        """Drop the claim of an unplugged device."""
-        self.claims.pop(device, None)
+        """Drop the claim of an unplugged device; a phone that is locked comes back as the same device."""
+        if device.kind != "phone":
+            self.claims.pop(device, None)
 
 
 class Drivers:
@@ -77,6 +79,7 @@ class Drivers:
         self.assisted: set[int] = set()
         self.access = Access(context, lambda: self.devices)
         self.idle, self.quiet = IdleSeats(), 0.0
+        self.locked: set[Device] = set()  # phones that have halted the match
         self.used = context.shared(UsedKeys)
         self._joining = HoldTimers(context.controls, TAKE_SECONDS)
         for seat in self.people:
@@ -101,6 +104,11 @@ class Drivers:
         robots = self.match.state.robots
         ais = [i for i, robot in enumerate(robots) if robot.present and i not in self.people]
         return [*self.replaced, *reversed(ais)]
+
+    def takeable_by(self, device: Device) -> list[int]:
+        """Those that a device may take: no phone gets the seat of another one."""
+        others = {seat for owner, seat in self.idle.claims.items() if owner.kind == "phone" and owner != device}
+        return [seat for seat in self.takeable if device.kind != "phone" or seat not in others]
 
     def is_free(self, device: Device) -> bool:
         """True if this device drives no seat."""
@@ -132,6 +140,19 @@ class Drivers:
         self.runner.notice.show(caption(name, PLAYERS[seat], player=seat, sign=sign))
         self.context.sounds.play("join", seat)
 
+    def stand_in(self, seat: int) -> None:
+        """An AI drives for a device that is away, until it comes back; other than a phone, it comes as another one."""
+        device = self.devices[seat]
+        self.assign(seat, None)
+        if device and (device.kind == "phone" or self.context.controls.connected(device)):
+            self.idle.leave(device, seat)
+
+    def replace_locked(self) -> None:
+        """Replace phones that are locked by AIs if they have halted the match before."""
+        for seat in self.unplugged:
+            if self.devices[seat] in self.locked:
+                self.stand_in(seat)
+
     def give_back(self, event: InputEvent) -> bool:
         """Give its seat back to an idle device on any press; true if done."""
         if event.device not in self.idle.claims or event.button in (Button.STOP, Button.BRAIN):
@@ -154,8 +175,8 @@ class Drivers:
     def join(self, seconds: float) -> None:
         """Give seats of AIs to devices that have held FIRE long enough."""
         for event in self._joining.update(seconds):
-            if self.takeable and self.is_free(event.device):
-                seat = self.takeable[0]
+            if (takeable := self.takeable_by(event.device)) and self.is_free(event.device):
+                seat = takeable[0]
                 if seat not in self.people:
                     self.people.append(seat)
                     self.assisted.add(seat)
@@ -171,8 +192,7 @@ class Drivers:
             if self.context.controls.touched(device):
                 self.idle.touch(seat)
         for seat in self.idle.update(seconds, driven):
-            self.assign(seat, None)
-            self.idle.leave(driven[seat], seat)
+            self.stand_in(seat)
 
     def rumble(self, seat: int, rumble: Rumble) -> None:
         """Let the device of a seat rumble."""
@@ -195,7 +215,7 @@ class Drivers:
         if vacant := [seat for seat in self.replaced if seat not in claimed]:
             self.used.forget(event.device)
             self.assign(vacant[0], event.device)
-        elif self.takeable:
+        elif self.takeable_by(event.device):
             self._joining.begin(event)
             self.runner.notice.show(caption(self.context.words("match.hold"), sign="ai"))
 

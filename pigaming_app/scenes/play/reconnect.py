@@ -39,9 +39,11 @@ class Reconnect:
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: match.drivers.access.hint_device)
 
     def on_enter(self) -> None:
-        """Play the error sound."""
+        """Play the error sound. A phone halts a match once."""
         self.context.hush()
         self.context.sounds.play("error")
+        if self.device and self.phone:
+            self.match.drivers.locked.add(self.device)
 
     def handle(self, event: InputEvent) -> StackOperation:
         """FIRE on a free device takes the seat; X gives it to an AI; BACK opens the menu."""
@@ -89,11 +91,15 @@ class Reconnect:
             bolt().draw(screen, *PAD)
 
     def _may_take(self, device: Device) -> bool:
-        """True for a free device, and for the phone of this seat, which keeps its number."""
-        return device == self.device or self.match.drivers.is_free(device)
+        """True for the phone of this seat, and for a free device; another phone does not take the seat of one."""
+        other = self.phone and device.kind == "phone"
+        return device == self.device or (self.match.drivers.is_free(device) and not other)
 
     def _hand(self, device: Device | None) -> StackOperation:
-        self.match.drivers.assign(self.seat, device)
+        if device:
+            self.match.drivers.assign(self.seat, device)
+        else:
+            self.match.drivers.stand_in(self.seat)
         return Pop()
 
     def _paint(self, layer: Layer) -> None:

@@ -117,6 +117,7 @@ class MatchScene:
             return self.ending.update(seconds)
         if held := self.drivers.access.update(seconds):
             return Push(Pause(self, held.device))
+        self.drivers.replace_locked()
         if lost := self.drivers.unplugged:
             return Push(Reconnect(self, lost[0]))
         self.drivers.join(seconds)
@@ -193,6 +194,7 @@ class MatchScene:
         scene = self.sequel.next_round()
         if isinstance(scene, MatchScene):
             scene.drivers.idle.claims |= self.drivers.idle.claims
+            scene.drivers.locked |= self.drivers.locked
             scene.runner.feats = self.runner.feats
         return Swap(scene)
 

@@ -1,4 +1,4 @@
-"""The connected phones, shared by two threads: the server writes what they send, the main loop reads it as a pad's.
+"""The phones that play, shared by two threads: the server writes what they send, the main loop reads it as a pad's.
 
 Buttons reach the main loop as a queue of changes, so no tap is lost; the stick is read at the tick that uses it. A
 phone that has been silent for a moment stands still, and is unplugged by the server soon after.
@@ -12,7 +12,7 @@ from pigaming_app.ui.input.events import Button, StickState
 from pigaming_app.ui.input.filters import ButtonChange, StickDirection, apply_dead_zone
 from pigaming_app.ui.input.phone_messages import BITS, SeatView, Touches, rumble_text, state_text, texts_text
 
-MAX_PHONES = 4
+MAX_PHONES = 4  # that may act at a time; the others wait, see `phones/roster.py`
 FRESH_SECONDS = 0.6  # age of the last message after which a stick counts as released
 MAX_CHANGES = 1024  # queued changes of all phones, while the main loop does not read
 
@@ -43,6 +43,8 @@ class Phones:
         self.clock = clock
         self.plugged: dict[int, Phone] = {}  # for the main loop
         self.send: Callable[[int, str], None] = lambda number, text: None
+        self.names: dict[int, str] = {}  # of all phones, waiting ones too; empty: none
+        self.watching: set[int] = set()  # phones that wait: they are shown things, and do nothing
         self._connected: dict[int, Phone] = {}  # for the server
         self._queue: deque[tuple[int, ButtonChange | Button]] = deque()
         self._shown: dict[int, SeatView] = {}
@@ -53,13 +55,29 @@ class Phones:
 
     @property
     def full(self) -> bool:
-        """True if four phones are connected."""
+        """True if four phones may act."""
         return len(self._connected) >= MAX_PHONES
+
+    def new_number(self) -> int:
+        """A device number that no phone has had."""
+        self._next += 1
+        return self._next - 1
+
+    def reserve(self, numbers: int) -> None:
+        """New numbers begin here, or later."""
+        self._next = max(self._next, numbers)
+
+    def plug(self, number: int, on: bool) -> None:
+        """Connect or disconnect a phone unless it already is."""
+        if on and number not in self._connected:
+            self.connect(number)
+        elif not on:
+            self.disconnect(number)
 
     def connect(self, number: int | None = None) -> int:
         """Connect a phone, with the device number that it had before, if any. Returns its number."""
         if number is None:
-            number, self._next = self._next, self._next + 1
+            number = self.new_number()
         self._connected[number] = Phone(self.clock())
         self._queue.append((number, Button.FOUND))
         return number
@@ -70,8 +88,10 @@ class Phones:
             self._queue.append((number, Button.LOST))
 
     def receive(self, number: int, touches: Touches) -> bool:
-        """Note what a phone has sent. False if the main loop has not read for too long to queue more."""
-        phone = self._connected[number]
+        """Note what a phone has sent, if it may act. False if the main loop has not read for too long to queue more."""
+        phone = self._connected.get(number)
+        if phone is None:
+            return True
         before, phone.touches, phone.heard_at = phone.touches, touches, self.clock()
         for button, bit in BITS.items():
             if (before.buttons ^ touches.buttons) & bit:
@@ -89,8 +109,7 @@ class Phones:
             if change is Button.FOUND:
                 if phone := self._connected.get(number):
                     self.plugged[number] = phone
-                    self._shown.pop(number, None)
-                    self._texts.pop(number, None)
+                    self.forget_shown(number)
                     yield number, change
             elif change is Button.LOST:
                 if self.plugged.pop(number, None):
@@ -116,17 +135,25 @@ class Phones:
         for number in self.plugged:
             self.rumble(number, 0.0, 0.0, 0.0)
 
+    def forget_shown(self, number: int) -> None:
+        """A phone is new or was reloaded: it knows neither its seat nor its texts."""
+        self._shown.pop(number, None)
+        self._texts.pop(number, None)
+
     def show(self, number: int, view: SeatView) -> None:
-        """Tell a phone its seat, if that has changed."""
-        if number in self.plugged and self._shown.get(number) != view:
+        """Tell a phone its seat or its place in the queue, if that has changed."""
+        if self._reads(number) and self._shown.get(number) != view:
             self._shown[number] = view
             self.send(number, state_text(view))
 
     def translate(self, number: int, texts: Mapping[str, str]) -> None:
         """Send a phone the texts of its page, if they have changed or it has just come."""
-        if number in self.plugged and self._texts.get(number) != texts:
+        if self._reads(number) and self._texts.get(number) != texts:
             self._texts[number] = texts
             self.send(number, texts_text(texts))
+
+    def _reads(self, number: int) -> bool:
+        return number in self.plugged or number in self.watching
 
     @staticmethod
     def _press(phone: Phone, change: ButtonChange) -> None:

@@ -240,13 +240,14 @@ def test_the_page_reports_what_went_wrong(day: OpenDay) -> None:
         page = await browser.phone(old)
         await page.until("document.body.textContent.includes('no longer valid')")
         five = []
-        for _ in range(4):  # one after another: their numbers are 0 to 3
+        for number in range(5):  # one after another: their numbers are 0 to 4
             five.append(await browser.phone(day.url))
             await five[-1].until(OPEN)
-        five.append(await browser.phone(day.url))
-        await five[4].until("document.getElementById('message').textContent.includes('Four phones')")
+            await day.plugged(*range(min(4, number + 1)))
+        await five[4].until("document.body.classList.contains('waiting')")
+        await five[4].until("document.getElementById('before').textContent === 'You are next'")
         await five[0].ask("Page.navigate", url="about:blank")
-        await five[4].until(OPEN)
+        await five[4].until("!document.body.classList.contains('waiting')")
         await five[1].value("window.loadedBefore = true")
         await five[1].ask("Page.reload")
         await five[1].until(f"!window.loadedBefore && {OPEN}")

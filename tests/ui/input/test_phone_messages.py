@@ -3,7 +3,18 @@
 import pytest
 
 from pigaming_app.ui.input.events import Button
-from pigaming_app.ui.input.phone_messages import ALL_BITS, BITS, Touches, pack, parse
+from pigaming_app.ui.input.phone_messages import (
+    ALL_BITS,
+    BITS,
+    MAX_FRAME,
+    Touches,
+    Wish,
+    WishKind,
+    pack,
+    pack_wish,
+    parse,
+    parse_wish,
+)
 
 
 @pytest.mark.parametrize(
@@ -37,3 +48,20 @@ def test_every_frame_of_four_bytes_is_a_state_in_range_or_none() -> None:
         for fourth in range(256):
             touches = parse(bytes((1, 127, third, fourth)))
             assert touches is None or (abs(touches.y) <= 1.0 and touches.x == 1.0 and touches.buttons <= ALL_BITS)
+
+
+@pytest.mark.parametrize(
+    "wish", [Wish(WishKind.NAME, text="Zoë"), Wish(WishKind.NAME), *(Wish(kind, 255) for kind in [*WishKind][1:])]
+)
+def test_a_wish_is_its_kind_and_a_name_or_a_number_and_never_a_state(wish: Wish) -> None:
+    assert parse_wish(pack_wish(wish)) == wish
+    assert parse(pack_wish(wish)) is None
+
+
+def test_every_other_frame_is_no_wish_and_none_raises() -> None:
+    for first in range(256):
+        for rest in (b"", b"\x00", b"\xff", b"ab", b"\xff" * (MAX_FRAME - 1)):
+            wish = parse_wish(bytes([first]) + rest)
+            text = first == WishKind.NAME and b"\xff" not in rest
+            assert (wish is not None) == (text or (first in {*WishKind} - {WishKind.NAME} and len(rest) == 1))
+    assert parse_wish(b"") is None

@@ -1,6 +1,7 @@
 """Phones as devices of `Controls`: as pads behave."""
 
 import json
+from dataclasses import asdict
 
 import pytest
 
@@ -139,9 +140,8 @@ def test_a_rumble_and_the_seat_are_sent_once(controls: Controls, clock: Clock) -
     assert sent == [(number, '{"rumble": [0.9, 0.6, 280]}')]
     for seat in (1, 1, 2):
         controls.phones.show(number, SeatView(seat, "#ff9200", True))
-    assert [(to, json.loads(text)) for to, text in sent[1:]] == [
-        (number, {"state": {"seat": seat, "color": "#ff9200", "playing": True, "score": "", "clock": "", "place": ""}})
-        for seat in (1, 2)
+    assert [(to, json.loads(text)["state"]) for to, text in sent[1:]] == [
+        (number, asdict(SeatView(seat, "#ff9200", True))) for seat in (1, 2)
     ]
     controls.stop_rumble()
     assert sent[3:] == [(number, '{"rumble": [0.0, 0.0, 0]}')]

@@ -200,6 +200,7 @@ class RealMatch(MatchScene):
 
     def _take_places(self, gathering: TakePlaces, seconds: float) -> StackOperation:
         """Drive the robots to their start positions."""
+        self.drivers.replace_locked()
         if lost := self.drivers.unplugged:
             return Push(Reconnect(self, lost[0]))
         if self.access.update(seconds):

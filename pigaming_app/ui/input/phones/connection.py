@@ -1,15 +1,13 @@
 """One phone's socket: receives its frames, sends it texts, and ends it when it is silent, floods or talks nonsense."""
 
 import asyncio
-import secrets
 from collections import deque
 
 from aiohttp import WSMessage, WSMsgType, web
 
 from pigaming_app.ui.input import phone_messages as protocol
-from pigaming_app.ui.input.phone_messages import Touches
-from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones.refusals import RateMeter, Refusals
+from pigaming_app.ui.input.phones.roster import Roster
 
 SILENT_SECONDS = 1.5  # without a message, after which a phone counts as unplugged; a page sends at least five a second
 STALL_SECONDS = 0.05  # for messages that were waiting while this computer did nothing
@@ -20,8 +18,8 @@ MAX_TEXTS = 8  # waiting for a slow phone; older ones are dropped
 class Connection:
     """The socket of the phone with this device number."""
 
-    def __init__(self, phones: Phones, refusals: Refusals, number: int, peer: str) -> None:
-        self.phones, self.refusals, self.number, self.peer = phones, refusals, number, peer
+    def __init__(self, roster: Roster, refusals: Refusals, number: int, peer: str) -> None:
+        self.roster, self.refusals, self.number, self.peer = roster, refusals, number, peer
         self.socket = web.WebSocketResponse(
             timeout=CLOSE_SECONDS, autoping=False, compress=False, max_msg_size=protocol.MAX_FRAME
         )
@@ -69,11 +67,15 @@ class Connection:
             if self._meter.exceeded(loop.time()):
                 self.refusals.note(f"more than {protocol.MAX_RATE} messages in a second refused", self.peer)
                 return protocol.CLOSED_FLOOD
-            touches = protocol.parse(message.data) if message.type is WSMsgType.BINARY else None
+            frame = message.data if message.type is WSMsgType.BINARY else b""
+            if wish := protocol.parse_wish(frame):
+                self.roster.wish(self.number, wish)
+                continue
+            touches = protocol.parse(frame)
             if touches is None:
                 self.refusals.note("malformed or giant frame refused", self.peer)
                 return protocol.CLOSED_MALFORMED
-            if not self.phones.receive(self.number, touches):
+            if not self.roster.receive(self.number, touches):
                 self.refusals.note("phone dropped while the arcade was busy", self.peer)
                 return protocol.CLOSED_FLOOD
 
@@ -99,41 +101,3 @@ def stop_reading(request: web.Request) -> None:
     """Leave what a peer still sends in the network's buffers, where it costs nothing, until the connection is cut."""
     if request.transport and not request.transport.is_closing():
         request.transport.pause_reading()
-
-
-class PhoneSeats:
-    """The connections by device number, and the tokens with which phones return to theirs."""
-
-    MAX_TOKENS = 64  # phones remembered
-
-    def __init__(self, phones: Phones, refusals: Refusals) -> None:
-        self.phones, self.refusals = phones, refusals
-        self.connections: dict[int, Connection] = {}
-        self._numbers: dict[str, int] = {}  # device number by resume token, oldest first
-
-    def admit(self, token: str, peer: str) -> tuple[Connection, str] | None:
-        """A connection for a phone, and its new resume token; None if four others are connected."""
-        number = self._numbers.pop(token, None)
-        before = self.connections.get(number) if number is not None else None
-        if before is None and self.phones.full:
-            if number is not None:
-                self._numbers[token] = number
-            return None
-        if before is not None and number is not None:  # its old connection has not noticed yet that it is gone
-            before.replaced = True
-            self.phones.receive(number, Touches())
-        else:
-            number = self.phones.connect(number)
-        connection = Connection(self.phones, self.refusals, number, peer)
-        self.connections[number] = connection
-        resume = secrets.token_urlsafe(12)
-        self._numbers[resume] = number
-        for oldest in list(self._numbers)[: -self.MAX_TOKENS]:
-            del self._numbers[oldest]
-        return connection, resume
-
-    def leave(self, connection: Connection) -> None:
-        """The phone of a connection is gone, unless it has a newer one."""
-        if not connection.replaced:
-            self.connections.pop(connection.number, None)
-            self.phones.disconnect(connection.number)

@@ -2,11 +2,15 @@
 
 import time
 from collections.abc import Callable, Mapping
+from functools import partial
 from importlib.util import find_spec
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pigaming_app.ui.input.phone_pads import Phones
+from pigaming_app.ui.input.phones import memory
 from pigaming_app.ui.input.phones.network import PhonesUnavailable, chosen, networks
+from pigaming_app.ui.input.phones.roster import Roster
 
 if TYPE_CHECKING:
     from pigaming_app.ui.input.phones.server import PhoneServer
@@ -16,10 +20,17 @@ CHECK_SECONDS = 3.0  # s between two looks at the network, and two attempts to s
 
 
 class PhoneHost:
-    """The server while phones are on. `trouble`: why phones cannot join, or None."""
+    """The server while phones are on. `trouble`: why phones cannot join, or None.
 
-    def __init__(self, phones: Phones, clock: Callable[[], float] = time.monotonic) -> None:
-        self.phones, self._clock = phones, clock
+    `roster`: all phones; `data`: the folder where they are kept over a restart of the arcade, if anywhere.
+    """
+
+    def __init__(
+        self, phones: Phones, clock: Callable[[], float] = time.monotonic, data: Callable[[], Path] | None = None
+    ) -> None:
+        self.phones, self._clock, self._data = phones, clock, data
+        self.roster = Roster(phones)
+        self._token = ""  # of the page, as long as phones are on
         self.server: PhoneServer | None = None
         self.trouble: PhonesUnavailable | None = None
         self._asked: tuple[str, int] | None = None  # network and port of the settings; None: phones are off
@@ -36,22 +47,55 @@ class PhoneHost:
         return self.server.url if self.server and not self.trouble else ""
 
     def switch(self, on: bool, network: str, port: int, texts: Mapping[str, str]) -> None:
-        """Follow the settings: each start has a new token. Does nothing if nothing has changed."""
+        """Follow the settings: phones find the same address until they are switched off. Does nothing if nothing has
+        changed.
+        """
         asked = (network, port) if on else None
         if asked != self._asked:
-            self.close()
+            first = self._asked is None
+            self._stop()
             self._asked = asked
+            if not on:
+                self._forget()
+            elif first:
+                self._remember()
             self._start(texts)
         elif asked and self._clock() - self._checked_at > CHECK_SECONDS:
             self._check(texts)
         if self.server:
             self.server.texts = texts
 
+    def renew(self) -> None:
+        """A new address: all phones have to scan the new code, and nobody is banned."""
+        asked, texts = self._asked, self.server.texts if self.server else {}
+        self._stop()
+        self._forget()
+        self._asked = asked
+        self._start(texts)
+
     def close(self) -> None:
-        """Stop the server; all phones are unplugged."""
+        """The arcade ends: all phones are unplugged, and kept for its next start."""
+        if self._data and self._token:
+            memory.save(self._data(), self.roster.hall(self._token))
+        self._stop()
+
+    def _stop(self) -> None:
         if self.server:
             self.server.stop()
         self.server = self.trouble = self._asked = None
+
+    def _remember(self) -> None:
+        """What the last run kept, if it ended with phones on."""
+        if self._data:
+            hall = memory.load(self._data())
+            self._token = hall.page
+            self.roster.restore(hall)
+
+    def _forget(self) -> None:
+        self._token = ""
+        self.roster.clear()
+        if self._data:
+            memory.forget(self._data())
 
     def _start(self, texts: Mapping[str, str]) -> None:
         self._checked_at = self._clock()
@@ -63,9 +107,11 @@ class PhoneHost:
             require_libraries()
             from pigaming_app.ui.input.phones.server import PhoneServer
 
-            server = PhoneServer(self.phones, chosen(name, networks()).address, port, texts)
+            address = chosen(name, networks()).address
+            keep = partial(memory.save, self._data()) if self._data else None
+            server = PhoneServer(self.phones, address, port, texts, self.roster, self._token, keep)
             server.start()
-            self.server = server
+            self.server, self._token = server, server.token
         except PhonesUnavailable as trouble:
             self.trouble = trouble
 

@@ -52,6 +52,10 @@ class RateMeter:
 
     def exceeded(self, now: float) -> bool:
         """Count an event at the time `now`, s; true if it is one too many."""
-        over = len(self._times) == self.most and now - self._times[0] < self.seconds
+        over = self.spent(now)
         self._times.append(now)
         return over
+
+    def spent(self, now: float) -> bool:
+        """True if one more event at the time `now` would be one too many."""
+        return len(self._times) == self.most and now - self._times[0] < self.seconds

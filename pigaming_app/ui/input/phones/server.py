@@ -16,7 +16,8 @@ import logging
 import secrets
 import socket
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from typing import Any
 
 from aiohttp import web
@@ -24,20 +25,28 @@ from aiohttp import web
 from pigaming_app import ASSETS
 from pigaming_app.ui.input import phone_messages as protocol
 from pigaming_app.ui.input.phone_pads import Phones
-from pigaming_app.ui.input.phones.connection import CLOSE_SECONDS, PhoneSeats, stop_reading
+from pigaming_app.ui.input.phones.connection import CLOSE_SECONDS, Connection, stop_reading
+from pigaming_app.ui.input.phones.memory import Hall
 from pigaming_app.ui.input.phones.network import PhonesUnavailable
 from pigaming_app.ui.input.phones.refusals import ErrorsOfLibrary, RateMeter, Refusals
+from pigaming_app.ui.input.phones.roster import Refusal, Roster
 
 START_SECONDS = 5.0  # for the server to listen
 ALPHABET = "abcdefghjkmnpqrstuvwxyz23456789"  # without signs that look alike: the address may be typed
 TOKEN_LENGTH = 10  # 49 bits, guessed over a network within one session
-MAX_CONNECTIONS, MAX_OF_PEER = 64, 24
-MAX_OPENED, OPENED_SECONDS = 80, 10.0  # connections that a peer may open in that time
+MAX_CONNECTIONS, MAX_OF_PEER = 160, 96  # a school may be behind one address: 31 phones, and pages that load
+MAX_OPENED, OPENED_SECONDS = 200, 10.0  # connections that a peer may open in that time: five for each page
 RECEIVE_BYTES = 8192  # buffered by the system for a connection: bounds what a flood makes the server parse at once
 IDLE_SECONDS = 5.0  # without a complete request
+KEEP_SECONDS = 2.0  # for which a phone waits at most until its token is on the disk
+CLOSED: dict[Refusal, int] = {"full": protocol.CLOSED_FULL, "removed": protocol.CLOSED_REMOVED}
 FILES = {
     "page.css": ("phones/page.css", "text/css"),
+    "hall.css": ("phones/hall.css", "text/css"),
     "page.js": ("phones/page.js", "text/javascript"),
+    "hall.js": ("phones/hall.js", "text/javascript"),
+    "awake.mp4": ("phones/awake.mp4", "video/mp4"),
+    "awake.webm": ("phones/awake.webm", "video/webm"),
     "oxanium.woff2": ("fonts/oxanium-latin-700-normal.woff2", "font/woff2"),
 }
 REFUSAL_STYLE = (
@@ -48,14 +57,30 @@ FORBIDDEN_ERRORS = (errno.EACCES, errno.EPERM, 10013)  # 10013: Windows' WSAEACC
 
 
 class PhoneServer:
-    """Serves `phones` on a port of an address. `texts`: the texts of the page, in the language of the screen."""
+    """Serves `phones` on a port of an address. `texts`: the texts of the page, in the language of the screen.
 
-    def __init__(self, phones: Phones, address: str, port: int, texts: Mapping[str, str]) -> None:
+    `roster`: decides who plays; `token`: of the page, empty: a new one; `keep`: writes what a restart needs.
+    """
+
+    def __init__(
+        self,
+        phones: Phones,
+        address: str,
+        port: int,
+        texts: Mapping[str, str],
+        roster: Roster | None = None,
+        token: str = "",
+        keep: Callable[[Hall], None] | None = None,
+    ) -> None:
         self.phones, self.address, self.port, self.texts = phones, address, port, texts
-        self.token = "".join(secrets.choice(ALPHABET) for _ in range(TOKEN_LENGTH))
+        self.roster = roster or Roster(phones)
+        self.token = token or "".join(secrets.choice(ALPHABET) for _ in range(TOKEN_LENGTH))
         self.refusals = Refusals()
         self.visited = False  # whether a page was asked for with the right token
-        self._seats = PhoneSeats(phones, self.refusals)
+        self.connections: dict[int, Connection] = {}  # by device number
+        self._keep, self._kept, self._to_keep = keep, Hall(), asyncio.Event()
+        self._written = asyncio.Condition()  # notified when that is done
+        self._farewells: set[asyncio.Future[None]] = set()
         self._files = {name: ((ASSETS / path).read_bytes(), kind) for name, (path, kind) in FILES.items()}
         self._page = (ASSETS / "phones" / "page.html").read_text(encoding="utf-8")
         self._loop: asyncio.AbstractEventLoop | None = None
@@ -77,20 +102,28 @@ class PhoneServer:
             self.stop()
             raise PhonesUnavailable(self._error, port=self.port)
         self.phones.send = self._send
+        self.roster.changed = lambda: self._call(self._to_keep.set)
+        self.roster.expel = lambda number, why: self._call(self._expel, number, why)
 
     def stop(self) -> None:
         """Close all connections and end the thread."""
         self.phones.send = lambda number, text: None
-        if self._loop and self._ended and not self._loop.is_closed():
-            self._loop.call_soon_threadsafe(self._ended.set)
+        self.roster.changed, self.roster.expel = lambda: None, lambda number, why: None
+        if self._ended:
+            self._call(self._ended.set)
         self._thread.join(START_SECONDS)
 
     # ---- in the main loop's thread
 
     def _send(self, number: int, text: str) -> None:
         """Hand a text to the server's thread; a phone that has just gone does not get it."""
+        self._call(self._deliver, number, text)
+
+    def _call(self, act: Callable[..., object], *arguments: object) -> None:
+        """Let the server's thread do something, unless it has ended."""
         if self._loop and not self._loop.is_closed():
-            self._loop.call_soon_threadsafe(self._deliver, number, text)
+            with suppress(RuntimeError):  # it ends at this moment
+                self._loop.call_soon_threadsafe(act, *arguments)
 
     # ---- in the server's thread
 
@@ -126,15 +159,45 @@ class PhoneServer:
             listener = await self._loop.create_server(guard.handler, sock=listening)
             self.port = listener.sockets[0].getsockname()[1]
             self._ready.set()
+            keeper = asyncio.create_task(self._keep_always())
             await self._ended.wait()
             listener.close()
-            await asyncio.gather(*(one.close(1001) for one in self._seats.connections.values()))
+            await asyncio.gather(*(one.close(1001) for one in self.connections.values()))
+            keeper.cancel()
         finally:
             await runner.cleanup()
 
     def _deliver(self, number: int, text: str) -> None:
-        if connection := self._seats.connections.get(number):
+        if connection := self.connections.get(number):
             connection.send(text)
+
+    def _expel(self, number: int, why: Refusal) -> None:
+        """Close the socket of a phone that the roster has sent away."""
+        if connection := self.connections.pop(number, None):
+            connection.replaced = True
+            task = asyncio.ensure_future(connection.close(CLOSED[why]))
+            self._farewells.add(task)
+            task.add_done_callback(self._farewells.discard)
+
+    async def _keep_always(self) -> None:
+        """Write what a restart needs whenever it has changed: in a thread, so that no phone waits for the disk."""
+        while self._keep:
+            await self._to_keep.wait()
+            self._to_keep.clear()
+            hall = self.roster.hall(self.token)
+            if hall != self._kept:
+                await asyncio.to_thread(self._keep, hall)
+            self._kept = hall
+            async with self._written:
+                self._written.notify_all()
+
+    async def _until_kept(self, number: int) -> None:
+        """Wait until the token of a phone is on the disk, so that a restart knows every token that a phone has."""
+        guest = self.roster.guest(number)
+        with suppress(TimeoutError):
+            async with asyncio.timeout(KEEP_SECONDS), self._written:
+                while self._keep and guest and all(one.token != guest.token for one in self._kept.phones):
+                    await self._written.wait()
 
     @web.middleware
     async def _checked(self, request: web.Request, handler: Any) -> web.StreamResponse:
@@ -157,7 +220,7 @@ class PhoneServer:
     def _headers(self) -> dict[str, str]:
         sockets = f"connect-src 'self' ws://{self.address}:{self.port}"
         policy = (
-            "default-src 'none'; script-src 'self'; font-src 'self'; img-src data:; base-uri 'none'; "
+            "default-src 'none'; script-src 'self'; font-src 'self'; img-src data:; media-src data:; base-uri 'none'; "
             f"style-src 'self' 'sha256-{STYLE_HASH}'"
         )
         return {
@@ -195,17 +258,23 @@ class PhoneServer:
             return self._refused("foreign origin refused", request)
         if not web.WebSocketResponse().can_prepare(request):
             raise web.HTTPBadRequest
-        admitted = self._seats.admit(request.query.get("resume", ""), peer)
-        if admitted is None:
-            self.refusals.note("fifth phone refused", peer)
-            return await _closed(request, protocol.CLOSED_FULL)
-        connection, resume = admitted
+        admitted = self.roster.admit(request.query.get("resume", ""), peer)
+        if isinstance(admitted, str):
+            self.refusals.note(f"phone refused: {admitted}", peer)
+            return await _closed(request, CLOSED[admitted])
+        number, resume = admitted
+        if before := self.connections.get(number):
+            before.replaced = True
+        connection = self.connections[number] = Connection(self.roster, self.refusals, number, peer)
         try:
             await connection.socket.prepare(request)
+            await self._until_kept(number)
             connection.send(protocol.resume_text(resume))
             await connection.serve(request)
         finally:
-            self._seats.leave(connection)
+            if not connection.replaced:
+                del self.connections[number]
+                self.roster.leave(number)
         return connection.socket
 
 

@@ -1,17 +1,23 @@
 """Phones switched on and off; what is said when they cannot join."""
 
 import importlib.util
+import os
 import socket
+import time
+from pathlib import Path
 from typing import Any
 
 import pytest
+from aiohttp import ClientSession
 
 from pigaming_app.ui.i18n import LANGUAGES, Words
+from pigaming_app.ui.input.phone_messages import Wish, WishKind, pack_wish
 from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones import host as hosts
-from pigaming_app.ui.input.phones import network
+from pigaming_app.ui.input.phones import memory, network
 from pigaming_app.ui.input.phones.host import CHECK_SECONDS, PhoneHost
 from pigaming_app.ui.input.phones.network import NetworkInterface, PhonesUnavailable, chosen, networks
+from tests.ui.input.phones.client import phone, play, until
 
 pytestmark = pytest.mark.usefixtures("_no_threads_stay")
 CABLE, WIFI = NetworkInterface("eth0", "203.0.113.5"), NetworkInterface("wlan0", "192.168.1.20")
@@ -65,6 +71,69 @@ def test_wireless_networks_come_first_and_loopback_never(monkeypatch: pytest.Mon
     adapters = [adapter("lo", "127.0.0.1"), adapter("eth0", "203.0.113.5"), adapter("zt0", "169.254.7.7")]
     monkeypatch.setattr(ifaddr, "get_adapters", lambda: [*adapters, adapter("wlan0", "192.168.1.20")])
     assert networks() == [WIFI, CABLE]
+
+
+def test_a_restart_keeps_the_address_and_switching_off_or_renewing_ends_it(tmp_path: Path, clock: Clock) -> None:
+    """A new process finds what the old one kept, also when that was killed: `close` is never called on the first."""
+    port = free_port()
+
+    def arcade() -> PhoneHost:
+        host = PhoneHost(Phones(), clock, lambda: tmp_path)
+        host.switch(True, "127.0.0.1", port, {})
+        return host
+
+    killed = arcade()
+    first = killed.url
+
+    async def join(session: ClientSession) -> str:
+        assert killed.server
+        one = await phone(session, killed.server)
+        await one.socket.send_bytes(pack_wish(Wish(WishKind.NAME, text="Ana")))
+        await until(lambda: "Ana" in (tmp_path / memory.FILE).read_text())
+        return one.resume
+
+    resume = play(join)
+    assert resume not in (tmp_path / memory.FILE).read_text()
+    assert killed.server
+    kept = (tmp_path / memory.FILE).read_bytes()
+    killed.server.stop()
+    (tmp_path / memory.FILE).write_bytes(kept)
+    again = arcade()
+    assert again.url == first
+
+    async def back(session: ClientSession) -> None:
+        assert again.server
+        await phone(session, again.server, resume)
+        await until(lambda: [guest.name for guest in again.roster.guests()] == ["Ana"])
+
+    play(back)
+    again.renew()
+    assert again.url not in ("", first)
+    assert again.roster.guests() == []
+    second = again.url
+    again.close()
+    last = arcade()
+    assert last.url == second
+    last.switch(False, "127.0.0.1", port, {})
+    assert not (tmp_path / memory.FILE).exists(), "switched off, nothing is kept"
+    last.switch(True, "127.0.0.1", port, {})
+    assert last.url not in (first, second)
+    last.close()
+
+
+@pytest.mark.parametrize("damage", ["", "{", "[]", '{"page": "../../"}', '{"phones": [{"number": -1, "token": "x"}]}'])
+def test_a_damaged_file_is_a_new_hall(tmp_path: Path, damage: str) -> None:
+    (tmp_path / memory.FILE).write_text(damage)
+    assert memory.load(tmp_path) == memory.Hall()
+
+
+def test_half_an_hour_later_only_the_address_is_left(tmp_path: Path) -> None:
+    known = memory.KnownPhone(3, "0" * 32, "Ana")
+    memory.save(tmp_path, memory.Hall("abcdefghjk", (known,)))
+    assert memory.load(tmp_path).phones == (known,)
+    old = time.time() - memory.FORGET_SECONDS - 1.0
+    os.utime(tmp_path / memory.FILE, (old, old))
+    assert memory.load(tmp_path) == memory.Hall("abcdefghjk")
 
 
 def test_each_switching_on_has_a_new_code_and_nothing_changes_without_a_change(host: PhoneHost, clock: Clock) -> None:

@@ -14,8 +14,9 @@ from aiohttp import ClientSession, WSServerHandshakeError
 from pigaming_app.ui.input import phone_messages as protocol
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, StickState
-from pigaming_app.ui.input.phone_messages import BITS, SeatView
+from pigaming_app.ui.input.phone_messages import BITS, SeatView, Wish, WishKind
 from pigaming_app.ui.input.phones import connection
+from pigaming_app.ui.input.phones import roster as rosters
 from pigaming_app.ui.input.phones import server as servers
 from pigaming_app.ui.input.phones.network import PhonesUnavailable
 from pigaming_app.ui.input.phones.server import PhoneServer
@@ -77,8 +78,8 @@ def test_a_phone_joins_drives_and_is_told_its_seat(controls: Controls, server: P
         one = await phone(session, server)
         await one.touch(0.0, -1.0, BITS[Button.FIRE])
         await drives(controls, 0, StickState(1.0, 0.0, True))
-        controls.phones.show(0, SeatView(2, "#14e48c", True, "3", "1:05"))
-        tally = {"score": "3", "clock": "1:05", "place": ""}
+        controls.phones.show(0, SeatView(2, "#14e48c", True, "3", "1:05", name="Ana"))
+        tally = {"score": "3", "clock": "1:05", "place": "", "before": -1, "line": "", "name": "Ana"}
         assert await one.told() == {"state": {"seat": 2, "color": "#14e48c", "playing": True, **tally}}
         controls.rumble(Device("phone", 0), 1.0, 0.5, 0.2)
         assert await one.told() == {"rumble": [1.0, 0.5, 200]}
@@ -192,19 +193,69 @@ def test_sixty_messages_a_second_are_no_flood() -> None:
     assert any(meter.exceeded(40 + i / 220) for i in range(600))
 
 
-def test_a_fifth_phone_is_told_that_four_play_and_joins_when_one_leaves(
-    controls: Controls, server: PhoneServer
-) -> None:
+def test_a_fifth_phone_waits_without_a_say_and_plays_when_one_leaves(controls: Controls, server: PhoneServer) -> None:
     async def story(session: ClientSession) -> None:
         four = [await phone(session, server) for _ in range(4)]
-        fifth = await socket_of(session, server)
-        await fifth.receive()
-        assert fifth.close_code == protocol.CLOSED_FULL
+        fifth = await phone(session, server)
+        await fifth.touch(0.0, -1.0, BITS[Button.FIRE])
+        await four[3].touch(buttons=BITS[Button.FIRE])
+        await presses(controls, lambda seen: (Button.FIRE, 3) in seen)
+        assert sorted(server.phones.plugged) == [0, 1, 2, 3]
+        controls.phones.show(4, SeatView(before=0, line="3 : 2"))
+        told = await fifth.told()
+        assert (told["state"]["before"], told["state"]["line"]) == (0, "3 : 2"), "it is told what happens"
         await four[2].socket.close()
-        await until(lambda: not server.phones.full)
-        fifth_phone = await phone(session, server)
-        await fifth_phone.touch()
         await until(lambda: [pressed(controls)] and sorted(server.phones.plugged) == [0, 1, 3, 4])
+        await fifth.touch()
+        await fifth.touch(buttons=BITS[Button.FIRE])
+        await presses(controls, lambda seen: (Button.FIRE, 4) in seen)
+
+    play(story)
+
+
+def test_thirty_two_phones_connect_and_the_next_one_is_told_that_the_hall_is_full(
+    controls: Controls, server: PhoneServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(rosters, "MAX_OF_ADDRESS", rosters.MAX_CONNECTED)
+
+    async def story(session: ClientSession) -> None:
+        all_phones = [await phone(session, server) for _ in range(rosters.MAX_CONNECTED)]
+        assert len({one.resume for one in all_phones}) == 32
+        late = await socket_of(session, server)
+        await late.receive()
+        assert late.close_code == protocol.CLOSED_FULL
+        assert len(server.roster.queue()) == 28
+        await all_phones[9].socket.close()
+        await until(lambda: len(server.roster.queue()) == 27)
+        await phone(session, server)
+
+    play(story)
+
+
+def test_a_name_a_colour_and_a_vote_arrive(controls: Controls, server: PhoneServer) -> None:
+    async def story(session: ClientSession) -> None:
+        one = await phone(session, server)
+        for wish in (Wish(WishKind.NAME, text="Zoë"), Wish(WishKind.COLOUR, 3), Wish(WishKind.GAME, 2)):
+            await one.socket.send_bytes(protocol.pack_wish(wish))
+        await until(lambda: server.roster.guests()[0].colour == 3)
+        assert controls.phones.names[0] == "Zoë"
+        assert server.roster.wishes() == [(0, Wish(WishKind.GAME, 2))]
+        await one.socket.send_bytes(protocol.pack_wish(Wish(WishKind.NAME, text="x" * 64)))
+        assert await one.closed() in (protocol.CLOSED_MALFORMED, 1009, 1006), "longer than a frame may be"
+
+    play(story)
+
+
+def test_a_removed_phone_is_told_so(controls: Controls, server: PhoneServer) -> None:
+    async def story(session: ClientSession) -> None:
+        one, two = await phone(session, server), await phone(session, server)
+        server.roster.remove(0, ban=True)
+        assert await one.closed() == protocol.CLOSED_REMOVED
+        again = await socket_of(session, server, one.resume)
+        await again.receive()
+        assert again.close_code == protocol.CLOSED_REMOVED
+        await two.touch(buttons=BITS[Button.FIRE])
+        await presses(controls, lambda seen: (Button.FIRE, 1) in seen)
 
     play(story)
 
@@ -334,7 +385,7 @@ def test_texts_for_a_slow_phone_do_not_pile_up(controls: Controls, server: Phone
     async def story(session: ClientSession) -> None:
         one = await phone(session, server)
         await until(lambda: pressed(controls))
-        sender = server._seats.connections[0]
+        sender = server.connections[0]
         for i in range(1000):
             sender._texts.append(json.dumps(i))
         assert len(sender._texts) == connection.MAX_TEXTS

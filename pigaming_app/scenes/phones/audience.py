@@ -1,0 +1,121 @@
+"""Those who wait: their cheers are a wave along the foot of the screen, their votes choose what comes next.
+
+Votes for an arena apply in the lobby until somebody chooses another one, and to a rematch; votes for a game put the
+focus on it where the next game is chosen.
+"""
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
+import pygame
+
+from pigaming_app.games.registry import games
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.match_choice import change_arena
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.phones.ballot import Ballot, title, titles
+from pigaming_app.scenes.phones.cheers import COLORS, Cheers, votes_line
+from pigaming_app.scenes.phones.seating import Driven, Ended, Seating
+from pigaming_app.ui.draw import Color
+from pigaming_app.ui.input.phone_messages import WishKind, ballot_text
+from pigaming_app.ui.input.phones.roster import Roster
+
+
+class Audience:
+    """Call `update` once a frame, and `draw` over the scene on top."""
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.ballot, self.cheers = Ballot(), Cheers()
+        self._told: dict[int, str] = {}  # the ballot that each phone has
+        self._applied = "", ""  # the game in whose choice the arena of the votes is
+        self._focused: Scene | None = None  # a choice of games whose focus was set
+        self._line = ""  # about the votes
+        self._shows_cheers = False
+
+    @staticmethod
+    def color(number: int) -> Color:
+        """The colour that a phone has chosen."""
+        return COLORS[number % len(COLORS)]
+
+    def update(self, roster: Roster, now: Seating, scenes: Sequence[Scene], phones: Collection[int]) -> None:
+        """Take cheers and votes, tell the phones what they may vote for, and apply what was voted."""
+        top = scenes[-1] if scenes else None
+        self._shows_cheers = shows_cheers(top)
+        self.ballot.offer(game_of(scenes))
+        if isinstance(top, Driven):
+            self.ballot.clear()
+        self.ballot.keep(phones)
+        for number, wish in roster.wishes():
+            guest = roster.guest(number)
+            if wish.kind is WishKind.GAME:
+                self.ballot.vote_game(number, wish.number)
+            elif wish.kind is WishKind.ARENA:
+                self.ballot.vote_arena(number, wish.number)
+            elif guest and self._shows_cheers and not (now.match and number in now.phones):
+                self.cheers.add(wish.number, self.color(guest.colour), guest.name)
+        if phones:
+            self._tell(phones)
+            self._apply(scenes)
+        self._line = "" if now.match else self._votes()
+
+    def advance(self, seconds: float) -> None:
+        """Move the waves on."""
+        self.cheers.advance(seconds)
+
+    def draw(self, screen: pygame.Surface) -> None:
+        """Draw waves and votes over the scene."""
+        if self._shows_cheers:
+            self.cheers.draw(screen)
+        if self._line:
+            votes_line(self._line).draw(screen)
+
+    def _tell(self, phones: Collection[int]) -> None:
+        """Send the ballot to phones that do not have this one."""
+        text = ballot_text(*titles(self.ballot, self.context.words))
+        for number in phones:
+            if self._told.get(number) != text:
+                self.context.controls.phones.send(number, text)
+        self._told = dict.fromkeys(phones, text)
+
+    def _apply(self, scenes: Sequence[Scene]) -> None:
+        """Use the votes where nobody has chosen."""
+        from pigaming_app.scenes.lobby.game_choice import GameChoice  # late: the title does not wait for these
+        from pigaming_app.scenes.lobby.scene import Lobby
+        from pigaming_app.scenes.results.scene import Results
+
+        top, (game, _), (arena, _) = scenes[-1], self.ballot.next_game, self.ballot.next_arena
+        if isinstance(top, GameChoice) and top is not self._focused and game:
+            self._focused = top
+            top.focus.move_to(game)
+        if arena and isinstance(top, Results) and top.setup.arena != arena:
+            top.setup = replace(top.setup, arena=arena)
+        lobby = next((scene for scene in scenes if isinstance(scene, Lobby)), None)
+        if lobby and lobby.now.starting is None and arena and (lobby.game, arena) != self._applied:
+            self._applied = lobby.game, arena
+            change_arena(games()[lobby.game], self.context.settings.choice(lobby.game), arena)
+        elif not arena:
+            self._applied = "", ""
+
+    def _votes(self) -> str:
+        """What leads, in one line."""
+        words, (game, for_game), (arena, for_arena) = self.context.words, self.ballot.next_game, self.ballot.next_arena
+        parts = [f"{words(f'games.{game}')} × {for_game}"] if game else []
+        if arena:
+            parts.append(f"{title(self.ballot.game, arena, words)} × {for_arena}")
+        return words("phones.votes", names="  ·  ".join(parts)) if parts else ""
+
+
+def game_of(scenes: Sequence[Scene]) -> str:
+    """The game of the uppermost scene that has one; empty: none."""
+    for scene in reversed(scenes):
+        setup, game = getattr(scene, "setup", None), getattr(scene, "game", "")
+        if name := getattr(setup, "game", game):
+            return str(name) if name in games() else ""
+    return ""
+
+
+def shows_cheers(top: Scene | None) -> bool:
+    """True over a match in simulation, and over its results: on the mat no light may fall on a marker."""
+    robots = getattr(top, "robots", None)
+    return (isinstance(top, Driven) and getattr(robots, "kind", "simulated") == "simulated") or isinstance(top, Ended)

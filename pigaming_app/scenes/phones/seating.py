@@ -1,0 +1,78 @@
+"""What the scenes mean to phones: who has a seat, for how many there is one, whether a match runs or has just ended."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
+
+from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.ui.input.events import Device
+from pigaming_app.ui.input.phone_pads import MAX_PHONES
+
+if TYPE_CHECKING:  # the title does not wait for these
+    from pigaming_app.scenes.play.drivers import Drivers
+    from pigaming_app.scenes.results.headline import EndedMatch
+
+
+@runtime_checkable
+class Seated(Protocol):
+    """A scene that knows the device of each seat."""
+
+    access: Access
+
+
+@runtime_checkable
+class Driven(Protocol):
+    """A scene in which devices drive robots."""
+
+    drivers: "Drivers"
+
+
+@runtime_checkable
+class Ended(Protocol):
+    """A scene after a match."""
+
+    ended: "EndedMatch"
+
+
+@dataclass(frozen=True)
+class Seating:
+    """The seats of the uppermost scene that has any. `places`: phones that may act there; `seat_free`: one whose turn
+    it is can sit down; `match`: one is on the stack; `winners`: phones that won the match on top, None: there is none.
+    """
+
+    devices: tuple[Device | None, ...] = ()
+    places: int = MAX_PHONES
+    seat_free: bool = True
+    match: bool = False
+    winners: tuple[int, ...] | None = None
+
+    @property
+    def phones(self) -> list[int]:
+        """The numbers of the phones with a seat."""
+        return numbers(self.devices)
+
+
+def seating(scenes: Sequence[Scene]) -> Seating:
+    """The seats of the scenes on the stack."""
+    seated = next((scene for scene in reversed(scenes) if isinstance(scene, Seated)), None)
+    if seated is None:
+        return Seating()
+    devices = tuple(seated.access.devices())
+    others = sum(device is not None and device.kind != "phone" for device in devices)
+    if isinstance(seated, Driven):
+        drivers = seated.drivers
+        free = [seat for seat in drivers.takeable if seat not in drivers.idle.claims.values()]
+        held = {*numbers(devices), *numbers(drivers.idle.claims)}
+        return Seating(devices, len(held) + len(free), bool(free), True)
+    if isinstance(seated, Ended):
+        rows = seated.ended.outcome.rows
+        won = tuple(numbers([devices[row.seat] for row in rows if row.place == 1]))
+        due = bool(getattr(seated, "claims", ())) or seated is not scenes[-1]  # initials are to be entered first
+        return Seating(devices, len(rows) - others, True, winners=None if due else won)
+    return Seating(devices, len(devices) - others, None in devices)
+
+
+def numbers(devices: Sequence[Device | None] | dict[Device, int]) -> list[int]:
+    """The numbers of those that are phones."""
+    return [device.number for device in devices if device and device.kind == "phone"]
