@@ -18,7 +18,7 @@ window.hall = (send, press) => {
     document.body.classList.toggle("seated", state.seat >= 0);
     const { before } = state;
     element("before").textContent = before === LEFT_QUEUE ? texts.page_idle : before === 0 ? texts.page_next
-      : before === 1 ? texts.page_before_one : texts.page_before.replace("{count}", before);
+      : texts.page_before.replace("{count}", before);
     element("line").textContent = state.place || state.line;
     const [games, arenas] = document.querySelectorAll("#hall h2");
     games.textContent = texts.page_game;

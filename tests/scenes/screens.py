@@ -36,7 +36,6 @@ from pigaming_app.scenes.events.arrange_page import ArrangePage
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.manage.corrections import Correction, ResultsList
 from pigaming_app.scenes.events.manage.event_page import EventPage
-from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
@@ -69,8 +68,10 @@ from pigaming_app.scenes.options import games_page
 from pigaming_app.scenes.options.games_page import NewGame
 from pigaming_app.scenes.options.page import SECTIONS, OptionsPage
 from pigaming_app.scenes.pages.pin_page import DigitsPage, NewPinPage, PinPage
+from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import PATIENCE, JoinByPhone
+from pigaming_app.scenes.phones.list_page import PhoneList
 from pigaming_app.scenes.phones.settings_page import PhonesPage
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.pause import Pause
@@ -92,7 +93,10 @@ from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.input.phone_messages import Wish, WishKind
+from pigaming_app.ui.input.phones.names import MAX_NAME
 from pigaming_app.ui.input.phones.network import NetworkInterface, PhonesUnavailable
+from pigaming_app.ui.input.phones.roster import MAX_CONNECTED, Stage
 from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.events import drawn
@@ -405,6 +409,28 @@ def join_by_phone(arcade: Arcade, trouble: str = "") -> Scene:
     return page
 
 
+def crowded(arcade: Arcade) -> Arcade:
+    """Thirty-two phones with the widest names, and a Wi-Fi with a code."""
+    roster = arcade.context.shared(phone_host).roster
+    for i in range(MAX_CONNECTED):
+        admitted = roster.admit("", f"10.0.0.{i}")
+        assert not isinstance(admitted, str)
+        roster.wish(admitted[0], Wish(WishKind.NAME, text=MAX_NAME * "W"))
+    settings = arcade.context.settings
+    settings.phones_wifi, settings.phones_wifi_key = 32 * "W", 63 * "W"
+    return arcade
+
+
+def phone_list(arcade: Arcade) -> Scene:
+    page = PhoneList(crowded(arcade).context)
+    for guest in page.guests:
+        guest.played = 188
+    page.guests[0].stage = Stage.PLAYING
+    page.guests[1].stage = Stage.IDLE
+    page.guests[2].connected = False
+    return page
+
+
 def phones_page(arcade: Arcade, trouble: str = "") -> Scene:
     page = PhonesPage(with_phones(arcade, trouble).context)
     page.networks = [NetworkInterface("Intel(R) Wi-Fi 6E AX210 160MHz", "192.168.100.200")]
@@ -609,6 +635,10 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "reconnect a phone": locked_phone,
     "join by phone": join_by_phone,
     "options of phones": phones_page,
+    "join by phone, crowded": lambda arcade: join_by_phone(crowded(arcade)),
+    "options of phones, crowded": lambda arcade: phones_page(crowded(arcade)),
+    "all phones": phone_list,
+    "Wi-Fi password": lambda arcade: PhonesPage(crowded(arcade).context)._typing("wifi_key"),
     **{f"join by phone, {key}": partial(join_by_phone, trouble=key) for key in ("missing", "network_gone")},
     **{f"options of phones, {key}": partial(phones_page, trouble=key) for key in ("port_taken", "port_forbidden")},
     **{f"lobby {game} with phones": partial(lobby_with_phones, game=game) for game in games()},

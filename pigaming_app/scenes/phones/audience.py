@@ -6,12 +6,14 @@ focus on it where the next game is chosen.
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import pygame
 
+from pigaming_app.games.game import FREE
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.match_choice import change_arena
+from pigaming_app.scenes.flow.match_choice import change_arena, last_choice
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.phones.ballot import Ballot, title, titles
 from pigaming_app.scenes.phones.cheers import COLORS, Cheers, votes_line
@@ -19,6 +21,9 @@ from pigaming_app.scenes.phones.seating import Driven, Ended, Seating
 from pigaming_app.ui.draw import Color
 from pigaming_app.ui.input.phone_messages import WishKind, ballot_text
 from pigaming_app.ui.input.phones.roster import Roster
+
+if TYPE_CHECKING:
+    from pigaming_app.scenes.lobby.scene import Lobby
 
 
 class Audience:
@@ -30,8 +35,9 @@ class Audience:
         self._told: dict[int, str] = {}  # the ballot that each phone has
         self._applied = "", ""  # the game in whose choice the arena of the votes is
         self._focused: Scene | None = None  # a choice of games whose focus was set
+        self._lobby: Lobby | None = None  # on the stack
         self._line = ""  # about the votes
-        self._shows_cheers = False
+        self._shows_cheers = self._in_match = False
 
     @staticmethod
     def color(number: int) -> Color:
@@ -41,23 +47,25 @@ class Audience:
     def update(self, roster: Roster, now: Seating, scenes: Sequence[Scene], phones: Collection[int]) -> None:
         """Take cheers and votes, tell the phones what they may vote for, and apply what was voted."""
         top = scenes[-1] if scenes else None
-        self._shows_cheers = shows_cheers(top)
+        self._shows_cheers, self._in_match = shows_cheers(top), isinstance(top, Driven)
         self.ballot.offer(game_of(scenes))
         if isinstance(top, Driven):
             self.ballot.clear()
         self.ballot.keep(phones)
         for number, wish in roster.wishes():
             guest = roster.guest(number)
+            if guest is None or number not in phones:
+                continue
             if wish.kind is WishKind.GAME:
                 self.ballot.vote_game(number, wish.number)
             elif wish.kind is WishKind.ARENA:
                 self.ballot.vote_arena(number, wish.number)
-            elif guest and self._shows_cheers and not (now.match and number in now.phones):
+            elif self._shows_cheers and not (now.match and number in now.phones):
                 self.cheers.add(wish.number, self.color(guest.colour), guest.name)
         if phones:
             self._tell(phones)
             self._apply(scenes)
-        self._line = "" if now.match else self._votes()
+        self._line = self._votes() if next_is_chosen(top) else ""
 
     def advance(self, seconds: float) -> None:
         """Move the waves on."""
@@ -66,7 +74,7 @@ class Audience:
     def draw(self, screen: pygame.Surface) -> None:
         """Draw waves and votes over the scene."""
         if self._shows_cheers:
-            self.cheers.draw(screen)
+            self.cheers.draw(screen, self._in_match)
         if self._line:
             votes_line(self._line).draw(screen)
 
@@ -79,21 +87,26 @@ class Audience:
         self._told = dict.fromkeys(phones, text)
 
     def _apply(self, scenes: Sequence[Scene]) -> None:
-        """Use the votes where nobody has chosen."""
+        """Use the votes where nobody has chosen, and begin a lobby with teams if the operator likes."""
         from pigaming_app.scenes.lobby.game_choice import GameChoice  # late: the title does not wait for these
-        from pigaming_app.scenes.lobby.scene import Lobby
         from pigaming_app.scenes.results.scene import Results
 
         top, (game, _), (arena, _) = scenes[-1], self.ballot.next_game, self.ballot.next_arena
-        if isinstance(top, GameChoice) and top is not self._focused and game:
-            self._focused = top
-            top.focus.move_to(game)
+        choice = top if isinstance(top, GameChoice) else None
+        if choice and choice is not self._focused and game:
+            choice.focus.move_to(game)
+        self._focused = choice
         if arena and isinstance(top, Results) and top.setup.arena != arena:
             top.setup = replace(top.setup, arena=arena)
-        lobby = next((scene for scene in scenes if isinstance(scene, Lobby)), None)
+        lobby = lobby_of(scenes)
+        if lobby is not self._lobby and lobby and self.context.settings.phones_teams:
+            lobby.seats.teams = lobby.seats.teams or lobby.seats.team_mode == FREE
+        self._lobby = lobby
         if lobby and lobby.now.starting is None and arena and (lobby.game, arena) != self._applied:
             self._applied = lobby.game, arena
-            change_arena(games()[lobby.game], self.context.settings.choice(lobby.game), arena)
+            last = last_choice(self.context, lobby.game)
+            change_arena(games()[lobby.game], last, arena)
+            self.context.settings.games[lobby.game] = last
         elif not arena:
             self._applied = "", ""
 
@@ -106,12 +119,29 @@ class Audience:
         return words("phones.votes", names="  ·  ".join(parts)) if parts else ""
 
 
+def lobby_of(scenes: Sequence[Scene]) -> "Lobby | None":
+    """The lobby on the stack, if there is one."""
+    from pigaming_app.scenes.lobby.scene import Lobby  # late: the title does not wait for it
+
+    return next((scene for scene in scenes if isinstance(scene, Lobby)), None)
+
+
+def next_is_chosen(top: Scene | None) -> bool:
+    """True on the pages on which people choose what comes next."""
+    if top is None:
+        return False
+    from pigaming_app.scenes.lobby.game_choice import GameChoice  # late: the title does not wait for it
+    from pigaming_app.scenes.phones.join import JoinByPhone
+
+    return isinstance(top, (GameChoice, JoinByPhone, Ended)) or lobby_of([top]) is not None
+
+
 def game_of(scenes: Sequence[Scene]) -> str:
     """The game of the uppermost scene that has one; empty: none."""
     for scene in reversed(scenes):
-        setup, game = getattr(scene, "setup", None), getattr(scene, "game", "")
-        if name := getattr(setup, "game", game):
-            return str(name) if name in games() else ""
+        name = getattr(getattr(scene, "setup", scene), "game", "")
+        if isinstance(name, str) and name in games():
+            return name
     return ""
 
 

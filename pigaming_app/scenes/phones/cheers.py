@@ -18,7 +18,7 @@ SIGNS = ("", "★", "!")  # beside the name, by kind
 SECONDS = 2.2  # s of a wave from one side to the other
 PITCH, REACH, RISE = 40, 230, 76  # px: between two people, half the wave's width, how high they rise
 MOST = 6  # waves at a time
-VOTES_Y = 186  # px
+VOTES_Y = 60  # px, above the line beside a heading
 
 
 @dataclass
@@ -47,16 +47,16 @@ class Cheers:
             wave.age += seconds
         self.waves = [wave for wave in self.waves if wave.age < SECONDS]
 
-    def draw(self, screen: pygame.Surface) -> None:
-        """Draw the people, each as high as the wave is where they stand, and the names above."""
+    def draw(self, screen: pygame.Surface, named: bool) -> None:
+        """Draw the people, each as high as the wave is where they stand, and, if asked for, the names above."""
         for wave in self.waves:
             middle = -REACH + (screen.get_width() + 2 * REACH) * wave.age / SECONDS
             first = max(0, math.ceil((middle - REACH) / PITCH))
             for place in range(first, min(48, math.floor((middle + REACH) / PITCH)) + 1):
                 height = RISE * math.cos((place * PITCH - middle) / REACH * math.pi / 2)
                 person(wave.color).draw(screen, place * PITCH, screen.get_height() - height)
-            if wave.label:
-                text(wave.label, 34, wave.color).draw(screen, middle, screen.get_height() - RISE - 40)
+            if wave.label and named:
+                text(wave.label, 34, wave.color).draw(screen, middle, screen.get_height() - RISE - 26)
 
 
 @cached
@@ -70,7 +70,7 @@ def person(color: kit.Color) -> LitImage:
 
 @cached
 def votes_line(line: str) -> LitImage:
-    """The votes, at the right end below the heading."""
+    """The votes, at the right end above the text beside a heading."""
     fitting, size = fit_text(line, 34, 1000, "body")
     layer = Layer(RIGHT - 1000, VOTES_Y - 30, 1000, 60)
     layer.canvas.body(fitting, RIGHT, VOTES_Y, kit.FOCUS, "r", size)

@@ -12,15 +12,18 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.phones.host import phone_host
+from pigaming_app.scenes.phones.list_page import shown_name
+from pigaming_app.storage.settings import Settings
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, paragraph, wrap
+from pigaming_app.ui.draw.text import fit_lines, fit_size, fit_text, paragraph, text, wrap
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phones.code import qr_code
 from pigaming_app.ui.input.phones.host import PhoneHost
+from pigaming_app.ui.input.phones.wifi import wifi_text
 from pigaming_app.ui.widgets.labels import pulse, sign
 
 IDLE = 60.0  # s without input until the title
@@ -30,6 +33,8 @@ TEXT_X = CODE.right + 72
 ROOM = RIGHT - TEXT_X
 STEPS_Y, STEP, ADDRESS_Y, SEATS_Y, HELP_Y = 250, 98, 600, 716, 848
 SEAT_W = 152
+WIFI = pygame.Rect(TEXT_X, 196, 306, 306)  # px: the code of the Wi-Fi, in place of the drawings of the steps
+QUEUE_Y, NAMED = 868, 4  # px; phones named as the next ones
 Devices = Sequence[Device | None]
 
 
@@ -86,15 +91,23 @@ class JoinByPhone(Page):
         words, host = self.context.words, self.host
         if host.url:
             draw_code(screen, host.url, CODE)
-            steps((words("phones.step_wifi"), words("phones.step_scan"), words("phones.step_press"))).draw(screen)
+            settings = self.context.settings
+            last = words("phones.step_press")
+            if settings.phones_wifi:
+                draw_wifi(screen, settings, WIFI)
+                beside((words("phones.wifi_step"), words("phones.page_step"), last)).draw(screen)
+            else:
+                steps((words("phones.step_wifi"), words("phones.step_scan"), last)).draw(screen)
             address(words("phones.type"), plain(host.url)).draw(screen)
             self._seats(screen)
-            if host.server and not host.server.visited and self.age > PATIENCE:
+            if queue := self._queue():
+                line, size = fit_text(queue, kit.BODY, ROOM, "body")
+                text(line, size, kit.MIST, "body", "l").draw(screen, TEXT_X, QUEUE_Y)
+            elif host.server and not host.server.visited and self.age > PATIENCE:
                 hint(words("phones.firewall", port=host.server.port)).draw(screen)
         else:
             sign("phone", 150, kit.STEEL, kit.THIN).draw(screen, *CODE.center)
-            text = trouble(words, host)
-            for i, lit in enumerate(paragraph(text, ROOM, 4, kit.ALARM)):
+            for i, lit in enumerate(paragraph(trouble(words, host), ROOM, 4, kit.ALARM)):
                 lit.draw(screen, TEXT_X, CODE.centery - 60 + 58 * i)
 
     def _seats(self, screen: pygame.Surface) -> None:
@@ -106,10 +119,23 @@ class JoinByPhone(Page):
                 screen, TEXT_X + SEAT_W * seat, SEATS_Y
             )
         waiting = [device for device in self.context.controls.handhelds() if device not in devices]
-        count = sum(device.kind == "phone" for device in waiting)
+        count = sum(device.kind == "phone" for device in waiting) + len(self.host.roster.queue())
         if count:
             sign("phone", 40, kit.FOCUS, kit.THIN, pulse(self.age)).draw(screen, TEXT_X + SEAT_W * 4 + 76, SEATS_Y + 40)
             number(f"× {count}").draw(screen, TEXT_X + SEAT_W * 4 + 126, SEATS_Y + 40)
+
+    def _queue(self) -> str:
+        """The phones that come next, by name; empty if nobody waits."""
+        words, queue = self.context.words, self.host.roster.queue()
+        names = [shown_name(guest, words) for guest in queue[:NAMED]]
+        more = [f"+ {len(queue) - NAMED}"] if len(queue) > NAMED else []
+        return words("phones.in_queue", names="  ·  ".join(names + more)) if names else ""
+
+
+def draw_wifi(screen: pygame.Surface, settings: Settings, box: pygame.Rect) -> None:
+    """Draw the code of the Wi-Fi in the middle of a box."""
+    code = qr_code(wifi_text(settings.phones_wifi, settings.phones_wifi_key), box.w, kit.BLACK, kit.ICE)
+    screen.blit(code, code.get_rect(center=box.center))
 
 
 def draw_code(screen: pygame.Surface, url: str, box: pygame.Rect) -> None:
@@ -162,12 +188,27 @@ def steps(lines: tuple[str, ...]) -> Steps[LitImage]:
 
 
 @cached
+def beside(lines: tuple[str, ...]) -> LitImage:
+    """The numbered steps beside the code of the Wi-Fi, each in up to two lines."""
+    x, room = WIFI.right + 30, RIGHT - WIFI.right - 112
+    layer = Layer(x, WIFI.y - 10, RIGHT - x, 350)
+    for i, line in enumerate(lines):
+        y = WIFI.y + 46 + 108 * i
+        layer.glow.ring(x + 30, y, 30, kit.FOCUS, kit.THIN)
+        layer.canvas.crisp.text(str(i + 1), kit.BODY, x + 30, y, kit.FOCUS, "head", "c")
+        size, parts = fit_lines(line, room, 2, range(kit.BODY, 24, -2))
+        for row, part in enumerate(parts):
+            layer.canvas.body(part, x + 78, y + (row - (len(parts) - 1) / 2) * 1.2 * size, kit.ICE, "l", size)
+    return layer.render()
+
+
+@cached
 @resumable
-def address(label: str, text: str) -> Steps[LitImage]:
+def address(label: str, url: str) -> Steps[LitImage]:
     """The address in plain text, below a label."""
     layer = Layer(TEXT_X, ADDRESS_Y - 90, ROOM, 150)
     layer.canvas.body(label, TEXT_X, ADDRESS_Y - 62, kit.MIST, "l", 34)
-    layer.canvas.text(text, fit_size(text, kit.SUB, ROOM), TEXT_X, ADDRESS_Y + 6, kit.FOCUS)
+    layer.canvas.text(url, fit_size(url, kit.SUB, ROOM), TEXT_X, ADDRESS_Y + 6, kit.FOCUS)
     layer.glow.line([(TEXT_X, ADDRESS_Y + 66), (RIGHT, ADDRESS_Y + 66)], kit.dim(kit.STEEL, 0.6), kit.HAIR)
     yield
     return (yield from layer.render_steps())
@@ -185,17 +226,17 @@ def seat_sign(seat: int, kind: str) -> LitImage:
 
 
 @cached
-def number(text: str) -> LitImage:
+def number(count: str) -> LitImage:
     """A number, its left end at (0, 0)."""
     layer = Layer(0, -30, 110, 60)
-    layer.canvas.text(text, kit.LABEL, 0, 0, kit.FOCUS)
+    layer.canvas.text(count, kit.LABEL, 0, 0, kit.FOCUS)
     return layer.render()
 
 
 @cached
-def hint(text: str) -> LitImage:
+def hint(advice: str) -> LitImage:
     """Advice in up to two lines at the foot of the text's column."""
     layer = Layer(TEXT_X, HELP_Y - 30, ROOM, 100)
-    for i, line in enumerate(wrap(text, 32, ROOM)[:2]):
+    for i, line in enumerate(wrap(advice, 32, ROOM)[:2]):
         layer.canvas.body(line, TEXT_X, HELP_Y + 44 * i, kit.MIST, "l", 32)
     return layer.render()

@@ -18,7 +18,7 @@ from pigaming_app.ui.input.phones.roster import Guest, Stage
 
 PAGE_TEXTS = (
     "page_player", "page_join", "page_fire", "page_turbo", "page_ok", "page_back", "page_lost", "page_old",
-    "page_full", "page_refused", "page_elsewhere", "page_removed", "page_next", "page_before", "page_before_one",
+    "page_full", "page_refused", "page_elsewhere", "page_removed", "page_next", "page_before",
     "page_idle", "page_game", "page_arena", "page_name", "page_colour", "page_hand", "page_save", "page_unkind",
     "page_awake", "page_asleep",
 )  # fmt: skip
@@ -86,7 +86,9 @@ class PhoneLink:
             self._match, self._ended_at = True, None
         elif self._match:
             over = any(isinstance(scene, Ended) for scene in scenes)
-            if now.winners is not None and ended and self._ended_at is None:
+            if now.winners is None or not ended:
+                self._ended_at = None
+            elif self._ended_at is None:
                 self._ended_at = self._clock()
             if not over or (self._ended_at is not None and self._clock() - self._ended_at >= RESULT_SECONDS):
                 self._match, self._ended_at = False, None

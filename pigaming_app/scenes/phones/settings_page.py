@@ -1,4 +1,6 @@
-"""The operator's page of phones: on or off, the network, and the code."""
+"""The operator's page of phones: on or off, the network, the codes, how turns pass, and the list of all phones."""
+
+from importlib.util import find_spec
 
 import pygame
 
@@ -6,20 +8,25 @@ from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.pages.settings_page import SettingsPage
+from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.scenes.phones.host import phone_host
-from pigaming_app.scenes.phones.join import JoinByPhone, draw_code, plain, trouble
+from pigaming_app.scenes.phones.join import JoinByPhone, draw_code, draw_wifi, plain, trouble
+from pigaming_app.scenes.phones.list_page import PhoneList
 from pigaming_app.storage.settings import MAX_NAME
-from pigaming_app.ui.draw import ALARM, FOCUS, MIST, STEEL, THIN, text_width
-from pigaming_app.ui.draw.layers import LEFT
-from pigaming_app.ui.draw.text import SMALLEST, fit_text, paragraph
+from pigaming_app.ui.draw import ALARM, BODY, FOCUS, MIST, STEEL, THIN, text_width
+from pigaming_app.ui.draw.layers import LEFT, RIGHT
+from pigaming_app.ui.draw.text import SMALLEST, fit_text, text
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.input.phones.network import NetworkInterface, PhonesUnavailable, networks
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.labels import sign
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-ROWS = ("enabled", "network", "code")
-STATUS_Y = 640  # px: what phones find at the moment
+ROWS = ("enabled", "network", "code", "list", "stay", "teams", "wifi", "wifi_key", "renew")
+FIELDS = {"enabled": "phones", "stay": "phones_stay", "teams": "phones_teams"}  # settings of the rows that are switches
+TYPED = {"wifi": ("phones_wifi", 32), "wifi_key": ("phones_wifi_key", 63)}  # settings that are typed, and their lengths
+LETTERS = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 -_.!?#$%&@*+=/,;:'\"()"
+STATUS_Y = 924  # px: what phones find at the moment
 
 
 class PhonesPage(SettingsPage):
@@ -42,13 +49,15 @@ class PhonesPage(SettingsPage):
 
     def paint(self, screen: pygame.Surface) -> None:
         super().paint(screen)
-        lines = paragraph(self._status(), dials.W - 40, 4, ALARM if self.host.trouble else MIST)
-        for i, lit in enumerate(lines):
-            lit.draw(screen, LEFT + 40, STATUS_Y + 58 * i)
+        if not self.message:
+            line, size = fit_text(self._status(), SMALLEST, RIGHT - LEFT - 40, "body")
+            text(line, size, ALARM if self.host.trouble else MIST, "body", "l").draw(screen, LEFT + 40, STATUS_Y)
 
     def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
-        host, (x, y) = self.host, dials.CENTRE
-        if host.url:
+        host, settings, (x, y) = self.host, self.context.settings, dials.CENTRE
+        if name in TYPED and settings.phones_wifi and importable():
+            draw_wifi(screen, settings, pygame.Rect(x - 165, y - 165, 330, 330))
+        elif host.url and name not in (*TYPED, "list"):
             draw_code(screen, host.url, pygame.Rect(x - 165, y - 165, 330, 330))
         else:
             sign("phone", 120, FOCUS if host.on else STEEL, THIN).draw(screen, x, y)
@@ -61,10 +70,14 @@ class PhonesPage(SettingsPage):
 
     def value(self, name: str) -> SettingValue:
         words, settings = self.context.words, self.context.settings
-        if name == "enabled":
-            return self.switch(settings.phones)
-        if name == "code":
-            return self.action("options.open")
+        if name in FIELDS:
+            return self.switch(getattr(settings, FIELDS[name]))
+        if name == "wifi":
+            return SettingValue("action", (fit_text(settings.phones_wifi, BODY, 380)[0] or words("phones.none_set"),))
+        if name == "wifi_key":
+            return SettingValue("action", ("*" * min(12, len(settings.phones_wifi_key)) or words("phones.none_set"),))
+        if name != "network":
+            return self.action("phones.renew_now" if name == "renew" else "options.open")
         chosen, known = settings.phones_network, self._names()
         names = [words("phones.first_network"), *map(shown, self.networks)]
         if chosen and chosen not in known:
@@ -77,18 +90,49 @@ class PhonesPage(SettingsPage):
 
     def apply(self, name: str, chosen: int) -> None:
         settings, known = self.context.settings, ["", *self._names()]
-        if name == "enabled":
-            settings.phones = bool(chosen)
+        if name in FIELDS:
+            setattr(settings, FIELDS[name], bool(chosen))
         elif chosen < len(known):
             settings.phones_network = known[chosen]
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
+        """Open a page; a new code needs a held button."""
+        if name in TYPED:
+            self.context.sounds.play("accept")
+            return Push(self._typing(name))
         if not self.host.on:
             self.show_message(self.context.words("phones.are_off"))
             self.context.sounds.play("error")
             return None
+        if name == "renew":
+            self.holding.begin(event)
+            return None
         self.context.sounds.play("accept")
-        return Push(JoinByPhone(self.context, lambda: []))
+        return Push(PhoneList(self.context) if name == "list" else JoinByPhone(self.context, lambda: []))
+
+    def held(self) -> StackOperation:
+        """All phones have to scan a new code."""
+        self.host.renew()
+        self.show_message(self.context.words("phones.renewed"))
+        self.context.sounds.play("ready")
+        return None
+
+    def _typing(self, name: str) -> TextPage:
+        """The page for the name of the Wi-Fi, or its password."""
+        settings, (field, most) = self.context.settings, TYPED[name]
+
+        def keep(text: str) -> str:
+            setattr(settings, field, text)
+            self.save()
+            self.rewarm()
+            return ""
+
+        return TextPage(self.context, self.label(name), getattr(settings, field), most, keep, True, LETTERS)
+
+
+def importable() -> bool:
+    """True if codes can be drawn."""
+    return bool(find_spec("segno"))
 
 
 def shown(network: NetworkInterface) -> str:

@@ -17,7 +17,6 @@ from pigaming_app.scenes.events import next_page
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.manage.corrections import Correction, ResultsList
 from pigaming_app.scenes.events.manage.event_page import EventPage
-from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.next_view import match_line
 from pigaming_app.scenes.events.paper.poster import poster
@@ -33,6 +32,7 @@ from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.stack import Pop
 from pigaming_app.scenes.pages.page import MESSAGE_ROOM
+from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.scenes.phones.link import PhoneLink
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene

@@ -9,12 +9,12 @@ from pigaming_app.events.spec import Format
 from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.manage.corrections import MAX_NOTE, NOTES, Correction, ResultsList
 from pigaming_app.scenes.events.manage.event_page import DELETE, DESK, RENAME, WITHDRAW, EventPage
-from pigaming_app.scenes.events.manage.text_page import ALPHABET, TextPage
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import HOLD, HOLD_WITHOUT_PIN
 from pigaming_app.scenes.flow.stack import Pop, Scene
+from pigaming_app.scenes.pages.text_page import ALPHABET, TextPage
 from pigaming_app.storage.safe_files import NotSaved, backup_of
 from pigaming_app.ui.input.events import Button, Device
 from tests.scenes.arcade import Arcade, Floor

@@ -11,7 +11,6 @@ import pygame
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import WALKOVER, Fixture, Result
-from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.names import places_line, places_of, shortened
 from pigaming_app.scenes.events.running import RunningEvent, decided_by, round_name
 from pigaming_app.scenes.flow.access import HOLD, HOLD_WITHOUT_PIN, Right, Roles
@@ -19,6 +18,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.pages.settings_page import SettingsPage
+from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon, text_width
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage

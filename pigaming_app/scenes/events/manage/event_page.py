@@ -10,13 +10,13 @@ from pigaming_app.events import event_files
 from pigaming_app.events.spec import MAX_TITLE
 from pigaming_app.scenes.events.desk.host import can_serve
 from pigaming_app.scenes.events.manage.desk_page import DeskPage
-from pigaming_app.scenes.events.manage.text_page import TextPage
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.flow.access import HOLD, Right, Roles
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.pages.settings_page import SettingsPage
+from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, FOCUS, GlowCanvas, icon
 from pigaming_app.ui.draw.layers import LitImage

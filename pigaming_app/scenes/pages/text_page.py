@@ -22,23 +22,34 @@ CURSOR = "_"
 
 
 class TextPage(Page):
-    """`accept`: takes the text, and returns the sentence why not, if it cannot; `most`: characters."""
+    """`accept`: takes the text, and returns the sentence why not, if it cannot; `most`: characters; `exact`: spaces
+    count as typed; `letters`: for stick and button.
+    """
 
     idle, when_idle, lockout = 120.0, Pop(), 0.3
 
-    def __init__(self, context: Context, title: str, before: str, most: int, accept: Callable[[str], str]) -> None:
+    def __init__(
+        self,
+        context: Context,
+        title: str,
+        before: str,
+        most: int,
+        accept: Callable[[str], str],
+        exact: bool = False,
+        letters: str = ALPHABET,
+    ) -> None:
         super().__init__(context)
-        self.asked, self.most, self.accept = title, most, accept
+        self.asked, self.most, self.accept, self.exact = title, most, accept, exact
         self.text = before
-        self.picker = LetterPicker(ALPHABET, ALPHABET[0])
+        self.picker = LetterPicker(letters, letters[0])
         self.refusal = ""
 
     @property
     def hints(self) -> Hints:
         """The prompts of a pad, or of the keyboard, whose letters and space are typed."""
-        own = [(Button.FIRE, "events.hint_letter"), (Button.X, "events.hint_erase")]
+        own = [(Button.FIRE, "typing.letter"), (Button.X, "typing.erase")]
         typed = self.context.controls.last.kind == "keys"
-        ways_out = [(Button.START, "events.hint_save"), (Button.BACK, "events.hint_back")]
+        ways_out = [(Button.START, "typing.save"), (Button.BACK, "typing.back")]
         return [*([] if typed else own), *ways_out]
 
     def on_enter(self) -> None:
@@ -97,7 +108,7 @@ class TextPage(Page):
         letter_box(W, H).draw(screen, 960, MIDDLE)
         draw_letters(screen, self.picker, [960], MIDDLE, HERO, 60, ICE)
         cursor(W, H, 36, 20, BOLD, (H / 2 + 48, 30, 230)).draw(screen, 960, MIDDLE)
-        text(self.refusal or words("events.type"), BODY, ALARM if self.refusal else MIST).draw(screen, 960, HINT_Y)
+        text(self.refusal or words("typing.how"), BODY, ALARM if self.refusal else MIST).draw(screen, 960, HINT_Y)
 
     # ---- inside
 
@@ -121,7 +132,7 @@ class TextPage(Page):
             self._turn(-1 if below < 0 else 1)
 
     def _save(self) -> StackOperation:
-        self.refusal = self.accept(" ".join(self.text.split()))
+        self.refusal = self.accept(self.text if self.exact else " ".join(self.text.split()))
         self.context.sounds.play("refused" if self.refusal else "ready")
         return None if self.refusal else Pop()
 
