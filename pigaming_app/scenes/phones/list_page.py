@@ -2,6 +2,7 @@
 
 import pygame
 
+from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.pages.page import Page
@@ -23,6 +24,7 @@ NAME_X, STATE_X, ROOM = 56, 400, 270  # px from a row's left edge; of the state
 class PhoneList(Page):
     """The page. It follows the phones as they come and go."""
 
+    right = Right.SETTINGS
     title = "phones.list"
     hints = ((Button.FIRE, "phones.hint_remove"), (Button.X, "phones.hint_ban"), (Button.BACK, "phones.hint_back"))
 

@@ -186,9 +186,9 @@ def test_a_locked_phone_keeps_its_seat_from_other_phones_until_the_match_ends(cr
     crowd.lock(three[1])
     page = crowd.arcade.shown(Reconnect)
     crowd.tap(three[2])
-    assert crowd.arcade.stack.top is page, "a phone that drives nothing does not take it either"
+    assert crowd.arcade.shown(Reconnect) is page, "a phone that drives nothing does not take it either"
     crowd.wait(TIMEOUT + 0.5)
-    assert crowd.arcade.stack.top is match
+    assert crowd.arcade.shown(MatchScene) is match
     assert match.devices[1] is None, "an AI drives"
     crowd.tap(three[2])
     crowd.roster.receive(2, Touches(buttons=BITS[Button.FIRE]))
