@@ -7,11 +7,13 @@ import subprocess
 import tempfile
 import time
 from collections.abc import AsyncIterator, Iterator
-from contextlib import asynccontextmanager, contextmanager, suppress
+from contextlib import asynccontextmanager, contextmanager
 from pathlib import Path
 from typing import Any
 
 from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType
+
+from tests.scenes.phones.touch_page import LANDSCAPE, LONG, TouchPage
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 OPTIONS = (
@@ -20,8 +22,6 @@ OPTIONS = (
     "--disable-component-update", "--disable-default-apps", "--disable-breakpad",
     "--disable-background-timer-throttling", "--disable-renderer-backgrounding",
 )  # fmt: skip
-LONG = 60.0  # s, for whatever must come: the machine may be busy
-LANDSCAPE, PORTRAIT = (844, 390), (390, 844)
 AS_AN_IPHONE = "navigator.vibrate = Element.prototype.requestFullscreen = undefined;"
 WATCH_VIBRATION = "window.shaken = []; navigator.vibrate = (ms) => { window.shaken.push(ms); return true; };"
 
@@ -82,12 +82,12 @@ class Browser:
         return page
 
 
-class Page:
-    """A phone. Fingers stay on the screen until they are lifted."""
+class Page(TouchPage):
+    """A phone in Chromium."""
 
     def __init__(self, browser: Browser, session: str, size: tuple[int, int]) -> None:
-        self.browser, self.session, self.size = browser, session, size
-        self.fingers: dict[int, tuple[float, float]] = {}
+        super().__init__(size)
+        self.browser, self.session = browser, session
 
     async def ask(self, method: str, **parameters: Any) -> Any:
         return await self.browser.ask(method, self.session, **parameters)
@@ -99,49 +99,17 @@ class Page:
         )
 
     async def value(self, expression: str) -> Any:
-        """The value of an expression in the page."""
         answer = await self.ask("Runtime.evaluate", expression=expression, returnByValue=True)
         assert "exceptionDetails" not in answer, answer
         return answer["result"].get("value")
 
-    async def until(self, expression: str) -> None:
-        """Wait until an expression is true in the page, which may still be loading."""
-        guarded = f"(() => {{ try {{ return {expression}; }} catch (error) {{ return false; }} }})()"
-        end = time.monotonic() + LONG
-        while True:
-            with suppress(RuntimeError):  # while it is being replaced by another page
-                if await self.value(guarded):
-                    return
-            assert time.monotonic() < end, f"not so in the page: {expression}"
-            await asyncio.sleep(0.03)
-
-    async def middle(self, name: str) -> tuple[float, float]:
-        """The middle of an element, px."""
-        box = await self.value(
-            f"(() => {{ const b = document.getElementById('{name}').getBoundingClientRect();"
-            " return [b.x + b.width / 2, b.y + b.height / 2]; })()"
-        )
-        return float(box[0]), float(box[1])
-
     async def touch(self, finger: int, x: float, y: float) -> None:
-        """Put a finger down, or move it."""
         kind = "touchMove" if finger in self.fingers else "touchStart"
         self.fingers[finger] = (x, y)
         await self._dispatch(kind, self.fingers)
 
     async def lift(self, finger: int) -> None:
         await self._dispatch("touchEnd", {finger: self.fingers.pop(finger)})
-
-    async def tap(self, name: str) -> None:
-        """Touch an element for a moment."""
-        await self.touch(9, *await self.middle(name))
-        await asyncio.sleep(0.05)
-        await self.lift(9)
-
-    async def lock(self, locked: bool) -> None:
-        """Lock or unlock the phone: as far as the page knows, it is hidden."""
-        hidden = f"Object.defineProperty(document, 'hidden', {{value: {str(locked).lower()}, configurable: true}})"
-        await self.value(f"{hidden}; document.dispatchEvent(new Event('visibilitychange')); 1")
 
     async def _dispatch(self, kind: str, fingers: dict[int, tuple[float, float]]) -> None:
         points = [{"x": x, "y": y, "id": finger} for finger, (x, y) in fingers.items()]
@@ -159,12 +127,17 @@ def running_browser() -> Iterator[str]:
         try:
             yield _address(process, Path(profile) / "DevToolsActivePort")
         finally:
-            process.terminate()
-            try:
-                process.wait(5.0)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
+            ended(process)
+
+
+def ended(process: subprocess.Popen[bytes]) -> None:
+    """End a process that was started here."""
+    process.terminate()
+    try:
+        process.wait(5.0)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
 
 
 @asynccontextmanager

@@ -4,37 +4,32 @@ Browser, server and arcade share a machine that may be slow: a story waits for w
 never for a fixed time. The arcade's time is counted by frames, and stands still where a page could be late.
 """
 
-import asyncio
-import threading
-import time
-from collections import deque
-from collections.abc import Callable, Coroutine, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import pytest
 
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import JoinByPhone
-from pigaming_app.scenes.phones.link import PhoneLink
 from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.input.controls import Controls
-from pigaming_app.ui.input.events import Device, StickState
 from pigaming_app.ui.input.phones import connection
 from tests.matches import setup_of
 from tests.scenes.arcade import Arcade
-from tests.scenes.phones.browser import LONG, PORTRAIT, Browser, Page, browsing, chromium, running_browser
+from tests.scenes.phones.browser import Browser, browsing, chromium, running_browser
+from tests.scenes.phones.touch_page import LONG, OPEN, PORTRAIT
+from tests.scenes.phones.visitors import OpenDay
 
 pytestmark = [
     pytest.mark.long,
     pytest.mark.skipif(not chromium(), reason="no Chromium: apt-get install chromium"),
     pytest.mark.usefixtures("_no_threads_stay"),
 ]
-OPEN = "!document.body.classList.contains('closed')"
 WATCH_FLASH = """
 new MutationObserver(([change]) => { window.flashed ||= change.target.classList.contains("lit"); })
     .observe(document.getElementById("flash"), { attributes: true }); 1
@@ -49,86 +44,6 @@ ROOM_LEFT = """
 })()
 """
 SHORTEST, LONGEST = 12.0, 300.0  # s, a match: it ends when all is tested
-T = TypeVar("T")
-
-
-class Visitors(threading.Thread):
-    """Runs a story in the browser beside the arcade, which has the main thread."""
-
-    def __init__(self, address: str, story: Callable[[Browser], Coroutine[Any, Any, None]]) -> None:
-        super().__init__(daemon=True)
-        self.address, self.story = address, story
-        self.error: BaseException | None = None
-
-    def run(self) -> None:
-        try:
-            asyncio.run(self._run())
-        except BaseException as error:
-            self.error = error
-
-    async def _run(self) -> None:
-        async with browsing(self.address) as browser:
-            await self.story(browser)
-            assert browser.errors == []
-
-
-class OpenDay:
-    """An arcade in real time, with phones on."""
-
-    def __init__(self, arcade: Arcade, browser: str) -> None:
-        self.arcade, self.link, self.browser = arcade, PhoneLink(arcade.context), browser
-        self._jobs: deque[Callable[[], None]] = deque()
-        settings = arcade.context.settings
-        settings.phones, settings.phones_network, settings.phones_port = True, "127.0.0.1", 0
-        self.link.update(arcade.stack.scenes)
-
-    @property
-    def url(self) -> str:
-        return self.arcade.context.shared(phone_host).url
-
-    def run(self, story: Callable[[Browser], Coroutine[Any, Any, None]]) -> None:
-        """Frames until the visitors are through."""
-        visitors = Visitors(self.browser, story)
-        visitors.start()
-        last = time.perf_counter()
-        while visitors.is_alive():
-            now = time.perf_counter()
-            while self._jobs:
-                self._jobs.popleft()()
-            waits = isinstance(self.arcade.stack.top, (Reconnect, Results))
-            self.arcade.frame(0.0 if waits else min(0.1, now - last))
-            self.link.update(self.arcade.stack.scenes)
-            last = now
-            time.sleep(max(0.0, 1 / 60 - (time.perf_counter() - now)))
-        if visitors.error:
-            raise visitors.error
-
-    async def between_frames(self, job: Callable[[], T]) -> T:
-        """Do something in the arcade's thread; returns its result."""
-        done: list[T] = []
-        self._jobs.append(lambda: done.append(job()))
-        await self.until(lambda: done, "a frame")
-        return done[0]
-
-    async def until(self, condition: Callable[[], Any], what: str) -> None:
-        """Wait until the arcade's thread has done its part."""
-        end = time.monotonic() + LONG
-        while not condition():
-            assert time.monotonic() < end, f"no {what}; on top lies {type(self.arcade.stack.top).__name__}"
-            await asyncio.sleep(0.02)
-
-    async def plugged(self, *numbers: int) -> None:
-        """Wait until exactly these phones are plugged in."""
-        phones = self.arcade.context.controls.phones
-        await self.until(lambda: sorted(phones.plugged) == list(numbers), f"phones {numbers}")
-
-    async def top(self, scene: type) -> None:
-        """Wait for a scene."""
-        await self.until(lambda: isinstance(self.arcade.stack.top, scene), scene.__name__)
-
-    async def drives(self, device: Device, condition: Callable[[StickState], bool]) -> None:
-        """Wait until a phone drives so."""
-        await self.until(lambda: condition(self.arcade.context.controls.drive(device)), f"such drive of {device}")
 
 
 @pytest.fixture(scope="module")
@@ -142,18 +57,9 @@ def browser() -> Iterator[str]:
 def day(browser: str, controls: Controls, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     monkeypatch.setattr(connection, "SILENT_SECONDS", LONG)  # a slow browser is no phone without Wi-Fi
-    day = OpenDay(Arcade(controls), browser)
+    day = OpenDay(Arcade(controls), lambda: browsing(browser))
     yield day
     day.arcade.context.shared(phone_host).close()
-
-
-async def steer(page: Page, x: float, y: float) -> None:
-    """Hold the stick at a deflection, each axis in [-1, 1]."""
-    mx, my = await page.middle("stick")
-    reach = await page.value("document.getElementById('base').offsetWidth / 2")
-    if 0 not in page.fingers:
-        await page.touch(0, mx, my)
-    await page.touch(0, mx + x * reach, my + y * reach)
 
 
 def test_four_pages_play_a_whole_match(day: OpenDay) -> None:
@@ -190,7 +96,7 @@ def test_four_pages_play_a_whole_match(day: OpenDay) -> None:
         robots = match.match.state.robots
         starts = [(robot.x, robot.y, robot.heading) for robot in robots]
         for page, (x, y) in zip(pages, ((0, -1), (0.7, -0.7), (-1, 0), (1, 0.3)), strict=True):
-            await steer(page, x, y)
+            await page.steer(x, y)
             await page.touch(1, *await page.middle("fire"))  # a second finger
         for device in devices:
             await day.drives(device, lambda state: state.fire and abs(state.linear) + abs(state.angular) > 0.5)
@@ -218,7 +124,7 @@ def test_four_pages_play_a_whole_match(day: OpenDay) -> None:
         for seat, page in enumerate(pages):
             for finger in list(page.fingers):
                 await page.lift(finger)
-            await steer(page, (-1) ** seat, -0.5)
+            await page.steer((-1) ** seat, -0.5)
             await page.touch(1, *await page.middle("fire"))
         state = match.match.state
         state.rules.ticks = max(round(SHORTEST * HZ), state.tick + 2 * HZ)
@@ -267,9 +173,9 @@ def test_touches_become_stick_and_buttons(day: OpenDay) -> None:
             await page.until(OPEN)
             await day.plugged(*range(number + 1))
             device = controls.handhelds()[-1]
-            await steer(page, 0, -1)
+            await page.steer(0, -1)
             await day.drives(device, lambda state: state.linear > 0.95 and abs(state.angular) < 0.1)
-            await steer(page, 1, 0)
+            await page.steer(1, 0)
             await day.drives(device, lambda state: state.angular > 0.95 and abs(state.linear) < 0.1)
             await page.touch(1, *await page.middle("fire"))
             await day.drives(device, lambda state: state.fire and not state.turbo)

@@ -41,7 +41,8 @@ class Phone:
 async def phone(session: ClientSession, server: PhoneServer, resume: str = "") -> Phone:
     """A phone that has scanned the code."""
     one = Phone(await socket_of(session, server, resume))
-    one.resume = (await one.told())["resume"]
+    while not one.resume:  # it comes when it is on the disk; the seat may come first
+        one.resume = (await one.told()).get("resume", "")
     return one
 
 
