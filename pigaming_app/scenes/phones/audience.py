@@ -37,7 +37,7 @@ class Audience:
         self._focused: Scene | None = None  # a choice of games whose focus was set
         self._lobby: Lobby | None = None  # on the stack
         self._line = ""  # about the votes
-        self._shows_cheers = self._in_match = False
+        self._match = self._shows_cheers = self._in_match = False
 
     @staticmethod
     def color(number: int) -> Color:
@@ -47,10 +47,10 @@ class Audience:
     def update(self, roster: Roster, now: Seating, scenes: Sequence[Scene], phones: Collection[int]) -> None:
         """Take cheers and votes, tell the phones what they may vote for, and apply what was voted."""
         top = scenes[-1] if scenes else None
-        self._shows_cheers, self._in_match = shows_cheers(top), isinstance(top, Driven)
         self.ballot.offer(game_of(scenes))
-        if isinstance(top, Driven):
+        if now.match and not self._match:
             self.ballot.clear()
+        self._match, self._shows_cheers, self._in_match = now.match, shows_cheers(top), isinstance(top, Driven)
         self.ballot.keep(phones)
         for number, wish in roster.wishes():
             guest = roster.guest(number)

@@ -122,7 +122,8 @@ def tallies(scenes: Sequence[Scene], words: Words) -> tuple[dict[int, Tally], st
     if match is None:
         return {}, ""
     now = snapshot(match, words, on_top)
-    line = "  ·  ".join([*(f"{side.name} {side.score}" for side in now.sides), now.clock])
+    parts = (f"{side.name} {side.score}".replace(" ", "\u00a0") for side in now.sides)  # none is broken on a phone
+    line = "  ·  ".join([*parts, now.clock])
     return {seat: Tally(side.score, now.clock) for side in now.sides for seat in side.seats}, line
 
 
