@@ -1,6 +1,7 @@
 """Phones as pads on loopback: from a moved stick to the tick that reads it, with four phones in a running match.
 
-Each phone moves its stick at random moments and reports it as the page does, at most 60 times a second. The match runs
+As many others as one address may have wait meanwhile, and report that they are there. Each phone that plays moves its
+stick at random moments and reports it as the page does, at most 60 times a second. The match runs
 at 60 frames and 50 ticks a second in real time. A latency ends with the tick that reads the stick, so half a tick of
 waiting belongs to it; drawing, radio and Wi-Fi do not.
 """
@@ -31,10 +32,12 @@ from pigaming_app.ui.input.events import Device, StickState
 from pigaming_app.ui.input.filters import apply_dead_zone
 from pigaming_app.ui.input.phone_messages import REACH, Touches, pack
 from pigaming_app.ui.input.phone_pads import MAX_PHONES
+from pigaming_app.ui.input.phones.roster import MAX_OF_ADDRESS
 from pigaming_app.ui.input.phones.server import PhoneServer
 from pigaming_app.ui.window import Canvas
 
 FPS, RATE = 60, 60  # frames of the arcade, messages of a phone, each per second
+WAITING, ALIVE_SECONDS = MAX_OF_ADDRESS - MAX_PHONES, 0.2  # phones in the queue, and between two of their messages
 MOVE_SECONDS = 0.12, 0.2  # between two moves of a stick
 SECONDS = 20.0
 START_SECONDS = 20.0
@@ -42,7 +45,7 @@ GOAL_MS = 30.0  # median
 
 
 class Mover(threading.Thread):
-    """Four phones in a thread of their own. `moved`: for each, the time of a move by the deflection it makes."""
+    """The phones in a thread of their own. `moved`: for each that plays, the time of a move by its deflection."""
 
     def __init__(self, url: str, seconds: float) -> None:
         super().__init__(daemon=True)
@@ -63,8 +66,13 @@ class Mover(threading.Thread):
         async with ClientSession() as session:
             address, origin = f"ws://{host}/{token}/pad", f"http://{host}"
             sockets = [await session.ws_connect(address, origin=origin) for _ in range(MAX_PHONES)]
+            waiting = [
+                asyncio.create_task(_wait(await session.ws_connect(address, origin=origin))) for _ in range(WAITING)
+            ]
             self.begun.wait()
             await asyncio.gather(*(self._play(socket, phone) for phone, socket in enumerate(sockets)))
+            for task in waiting:
+                task.cancel()
             for socket in sockets:
                 await socket.close()
 
@@ -82,6 +90,13 @@ class Mover(threading.Thread):
             self.messages += 1
             due = max(due + 1 / RATE, now)  # a page that was late does not catch up
             await asyncio.sleep(max(0.0, due - time.perf_counter()))
+
+
+async def _wait(socket: Any) -> None:
+    """Be in the queue, until cancelled."""
+    while True:
+        await socket.send_bytes(pack(Touches()))
+        await asyncio.sleep(ALIVE_SECONDS)
 
 
 def measure(seconds: float = SECONDS) -> dict[str, Any]:
@@ -108,6 +123,7 @@ def measure(seconds: float = SECONDS) -> dict[str, Any]:
     median, slow = ordered[len(ordered) // 2], ordered[int(0.99 * (len(ordered) - 1))]
     return {
         "phones": MAX_PHONES,
+        "phones_waiting": WAITING,
         "messages_per_second_a_phone": mover.messages / MAX_PHONES / seconds,
         "moves": len(ordered),
         "stick_to_tick_ms_median": median,

@@ -140,6 +140,12 @@ class Phones:
         self._shown.pop(number, None)
         self._texts.pop(number, None)
 
+    def forget(self, number: int) -> None:
+        """A phone is gone for good."""
+        self.disconnect(number)
+        self.forget_shown(number)
+        self.names.pop(number, None)
+
     def show(self, number: int, view: SeatView) -> None:
         """Tell a phone its seat or its place in the queue, if that has changed."""
         if self._reads(number) and self._shown.get(number) != view:

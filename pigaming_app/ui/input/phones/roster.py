@@ -113,6 +113,7 @@ class Roster:
                 if meter.spent(now):
                     return "full"
                 meter.exceeded(now)
+                self._drop_oldest()
                 number = self.phones.new_number()
                 guest = Guest(number, "", address, now, now, now, colour=number % COLOURS)
                 self._guests[number] = guest
@@ -232,8 +233,7 @@ class Roster:
                 self._banned.add(guest.token)
             if ban and all(other.address != guest.address for other in self._guests.values()):
                 self._banned.add(hash_of(guest.address))
-            self.phones.names.pop(number, None)
-            self.phones.disconnect(number)
+            self.phones.forget(number)
             self.expel(number, "removed")
             self._fill()
             self.changed()
@@ -266,9 +266,8 @@ class Roster:
         """Forget all phones, and who is banned."""
         with self._lock:
             for number in list(self._guests):
-                self.phones.disconnect(number)
+                self.phones.forget(number)
             self._guests, self._banned = {}, set()
-            self.phones.names.clear()
             self._new.clear()
 
     # ---- inside
@@ -285,9 +284,17 @@ class Roster:
             return False
         gone = max(idle, key=lambda one: (of_address[one.address], -one.touched_at))
         del self._guests[gone.number]
-        self.phones.names.pop(gone.number, None)
+        self.phones.forget(gone.number)
         self.expel(gone.number, "full")
         return True
+
+    def _drop_oldest(self) -> None:
+        """Forget the phone that is away longest if too many are remembered."""
+        away = [one for one in self._guests.values() if not one.connected and not one.placed]
+        if len(self._guests) >= MAX_KNOWN and away:
+            oldest = min(away, key=lambda one: one.left_at)
+            del self._guests[oldest.number]
+            self.phones.forget(oldest.number)
 
     def _touch(self, guest: Guest, pressed: bool) -> None:
         guest.touched_at = self.clock()
@@ -306,7 +313,7 @@ class Roster:
         if not guest.connected and not guest.placed:
             if now - guest.left_at > FORGET_SECONDS:
                 del self._guests[guest.number]
-                self.phones.names.pop(guest.number, None)
+                self.phones.forget(guest.number)
                 self.changed()
         elif guest.stage is Stage.WAITING and now - guest.touched_at > UNTOUCHED_SECONDS:
             guest.stage = Stage.IDLE

@@ -1,11 +1,12 @@
 """The order of the phones: searched at random against a model that is a plain list, and told in single stories."""
 
 import random
+import tracemalloc
 from collections import Counter
 
 import pytest
 
-from pigaming_app.ui.input.phone_messages import BITS, Touches, Wish, WishKind
+from pigaming_app.ui.input.phone_messages import BITS, SeatView, Touches, Wish, WishKind
 from pigaming_app.ui.input.phone_pads import MAX_PHONES, Phones
 from pigaming_app.ui.input.phones import roster as rosters
 from pigaming_app.ui.input.phones.memory import FORGET_SECONDS, Hall
@@ -350,3 +351,33 @@ def test_cheers_are_rationed_and_pile_up_to_a_limit(hall: Hallway) -> None:
         hall.roster.wish(one, Wish(WishKind.GAME, i % 200))
     assert len(hall.roster.wishes()) == rosters.MAX_WISHES
     assert hall.roster.wishes() == []
+
+
+def test_a_day_of_phones_leaves_nothing_behind(hall: Hallway) -> None:
+    """Thirty-two at a time, each with a name and a view of its own; those who have gone need no memory."""
+
+    def crowd(first: int) -> None:
+        hall.tokens.clear()
+        for i in range(MAX_CONNECTED):
+            number = hall.arrive(f"10.{first // 200}.{first % 200}.{i}")
+            hall.roster.wish(number, Wish(WishKind.NAME, text=f"Ana {i}"))
+        list(hall.phones.changes())
+        for one in hall.roster.guests():
+            hall.phones.show(one.number, SeatView(line=f"{first} : {one.number}"))
+            hall.phones.translate(one.number, {"page_fire": str(first)})
+            hall.roster.leave(one.number)
+        list(hall.phones.changes())
+        hall.wait(2)
+
+    tracemalloc.start()
+    try:
+        for first in range(20):
+            crowd(first)
+        before = tracemalloc.get_traced_memory()[0]
+        for first in range(20, 60):
+            crowd(first)
+        assert tracemalloc.get_traced_memory()[0] - before < 100_000
+    finally:
+        tracemalloc.stop()
+    kept = (hall.roster._guests, hall.phones._shown, hall.phones._texts, hall.phones.names)
+    assert all(len(table) <= rosters.MAX_KNOWN for table in kept)
