@@ -237,6 +237,8 @@ def test_who_is_not_touched_leaves_the_queue_and_makes_room_when_the_hall_is_ful
     players = hall.acting
     for second in range(int(UNTOUCHED_SECONDS) + 2):
         hall.wait(1, players, match=True)
+        for number in range(MAX_CONNECTED):
+            hall.roster.receive(number, Touches())  # its page is open, and that is all
         if second % 60 == 0:
             hall.touch(20)
     assert hall.stage(20) is Stage.WAITING
