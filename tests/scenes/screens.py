@@ -94,9 +94,10 @@ from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phone_messages import Wish, WishKind
+from pigaming_app.ui.input.phones.guest import Stage
 from pigaming_app.ui.input.phones.names import MAX_NAME
 from pigaming_app.ui.input.phones.network import NetworkInterface, PhonesUnavailable
-from pigaming_app.ui.input.phones.roster import MAX_CONNECTED, Stage
+from pigaming_app.ui.input.phones.roster import MAX_CONNECTED
 from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.events import drawn

@@ -14,8 +14,9 @@ from pigaming_app.games.game import FREE
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import change_arena, last_choice
+from pigaming_app.scenes.flow.match_words import game_title
 from pigaming_app.scenes.flow.stack import Scene
-from pigaming_app.scenes.phones.ballot import Ballot, title, titles
+from pigaming_app.scenes.phones.ballot import Ballot, title
 from pigaming_app.scenes.phones.cheers import COLORS, Cheers, votes_line
 from pigaming_app.scenes.phones.seating import Driven, Ended, Seating
 from pigaming_app.ui.draw import Color
@@ -32,7 +33,8 @@ class Audience:
     def __init__(self, context: Context) -> None:
         self.context = context
         self.ballot, self.cheers = Ballot(), Cheers()
-        self._told: dict[int, str] = {}  # the ballot that each phone has
+        self._titled = "", ""  # game and language of the titles
+        self._titles: list[str] = []  # of the arenas of the ballot
         self._applied = "", ""  # the game in whose choice the arena of the votes is
         self._focused: Scene | None = None  # a choice of games whose focus was set
         self._lobby: Lobby | None = None  # on the stack
@@ -62,7 +64,7 @@ class Audience:
                 self.ballot.vote_arena(number, wish.number)
             elif self._shows_cheers and not (now.match and number in now.phones):
                 self.cheers.add(wish.number, self.color(guest.colour), guest.name)
-        if phones:
+        if phones and scenes:
             self._tell(phones)
             self._apply(scenes)
         self._line = self._votes() if next_is_chosen(top) else ""
@@ -79,12 +81,16 @@ class Audience:
             votes_line(self._line).draw(screen)
 
     def _tell(self, phones: Collection[int]) -> None:
-        """Send the ballot to phones that do not have this one."""
-        text = ballot_text(*titles(self.ballot, self.context.words))
+        """Offer the phones the ballot. One arena a frame gets its title: it may be loaded."""
+        words, ballot = self.context.words, self.ballot
+        if self._titled != (ballot.game, words.language):
+            self._titled, self._titles = (ballot.game, words.language), []
+        if len(self._titles) < len(ballot.arenas):
+            self._titles.append(title(ballot.game, ballot.arenas[len(self._titles)], words))
+            return
+        text = ballot_text([game_title(words, game) for game in ballot.games], self._titles)
         for number in phones:
-            if self._told.get(number) != text:
-                self.context.controls.phones.send(number, text)
-        self._told = dict.fromkeys(phones, text)
+            self.context.controls.phones.offer(number, text)
 
     def _apply(self, scenes: Sequence[Scene]) -> None:
         """Use the votes where nobody has chosen, and begin a lobby with teams if the operator likes."""
@@ -113,7 +119,7 @@ class Audience:
     def _votes(self) -> str:
         """What leads, in one line."""
         words, (game, for_game), (arena, for_arena) = self.context.words, self.ballot.next_game, self.ballot.next_arena
-        parts = [f"{words(f'games.{game}')} × {for_game}"] if game else []
+        parts = [f"{game_title(words, game)} × {for_game}"] if game else []
         if arena:
             parts.append(f"{title(self.ballot.game, arena, words)} × {for_arena}")
         return words("phones.votes", names="  ·  ".join(parts)) if parts else ""

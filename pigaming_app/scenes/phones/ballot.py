@@ -60,13 +60,6 @@ class Ballot:
         return _first(self._arenas.values())
 
 
-def titles(ballot: Ballot, words: Words) -> tuple[list[str], list[str]]:
-    """The games and the arenas in words. Loads arenas at first use."""
-    return [words(f"games.{game}") for game in ballot.games], [
-        title(ballot.game, arena, words) for arena in ballot.arenas
-    ]
-
-
 def title(game: str, arena: str, words: Words) -> str:
     """The title of an arena; its name if it cannot be loaded."""
     try:

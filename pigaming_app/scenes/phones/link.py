@@ -14,7 +14,7 @@ from pigaming_app.ui.draw import MIST, PLAYERS, Color
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device
 from pigaming_app.ui.input.phone_messages import ITS_TURN, LEFT_QUEUE, SeatView
-from pigaming_app.ui.input.phones.roster import Guest, Stage
+from pigaming_app.ui.input.phones.guest import Guest, Stage
 
 PAGE_TEXTS = (
     "page_player", "page_join", "page_fire", "page_turbo", "page_ok", "page_back", "page_lost", "page_old",

@@ -14,7 +14,8 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import SMALLEST, fit_text, paragraph, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.input.phones.roster import MAX_CONNECTED, Guest, Stage
+from pigaming_app.ui.input.phones.guest import Guest, Stage
+from pigaming_app.ui.input.phones.roster import MAX_CONNECTED
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 
 TOP, PITCH, ROWS = 222, 44, 16  # px of the first row; rows in each of two columns

@@ -49,6 +49,7 @@ class Phones:
         self._queue: deque[tuple[int, ButtonChange | Button]] = deque()
         self._shown: dict[int, SeatView] = {}
         self._texts: dict[int, Mapping[str, str]] = {}  # last sent to each phone
+        self._ballots: dict[int, str] = {}
         self._next = 0
 
     # ---- for the server's thread
@@ -139,6 +140,7 @@ class Phones:
         """A phone is new or was reloaded: it knows neither its seat nor its texts."""
         self._shown.pop(number, None)
         self._texts.pop(number, None)
+        self._ballots.pop(number, None)
 
     def forget(self, number: int) -> None:
         """A phone is gone for good."""
@@ -157,6 +159,12 @@ class Phones:
         if self._reads(number) and self._texts.get(number) != texts:
             self._texts[number] = texts
             self.send(number, texts_text(texts))
+
+    def offer(self, number: int, ballot: str) -> None:
+        """Send a phone the message with what it may vote for, if that has changed or it has just come."""
+        if self._reads(number) and self._ballots.get(number) != ballot:
+            self._ballots[number] = ballot
+            self.send(number, ballot)
 
     def _reads(self, number: int) -> bool:
         return number in self.plugged or number in self.watching

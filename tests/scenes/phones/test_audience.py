@@ -22,7 +22,7 @@ from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.events import Device
 from pigaming_app.ui.input.phone_messages import Wish, WishKind
-from pigaming_app.ui.input.phones.roster import CHEER_SECONDS
+from pigaming_app.ui.input.phones.guest import CHEER_SECONDS
 from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade
 
@@ -139,6 +139,24 @@ def test_one_phone_has_one_vote_and_nonsense_has_none() -> None:
     assert ballot.next_game == (games[0], 1)
     ballot.clear()
     assert ballot.next_game == ("", 0)
+
+
+def test_a_reloaded_page_gets_the_ballot_again(fans: Fans, monkeypatch: pytest.MonkeyPatch) -> None:
+    sent: list[int] = []
+    fans.arcade.context.controls.phones.send = lambda number, text: sent.append(number) if "ballot" in text else None
+    fans.arcade.open(Lobby(fans.arcade.context, "race"))
+    for _ in range(20):
+        fans.update()
+    assert sorted(sent) == list(range(8))
+    admitted = fans.host.roster.admit("", "10.0.0.9")
+    assert not isinstance(admitted, str)
+    fans.update()
+    fans.update()
+    assert sent[8:] == [8]
+    fans.host.roster.admit(admitted[1], "10.0.0.9")  # before it was missed
+    fans.update()
+    fans.update()
+    assert sent[8:] == [8, 8]
 
 
 def test_votes_choose_the_arena_of_a_lobby_until_somebody_chooses(fans: Fans) -> None:

@@ -22,7 +22,7 @@ from pigaming_app.scenes.results.scene import Results
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Device
 from pigaming_app.ui.input.phones import connection
-from pigaming_app.ui.input.phones.roster import Stage
+from pigaming_app.ui.input.phones.guest import Stage
 from tests.matches import setup_of
 from tests.scenes.arcade import Arcade
 from tests.scenes.phones.browser import browsing, chromium, running_browser

@@ -13,7 +13,8 @@ from pigaming_app.scenes.results.scene import Results
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.input.phone_messages import BITS, LEFT_QUEUE, SeatView, Touches
 from pigaming_app.ui.input.phone_pads import Phones
-from pigaming_app.ui.input.phones.roster import TURN_SECONDS, UNTOUCHED_SECONDS, Stage
+from pigaming_app.ui.input.phones.guest import Stage
+from pigaming_app.ui.input.phones.roster import TURN_SECONDS, UNTOUCHED_SECONDS
 from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade
 

@@ -5,19 +5,17 @@ waited longest comes first, and after a match those who played are last. A phone
 its place until the end. The server's thread and the main loop share one roster.
 """
 
-import hashlib
 import secrets
 import threading
 import time
 from collections import Counter, deque
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, field
-from enum import Enum
 from typing import Literal
 
 from pigaming_app.ui.input.phone_messages import Touches, Wish, WishKind, name_text
 from pigaming_app.ui.input.phone_pads import MAX_PHONES as PLACES
 from pigaming_app.ui.input.phone_pads import Phones
+from pigaming_app.ui.input.phones.guest import CHEER_SECONDS, Guest, Stage, hash_of
 from pigaming_app.ui.input.phones.memory import FORGET_SECONDS, Hall, KnownPhone
 from pigaming_app.ui.input.phones.names import kind_name
 from pigaming_app.ui.input.phones.refusals import RateMeter
@@ -29,55 +27,10 @@ TURN_SECONDS = 60.0  # in which a phone has to take a seat that is free
 MAX_MISSED = 2  # turns in a row that a phone may miss
 UNTOUCHED_SECONDS = 300.0  # in the queue without a touch
 AWAY_SECONDS = 120.0  # for which a phone that is locked keeps its place in the queue
-CHEER_SECONDS = 1.5  # between two cheers of a phone
 MAX_WISHES = 256  # that the main loop has not read yet
 COLOURS = 8  # to choose from
 
 Refusal = Literal["full", "removed"]
-
-
-class Stage(Enum):
-    """A phone's way: in the queue; may act; has a seat; left the queue because nobody touched it."""
-
-    WAITING = "waiting"
-    TURN = "turn"
-    PLAYING = "playing"
-    IDLE = "idle"
-
-
-@dataclass
-class Guest:
-    """A phone that was let in. `token`: the hash of the token by which it returns; times in s of the clock.
-
-    `since`: it waits since then; `turn`: s of its turn in which a seat was free and others waited; `missed`: turns in
-    a row that it let pass; `left_at`: it is away since then.
-    """
-
-    number: int
-    token: str
-    address: str
-    since: float
-    touched_at: float
-    left_at: float
-    name: str = ""
-    colour: int = 0
-    played: int = 0
-    missed: int = 0
-    turn: float = 0.0
-    stage: Stage = Stage.WAITING
-    connected: bool = False
-    touches: Touches = field(default_factory=Touches)
-    cheered_at: float = -CHEER_SECONDS
-
-    @property
-    def placed(self) -> bool:
-        """True if one of the places is this phone's."""
-        return self.stage in (Stage.TURN, Stage.PLAYING)
-
-    @property
-    def rank(self) -> tuple[float, int, int]:
-        """Its order in the queue: the smallest comes first."""
-        return self.since, self.played, self.number
 
 
 class Roster:
@@ -335,8 +288,3 @@ class Roster:
         for guest in self._guests.values():
             self.phones.plug(guest.number, guest.connected and guest.placed)
         self.phones.watching = {one.number for one in self._guests.values() if one.connected and not one.placed}
-
-
-def hash_of(secret: str) -> str:
-    """A secret as it is kept."""
-    return hashlib.sha256(secret.encode(errors="replace")).hexdigest()[:32]

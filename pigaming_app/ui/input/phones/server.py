@@ -26,16 +26,15 @@ from pigaming_app import ASSETS
 from pigaming_app.ui.input import phone_messages as protocol
 from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones.connection import CLOSE_SECONDS, Connection, stop_reading
+from pigaming_app.ui.input.phones.limits import ConnectionLimits
 from pigaming_app.ui.input.phones.memory import Hall
 from pigaming_app.ui.input.phones.network import PhonesUnavailable
-from pigaming_app.ui.input.phones.refusals import ErrorsOfLibrary, RateMeter, Refusals
+from pigaming_app.ui.input.phones.refusals import ErrorsOfLibrary, Refusals
 from pigaming_app.ui.input.phones.roster import Refusal, Roster
 
 START_SECONDS = 5.0  # for the server to listen
 ALPHABET = "abcdefghjkmnpqrstuvwxyz23456789"  # without signs that look alike: the address may be typed
 TOKEN_LENGTH = 10  # 49 bits, guessed over a network within one session
-MAX_CONNECTIONS, MAX_OF_PEER = 160, 96  # a school may be behind one address: 31 phones, and pages that load
-MAX_OPENED, OPENED_SECONDS = 200, 10.0  # connections that a peer may open in that time: five for each page
 RECEIVE_BYTES = 8192  # buffered by the system for a connection: bounds what a flood makes the server parse at once
 IDLE_SECONDS = 5.0  # without a complete request
 KEEP_SECONDS = 2.0  # for which a phone waits at most until its token is on the disk
@@ -276,51 +275,6 @@ class PhoneServer:
                 del self.connections[number]
                 self.roster.leave(number)
         return connection.socket
-
-
-class ConnectionLimits:
-    """Limits the connections of all peers and of each."""
-
-    def __init__(self, server: web.Server, settings: dict[str, Any], refusals: Refusals) -> None:
-        self.server, self.settings, self.refusals = server, settings, refusals
-        self.open: dict[web.RequestHandler, str] = {}  # address of the peer of each connection
-        self._opened: dict[str, RateMeter] = {}
-
-    def handler(self) -> asyncio.Protocol:
-        """A protocol for a new connection."""
-        return _Guest(self)
-
-    def admits(self, peer: str) -> bool:
-        """True if a peer may open one more connection."""
-        if len(self._opened) > MAX_CONNECTIONS:
-            self._opened.clear()
-        meter = self._opened.setdefault(peer, RateMeter(MAX_OPENED, OPENED_SECONDS))
-        often = meter.exceeded(asyncio.get_running_loop().time())
-        return not often and len(self.open) < MAX_CONNECTIONS and [*self.open.values()].count(peer) < MAX_OF_PEER
-
-
-class _Guest(web.RequestHandler):
-    """An HTTP connection that is cut at once if its peer has too many."""
-
-    __slots__ = ("_guard",)
-
-    def __init__(self, guard: ConnectionLimits) -> None:
-        super().__init__(guard.server, loop=asyncio.get_running_loop(), **guard.settings)
-        self._guard = guard
-
-    def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        super().connection_made(transport)
-        name = transport.get_extra_info("peername")
-        peer = str(name[0]) if name else ""
-        if self._guard.admits(peer):
-            self._guard.open[self] = peer
-        else:
-            self._guard.refusals.note("too many connections refused", peer)
-            self.force_close()
-
-    def connection_lost(self, exc: BaseException | None) -> None:
-        self._guard.open.pop(self, None)
-        super().connection_lost(exc)
 
 
 def _first_part(path: str) -> bytes:

@@ -17,7 +17,7 @@ from aiohttp import ClientSession
 from pigaming_app.ui.input import phone_messages as protocol
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from pigaming_app.ui.input.phones import connection, refusals
+from pigaming_app.ui.input.phones import connection, limits, refusals
 from pigaming_app.ui.input.phones import server as servers
 from pigaming_app.ui.input.phones.server import PhoneServer
 from tests.ui.input.phones.client import LONG, phone, play, serving, until
@@ -222,7 +222,7 @@ def test_five_hundred_connections_leave_room_for_those_who_play(controls: Contro
                         peer.sendall(b"GET /")  # and no more
                 if i % 5 == 0:
                     await one.touch(0.0, -1.0)
-            await until(lambda: server.refusals.counts["too many connections refused"] >= 500 - servers.MAX_OPENED)
+            await until(lambda: server.refusals.counts["too many connections refused"] >= 500 - limits.MAX_OPENED)
             await one.touch(0.0, 1.0)
             seen = await presses(controls, lambda seen: (Button.DOWN, 0) in seen)
             assert (Button.LOST, 0) not in seen

@@ -9,6 +9,7 @@ import pytest
 from pigaming_app.ui.input.phone_messages import BITS, SeatView, Touches, Wish, WishKind
 from pigaming_app.ui.input.phone_pads import MAX_PHONES, Phones
 from pigaming_app.ui.input.phones import roster as rosters
+from pigaming_app.ui.input.phones.guest import CHEER_SECONDS, Stage
 from pigaming_app.ui.input.phones.memory import FORGET_SECONDS, Hall
 from pigaming_app.ui.input.phones.roster import (
     AWAY_SECONDS,
@@ -19,7 +20,6 @@ from pigaming_app.ui.input.phones.roster import (
     TURN_SECONDS,
     UNTOUCHED_SECONDS,
     Roster,
-    Stage,
 )
 
 PRESS = Touches(buttons=sum(BITS.values()))
@@ -347,7 +347,7 @@ def test_cheers_are_rationed_and_pile_up_to_a_limit(hall: Hallway) -> None:
     for _ in range(100):
         hall.roster.wish(one, Wish(WishKind.CHEER, 1))
     assert len(hall.roster.wishes()) == 1
-    hall.now += rosters.CHEER_SECONDS
+    hall.now += CHEER_SECONDS
     hall.roster.wish(one, Wish(WishKind.CHEER, 1))
     for i in range(1000):
         hall.roster.wish(one, Wish(WishKind.GAME, i % 200))
