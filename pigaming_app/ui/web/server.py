@@ -19,15 +19,10 @@ from urllib.parse import parse_qsl
 
 from aiohttp import web
 
+from pigaming_app.ui.input.phones.limits import ConnectionLimits
 from pigaming_app.ui.input.phones.network import PhonesUnavailable
 from pigaming_app.ui.input.phones.refusals import ErrorsOfLibrary, Refusals
-from pigaming_app.ui.input.phones.server import (
-    IDLE_SECONDS,
-    RECEIVE_BYTES,
-    START_SECONDS,
-    ConnectionLimits,
-    cause,
-)
+from pigaming_app.ui.input.phones.server import IDLE_SECONDS, RECEIVE_BYTES, START_SECONDS, cause
 
 MAX_BODY = 1 << 16  # bytes
 MAX_FIELDS = 64  # of a form or a query

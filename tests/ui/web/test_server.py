@@ -9,8 +9,7 @@ from typing import Any
 
 import pytest
 
-from pigaming_app.ui.input.phones import refusals
-from pigaming_app.ui.input.phones import server as phones_server
+from pigaming_app.ui.input.phones import limits, refusals
 from pigaming_app.ui.web import server as servers
 from pigaming_app.ui.web.server import PageServer, WebReply, WebRequest, tagged
 from tests.ui.input.phones.test_raw import REQUESTS
@@ -108,7 +107,7 @@ def test_a_slow_request_is_cut_whatever_it_dribbles(monkeypatch: pytest.MonkeyPa
 
 def test_many_connections_leave_room_for_others(monkeypatch: pytest.MonkeyPatch) -> None:
     with serving(echo) as server, ExitStack() as held:
-        for i in range(phones_server.MAX_OPENED + 50):
+        for i in range(limits.MAX_OPENED + 50):
             peer = held.enter_context(socket.create_connection((server.address, server.port), LONG))
             if i % 2:
                 with suppress(ConnectionError):
@@ -118,7 +117,7 @@ def test_many_connections_leave_room_for_others(monkeypatch: pytest.MonkeyPatch)
             time.sleep(0.02)
         assert server.refusals.counts["too many connections refused"]
         held.close()
-        monkeypatch.setattr(phones_server, "MAX_OPENED", 10**6)
+        monkeypatch.setattr(limits, "MAX_OPENED", 10**6)
         assert _other(server) == 200
 
 
