@@ -54,6 +54,8 @@ class PhoneLink:
         texts = self._texts.setdefault(context.words.language, page_texts(context.words))
         self.host.switch(settings.phones, settings.phones_network, settings.phones_port, texts)
         phones, roster = context.controls.phones, self.host.roster
+        if not self.host.on and not phones.plugged:
+            return
         now = seating(scenes)
         self._take_turns(now, scenes)
         shown = sorted({*phones.plugged, *phones.watching})
