@@ -178,7 +178,7 @@ class Progress:
             self._present(name)
         on_call.check(self.as_field(), names)
         *before, now = self.rounds
-        added = self._fixtures(now.number, (MatchUp(names),))
+        added = self._fixtures(now.number, (MatchUp(names, on_call.stage),))
         return replace(self, rounds=(*before, replace(now, fixtures=(*now.fixtures, *added))))
 
     def _closed(self) -> "Progress":

@@ -13,6 +13,7 @@ MAX_ROUNDS = 64
 MAX_NAME = 24  # characters of an entrant or a team
 MAX_TITLE = 60  # characters
 MAX_SEED = 10**12
+WEEK = "week"  # stage of the matches of a ladder
 WALKOVER = "walkover"  # note of an outcome without a match: the opponent has withdrawn
 DEFAULT_AI = "level3"  # takes the seat of an entrant without a brain, where nobody can play
 
@@ -96,7 +97,9 @@ class Fixture:
 
     number: int  # from 1
     round: int  # from 1
-    stage: str  # "", or of a knock-out "winners", "losers", "final", of groups "group A" …, "knockout", "final"
+    stage: (
+        str  # "", or as the format has it: "winners", "losers", "final"; "group A", "knockout", "last"; "week"; "try"
+    )
     game: str
     arena: str  # empty: the game's default
     entrants: tuple[str, ...]

@@ -291,9 +291,10 @@ def event_arenas(arcade: Arcade) -> Scene:
     return scene
 
 
-def entrants(arcade: Arcade, count: int) -> Scene:
+def entrants(arcade: Arcade, count: int, classes: bool = False) -> Scene:
     found = [Entrant(name, "level3" * (i % 3 == 1), "D" * (i % 2)) for i, name in enumerate(drawn.names(count))]
     draft = Draft(Format.GRAND_PRIX, entrants=[*found[1:], Entrant("WWWWWWWWWWWW")])
+    draft.classes = {one.name: "5a" for one in found} if classes else {}
     return EntrantsPage(arcade.context, draft, lambda draft: "")
 
 
@@ -343,6 +344,11 @@ def correction(arcade: Arcade, reason: str = "", wide: bool = False) -> Scene:
     if reason:
         scene._write(reason)
     return scene
+
+
+def correction_of_a_try(arcade: Arcade) -> Scene:
+    run = event(Format.HIGH_SCORE, 3, 4, 3)
+    return Correction(arcade.context, run, run.event.fixtures[0])
 
 
 def event_managed(arcade: Arcade, row: str, form: Format = Format.SWISS) -> Scene:
@@ -545,13 +551,21 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "event setup arenas": event_arenas,
     "no entrants": lambda arcade: EntrantsPage(arcade.context, Draft(), lambda draft: ""),
     "entrants": partial(entrants, count=64),
+    "entrants of classes": partial(entrants, count=30, classes=True),
     "event letters": lambda arcade: LettersPage(arcade.context, lambda name: "", lambda: drawn.names(20)),
     "next match": partial(next_match, count=64, seats=4),
     "next match of two": partial(next_match, count=5, seats=2, said="events.missing"),
+    "next match alone": lambda arcade: NextMatch(
+        arcade.context, drawn.running(drawn.an_event(Format.TIME_TRIAL, 3).arrange("AAA"))
+    ),
+    "event weeks": partial(event_table, form=Format.CHALLENGE, count=12, page=1, matches=9),
+    "correction of a try": correction_of_a_try,
+    "event results of tries": lambda arcade: ResultsList(arcade.context, event(Format.TIME_TRIAL, 9, 1, 9)),
     "next match of AIs": partial(next_match, count=8, seats=3, brains="level5"),
     **{f"event table {count}": partial(event_table, form=Format.SWISS, count=count) for count in (3, 8, 16, 64)},
     "event groups": partial(event_table, form=Format.GROUPS, count=16),
     "event groups knocked out": partial(event_table, form=Format.GROUPS, count=16, page=1, matches=99),
+    "event groups round by round": partial(event_table, form=Format.GROUPS, count=64, page=8),
     "event ladder": partial(event_table, form=Format.CHALLENGE, count=12),
     "event lap times": partial(event_table, form=Format.TIME_TRIAL, count=8),
     "event scores": partial(event_table, form=Format.HIGH_SCORE, count=20),

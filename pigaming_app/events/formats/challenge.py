@@ -9,7 +9,7 @@ played for IDLE weeks in a row falls by one place.
 
 from pigaming_app.events.formats import tie_breaks
 from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, OnCall
-from pigaming_app.events.spec import WALKOVER, EventSpec, Standing
+from pigaming_app.events.spec import WALKOVER, WEEK, EventSpec, Standing
 
 WEEKS = 4  # by default
 IDLE = 2  # weeks without a match after which an entrant falls
@@ -103,5 +103,5 @@ KIND = FormatKind(
     figures=("wins", "played"),
     seats=(2,),
     rounds=(4, 6, 8, 12, 1, 2),
-    on_call=OnCall(check=_check, next=_next, periods=weeks),
+    on_call=OnCall(stage=WEEK, check=_check, next=_next, periods=weeks),
 )

@@ -136,6 +136,7 @@ class OnCall:
     None if a period is over; `periods`: how many there are.
     """
 
+    stage: str  # of its matches
     check: Callable[[EntrantField, tuple[str, ...]], None]
     next: Callable[[EntrantField], tuple[str, ...] | None]
     periods: Callable[[EventSpec], int]

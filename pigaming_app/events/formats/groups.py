@@ -47,7 +47,7 @@ def rounds(field: EntrantField) -> list[Draw]:
 def groups(field: EntrantField) -> dict[str, tuple[str, ...]]:
     """The groups by their letters, each in the order of the seeding."""
     early = [name for name in field.entrants if name not in field.late]
-    count = 1 << ((len(early) // SMALLEST).bit_length() - 1)
+    count = number_of(len(early))
     dealt: list[list[str]] = [[] for _ in range(count)]
     for i, name in enumerate(early):
         row, column = divmod(i, count)
@@ -56,6 +56,11 @@ def groups(field: EntrantField) -> dict[str, tuple[str, ...]]:
         if name in field.late:
             min(dealt, key=len).append(name)
     return {letter: tuple(group) for letter, group in zip(ascii_uppercase, dealt, strict=False)}
+
+
+def number_of(entrants: int) -> int:
+    """How many groups there are."""
+    return 1 << ((entrants // SMALLEST).bit_length() - 1)
 
 
 def tables(field: EntrantField) -> dict[str, tuple[Standing, ...]]:
@@ -118,6 +123,13 @@ def _of_stage(field: EntrantField, stage: str) -> list[Fixture]:
     return [one for drawn in field.rounds for one in drawn.fixtures if one.stage == stage]
 
 
+def _check(spec: EventSpec) -> None:
+    number = number_of(len(spec.entrants))
+    size = -(-len(spec.entrants) // number)
+    if max(1, spec.rounds) * number * size * (size - 1) // 2 > round_robin.MOST_MATCHES:
+        raise ValueError(f"{spec.rounds} times {number} groups are more than {round_robin.MOST_MATCHES} matches")
+
+
 def _wins(spec: EventSpec, fixture: Fixture) -> int:
     return 0 if fixture.stage.startswith(GROUP) else 1
 
@@ -140,5 +152,5 @@ KIND = FormatKind(
     bound=lambda spec: frozenset((KNOCKOUT, FINAL)),
     seats=(2,),
     rounds=(1, 2),
-    check=round_robin.check,
+    check=_check,
 )

@@ -125,8 +125,7 @@ def _left_early(field: EntrantField, name: str, fixtures: Sequence[Fixture]) -> 
     return 2 * played < len(own)
 
 
-def check(spec: EventSpec) -> None:
-    """Raises ValueError if everybody would have too many matches."""
+def _check(spec: EventSpec) -> None:
     count = len(spec.entrants)
     if max(1, spec.rounds) * count * (count - 1) // 2 > MOST_MATCHES:
         raise ValueError(f"{spec.rounds} times {count} entrants are more than {MOST_MATCHES} matches")
@@ -135,7 +134,7 @@ def check(spec: EventSpec) -> None:
 KIND = FormatKind(
     draws=rounds,
     table=table,
-    check=check,
+    check=_check,
     follows_results=False,
     exchanges=False,
     follows_withdrawals=False,

@@ -89,6 +89,6 @@ HIGH_SCORE = FormatKind(
     figures=("best", "second_best", "played"),
     fills=True,
     single=True,
-    on_call=OnCall(check=_check, next=_next, periods=lambda spec: 1),
+    on_call=OnCall(stage="try", check=_check, next=_next, periods=lambda spec: 1),
 )
 TIME_TRIAL = replace(HIGH_SCORE, seats=(1, 2, 3, 4), timed=True)

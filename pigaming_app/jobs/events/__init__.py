@@ -1,3 +1,3 @@
 """Events without their screens."""
 
-JOBS = {"event": "tournaments and Grand Prix of AIs and people"}
+JOBS = {"event": "tournaments, ladders and records of AIs and people"}

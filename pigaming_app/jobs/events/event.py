@@ -1,4 +1,4 @@
-"""Tournaments and Grand Prix: knock-out, round robin, Swiss. A file holds the whole event."""
+"""Tournaments, Grand Prix, ladders, time trials and high scores. A file holds the whole event."""
 
 from pigaming_app.jobs.events import arrange, close, desk, export, new, play, show
 from pigaming_app.jobs.events.changes import call, correct, enter, pause, result, seat, swap, withdraw

@@ -21,7 +21,7 @@ from pigaming_app.scenes.events.drivers import stood_in
 from pigaming_app.scenes.events.names import shortened
 from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.quick_match import QuickMatches
-from pigaming_app.scenes.events.running import RunningEvent, lots_line
+from pigaming_app.scenes.events.running import RunningEvent, lots_line, progress_line
 from pigaming_app.scenes.events.seats import EventSeats
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.table_page import TablePage
@@ -407,7 +407,9 @@ class EventMatch:
         return self.fixture.entrants
 
     def round_line(self, words: Words) -> str:
-        """Its round, and its number in the event."""
+        """Its round, and its number in the event; the week, or the number of tries."""
+        if self.running.event.progress.kind.on_call:
+            return progress_line(words, self.running.event)
         fixtures = self.running.event.fixtures
         at = next((i for i, one in enumerate(fixtures, 1) if one.number == self.fixture.number), len(fixtures))
         return words("events.progress", round=self.fixture.round, match=at, of=len(fixtures))

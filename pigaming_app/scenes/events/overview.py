@@ -81,7 +81,9 @@ def _sides(words: Words, event: Event, upcoming: int | None) -> list[list[Bracke
     if boxes[-1].state == LATER and boxes[-1].stage == FINAL:
         boxes[-1] = replace(boxes[-1], note=words("events.if_needed"), come=frozenset())  # the second final
     of_stages = [[box for stage in stages for box in boxes if box.stage == stage] for stages in sides.values()]
-    return [side for side in of_stages if side]
+    knocked = {stage for stages in sides.values() for stage in stages}
+    rest = [replace(box, stage="") for box in boxes if box.stage not in knocked]  # the groups, round by round
+    return [side for side in (*of_stages, rest) if side]
 
 
 def _box(event: Event, shown: Event, fixture: Fixture, upcoming: int | None) -> BracketBox:
@@ -155,13 +157,13 @@ def rows_of(
 def figure_of(words: Words, row: Standing, key: str) -> str:
     """A figure of a row: points, wins, matches, or a tie-break."""
     if key in ("best", "second_best"):
-        return worth(words, row.tie_breaks[key])
+        return worth(words, row.tie_breaks[key]) if row.tie_breaks[key] else "–"
     return number(words, {"points": row.points, "wins": row.wins, "played": row.played, **row.tie_breaks}[key])
 
 
 def worth(words: Words, value: float) -> str:
-    """A time, s, to the hundredth, or points; a dash for none."""
-    return words.decimal(numeral(value, 0 if value == int(value) else 2)) if value else "–"
+    """A time, s, to the hundredth, or points."""
+    return words.decimal(numeral(value, 0 if value == int(value) else 2))
 
 
 def number(words: Words, value: float) -> str:

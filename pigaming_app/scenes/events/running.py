@@ -12,7 +12,7 @@ from pigaming_app.events import calendar, event_files
 from pigaming_app.events.event import Event
 from pigaming_app.events.journal import Added, Summoned
 from pigaming_app.events.match_setup import setup_of
-from pigaming_app.events.spec import MOST, Fixture, Result
+from pigaming_app.events.spec import MOST, WEEK, Fixture, Result
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.events.names import shortened
 from pigaming_app.storage.safe_files import NotSaved
@@ -145,8 +145,9 @@ def progress_line(words: Words, event: Event) -> str:
 
 
 def stage_name(words: Words, stage: str, number: int, drawn: Iterable[tuple[str, int]]) -> str:
-    """The name of a round, counted within its stage; `drawn`: stage and round of all matches."""
-    number = len({one for one in drawn if one[0] == stage and one[1] <= number})
+    """The name of a round, counted within its stage, but for weeks; `drawn`: stage and round of all matches."""
+    if stage != WEEK:
+        number = len({one for one in drawn if one[0] == stage and one[1] <= number})
     kind, _, group = stage.partition(" ")
     return words(f"events.stage_{kind}", round=number, group=group) if stage else words("events.round", round=number)
 

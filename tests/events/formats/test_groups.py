@@ -88,6 +88,12 @@ def test_a_late_entrant_joins_the_smallest_group():
     assert sum("P8" in one.entrants for one in event.fixtures) == 3
 
 
+def test_groups_have_a_limit_of_matches():
+    assert len(new_event(Format.GROUPS, 64, rounds=40).fixtures) == 16 * 6 * 40
+    with pytest.raises(ValueError, match=r"^64 times 16 groups are more than 4096 matches$"):
+        _ = new_event(Format.GROUPS, 64, rounds=64).progress
+
+
 def test_groups_are_of_matches_of_two():
     with pytest.raises(ValueError, match=r"^a match has 2 seats, not 4$"):
         _ = new_event(Format.GROUPS, 8, seats=4).progress

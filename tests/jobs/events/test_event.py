@@ -13,11 +13,14 @@ from unittest.mock import Mock
 
 import pytest
 
+from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import load
-from pigaming_app.events.spec import Format
+from pigaming_app.events.spec import Entrant, EventSpec, Format
 from pigaming_app.jobs.cli import main
+from pigaming_app.jobs.events import play
 from tests.cases import one_in
+from tests.events.examples import ranked
 from tests.jobs.test_hostile_options import ANY, POSIX, fault, furnish
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -68,6 +71,69 @@ def test_an_event_from_its_beginning_to_the_table(form, output):
     assert all(row["wins"] <= row["played"] for row in result["standings"])
     assert result["over"]
     assert json.loads(output("show", "cup.json", "--json"))["standings"] == result["standings"]
+
+
+@pytest.mark.parametrize("form", list(Format))
+def test_an_event_that_is_stopped_after_every_step_ends_as_one_that_is_not(form, output, monkeypatch):
+    """Stopped when something has just been saved, again and again, and gone on with from the file."""
+    words = ["--game", "race" if form == "timetrial" else "pitanks", "--rounds", "2"]
+    entrants = "AAA=random,BBB=idle,CCC=random,DDD=random"
+    assert new(*words, form=form, entrants=entrants) == 0
+    fresh = Path("cup.json").read_text(encoding="utf-8")
+    whole = json.loads(output("run", "cup.json", "--headless", "--json"))
+    Path("cup.json").write_text(fresh, encoding="utf-8")
+    update = event_files.update
+
+    def stopped(*args):
+        update(*args)
+        raise KeyboardInterrupt
+
+    steps = 0
+    with monkeypatch.context() as patch:
+        patch.setattr(event_files, "update", stopped)
+        while not cup().over:
+            with pytest.raises(KeyboardInterrupt):
+                play.run(play.PlayEventOptions(file=Path("cup.json"), headless=True))
+            steps += 1
+            assert steps < 100
+    assert steps >= 2
+    shown = json.loads(output("show", "cup.json", "--json"))
+    assert shown["standings"] == whole["standings"]
+    assert shown["matches"] == whole["matches"]
+
+
+def test_what_another_process_has_arranged_is_not_arranged_again():
+    event = Event(EventSpec("L", Format.CHALLENGE, ("pitanks",), tuple(map(Entrant, "ABCD")))).continued()
+    assert play._continued(event) is event
+    while event.open:
+        event = event.record(ranked(event.open[0], *event.open[0].entrants))
+    assert play._continued(event).progress.closed == 1
+
+
+def test_groups_are_shown_each_with_its_table(output):
+    assert new(form="groups", entrants=",".join(f"{name}=idle" for name in "ABCDEFGH")) == 0
+    shown = output("show", "cup.json")
+    assert [line for line in shown.splitlines() if line.startswith("group ")] == ["group A", "group B"]
+    assert "group A)" in shown
+    found = json.loads(output("show", "cup.json", "--json"))
+    assert {name: [row["entrant"] for row in rows] for name, rows in found["groups"].items()} == {
+        "A": ["A", "D", "E", "H"], "B": ["B", "C", "F", "G"]
+    }  # fmt: skip
+
+
+def test_a_challenge_is_arranged_entered_and_its_week_closed(output, refused):
+    assert new(form="challenge", entrants="A,B,C") == 0
+    assert "\n    1  " in output("arrange", "cup.json", "C", "A")
+    assert sorted(cup().open[0].entrants) == ["A", "C"]
+    assert "A has an open challenge" in refused("event", "arrange", "cup.json", "B", "A")
+    output("result", "cup.json", "1", "C=3", "A=1")
+    assert [row.entrant for row in cup().standings] == ["C", "A", "B"]
+    output("close", "cup.json")
+    assert cup().progress.closed == 1
+    Path("cup.json").unlink()
+    assert new(form="swiss", entrants="A,B,C") == 0
+    assert "draws its matches itself" in refused("event", "arrange", "cup.json", "A", "B")
+    assert "no day or week" in refused("event", "close", "cup.json")
 
 
 def test_without_headless_the_arcade_opens_on_the_next_match(monkeypatch, controls):
@@ -290,7 +356,7 @@ def test_a_wrong_option_is_one_line(words, reason, refused):
         (["run", "cup.json", "--arcade", "left", "--headless"], "--arcade go without --headless"),
         (["run", "cup.json", "--arcade", "x" * 25], "1 to 24 printable characters"),
         (["show", "."], "cannot be read"),
-        (["export", "cup.json"], "--csv, --matches, --json, --poster or --certificates"),
+        (["export", "cup.json"], "--poster, --certificates or --site"),
         (["export", "cup.json", "--certificates", "a.png"], "is not the name of a .pdf file"),
         (["export", "cup.json", "--certificates", "a.pdf"], "no match has been played"),
         (["export", "cup.json", "--csv", "a.csv", "--places", "3"], "--places goes with --certificates"),

@@ -32,7 +32,7 @@ def an_event(
     games = ("pitanks", "factory", "race") if kind.series else ("race",) if kind.timed else ("pitanks",)
     seats = seats if seats in kind.seats else kind.seats[0]
     fill = "level3" if kind.fills and seats > 1 else ""
-    rounds = 0 if form is Format.KNOCKOUT else min(rounds, count - 1)
+    rounds = 0 if kind.sides else min(rounds, count - 1)
     return Event(EventSpec(title, form, games, entrants, rounds, seats, minutes={"pitanks": 1.0}, fill=fill))
 
 

@@ -204,7 +204,7 @@ def test_only_what_can_be_done_now_is_offered(arcade: Arcade) -> None:
     page.add_list("AAA\nBBB\nCCC")
     page.update(9.0)
     page.draw(arcade.screen)
-    assert page.prompts.buttons == [Button.FIRE, Button.START, Button.BACK]
+    assert page.prompts.buttons == [Button.FIRE, Button.X, Button.START, Button.BACK]
     arcade.press(Button.UP)
     page.draw(arcade.screen)
     assert page.prompts.buttons == [Button.X, Button.Y, Button.START, Button.BACK]

@@ -5,9 +5,10 @@ from datetime import date, timedelta
 import pytest
 
 from pigaming_app.events.event import Event
-from pigaming_app.events.spec import Entrant, EventSpec, Format
+from pigaming_app.events.spec import Entrant, EventSpec, Format, Result
 from pigaming_app.scenes.events.arrange_page import ArrangePage
 from pigaming_app.scenes.events.choice import EventsPage, page_of
+from pigaming_app.scenes.events.manage.corrections import Correction
 from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.podium_page import EventPodiumPage
@@ -158,6 +159,18 @@ def test_weeks_that_have_passed_are_closed_when_the_page_opens(arcade: Arcade) -
     arcade.open(page_of(arcade.context, run))
     assert saved(run).progress.closed == 2
     assert saved(run).open == ()
+
+
+def test_a_try_that_does_not_count(arcade: Arcade) -> None:
+    spec = EventSpec("T", Format.TIME_TRIAL, ("race",), tuple(map(Entrant, "ABC")), seats=1)
+    event = Event(spec).arrange("B")
+    run = running(event.record(Result(1, (("B",),), {"B": 12.3})))
+    arcade.open(Correction(arcade.context, run, run.event.fixtures[0]))
+    page = arcade.shown(Correction)
+    assert page.value("B").options == ("12.30", "does not count")
+    arcade.press(Button.RIGHT, Button.START)
+    assert saved(run).outcomes[1].scores == {}
+    assert saved(run).standings[0].tie_breaks["best"] == 0.0
 
 
 def test_ais_alone_play_their_tries_and_weeks_without_a_press(arcade: Arcade) -> None:

@@ -13,7 +13,7 @@ from pigaming_app.events.spec import Fixture, Result
 from pigaming_app.scenes.events.bracket_view import BracketBox, Column
 from pigaming_app.scenes.events.desk.document import document
 from pigaming_app.scenes.events.names import places_of
-from pigaming_app.scenes.events.overview import BRACKET, Overview, number, overview
+from pigaming_app.scenes.events.overview import BRACKET, GROUPS, TEAM_FIGURES, Overview, heads_of, overview, worth
 from pigaming_app.scenes.events.running import decided_by, progress_line, round_name
 from pigaming_app.scenes.events.table_view import TableRow
 from pigaming_app.ui.i18n import Words
@@ -66,11 +66,19 @@ def tables(words: Words, event: Event) -> Iterator[Markup]:
         kinds.add(kind)
         if kind == BRACKET:
             yield _bracket(seen, i, heading)
+        elif heading and kind == GROUPS:
+            for group in seen.groups:
+                yield from _table(group.rows, heads_of(words, TEAM_FIGURES), group.head)
         elif heading:
-            yield from _table(seen, kind, heading)
+            yield from _table(*seen.table(kind), heading)
 
 
-HEADINGS = {BRACKET: "desk.bracket", "table": "events.hint_table", "teams": "desk.teams"}
+HEADINGS = {
+    BRACKET: "desk.bracket",
+    GROUPS: "events.groups_side",
+    "table": "events.hint_table",
+    "teams": "desk.teams",
+}
 
 
 def _busy(event: Event, live: Sequence[LiveMatch]) -> list[Fixture]:
@@ -117,8 +125,7 @@ def versus(names: Sequence[str]) -> str:
     return " – ".join(names)
 
 
-def _table(seen: Overview, kind: str, heading: str) -> Iterator[Markup]:
-    rows, heads = seen.table(kind)
+def _table(rows: Sequence[TableRow], heads: Sequence[str], heading: str) -> Iterator[Markup]:
     head = tag("thead", tag("tr", tag("th"), tag("th"), *(tag("th", one) for one in heads)))
     for i, group in enumerate(_groups(rows, ROWS)):
         body = tag("tbody", *(_row(row, len(heads)) for row in group))
@@ -177,7 +184,7 @@ def result_line(words: Words, outcome: Result) -> str:
 
 
 def _score(words: Words, outcome: Result, name: str) -> str:
-    return f" {number(words, outcome.scores[name])}" if name in outcome.scores else ""
+    return f" {worth(words, outcome.scores[name])}" if name in outcome.scores else ""
 
 
 def _groups(rows: Sequence[T], most: int) -> list[Sequence[T]]:

@@ -12,6 +12,7 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import WALKOVER, Fixture, Result
 from pigaming_app.scenes.events.names import places_line, places_of, shortened
+from pigaming_app.scenes.events.overview import worth
 from pigaming_app.scenes.events.running import RunningEvent, decided_by, round_name
 from pigaming_app.scenes.flow.access import HOLD, HOLD_WITHOUT_PIN, Right, Roles
 from pigaming_app.scenes.flow.context import Context
@@ -24,6 +25,7 @@ from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_size, fit_text, text
+from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets import setting_row
@@ -115,7 +117,8 @@ class ResultsList(Page):
             where = round_name(words, event, fixture)
             how = decided_by(words, event, fixture.number)
             room = RESULT_ROOM - text_width(how, BODY) - 40
-            line = f"{places_line(outcome, room)}   {how}"
+            tried = event.progress.kind.single
+            line = tries_line(words, outcome) if tried else f"{places_line(outcome, room)}   {how}"
             noted = bool(outcome.note)
             result_row(where, line, noted, self.focus.name == str(i)).draw(screen, *row_box(i).topleft)
         if self.shown:
@@ -171,7 +174,7 @@ class ShownAgain:
 
 
 class Correction(SettingsPage):
-    """The places of one match, and the reason why they change."""
+    """The places of one match, or which tries count, and the reason why they change."""
 
     right, table, saves = Right.EVENTS, "events", False
     idle, when_idle, stay = 60.0, Pop(), 5.0
@@ -188,6 +191,8 @@ class Correction(SettingsPage):
         self.scores = before.scores
         self.places = {name: place for place, names in places_of(before) for name in names}
         self.names = sorted(fixture.entrants, key=lambda name: (self.places[name], name))
+        self.tried = running.event.progress.kind.single
+        self.void: set[str] = set()  # whose try does not count
         self.note, self.own = 0, ""  # the reason: one of those offered, or in own words
         super().__init__(context, (*self.names, NOTE, SAVE))
 
@@ -212,8 +217,12 @@ class Correction(SettingsPage):
         return super().description("correct")
 
     def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
-        """Draw the places."""
+        """Draw the places, or what has been reached."""
         panel = setting_row.PANEL
+        if self.tried:
+            line = tries_line(self.context.words, self.outcome)
+            text(line, BODY, ICE, "head", "l", panel.w - 80).draw(screen, panel.x + 40, panel.y + 80)
+            return
         for i, (place, names) in enumerate(places_of(self.outcome)):
             room = (panel.w - 130) // len(names) - 40
             line = f"{place}.  {' = '.join(shortened(name, room, BODY) for name in names)}"
@@ -227,7 +236,8 @@ class Correction(SettingsPage):
         """The result as it would be saved."""
         ranks = sorted(set(self.places.values()))
         places = tuple(tuple(name for name in self.names if self.places[name] == rank) for rank in ranks)
-        return Result(self.fixture.number, places, self.scores, self._reasons[self.note])
+        scores = {name: score for name, score in self.scores.items() if name not in self.void}
+        return Result(self.fixture.number, places, scores, self._reasons[self.note])
 
     # ---- inside
 
@@ -236,6 +246,9 @@ class Correction(SettingsPage):
             return self.action("events.hint_save")
         if name == NOTE:
             return SettingValue("arrows", self._reasons, self.note, endless=True)
+        if self.tried:
+            choices = worth(self.context.words, self.scores.get(name, 0.0)), self.context.words("events.void")
+            return SettingValue("toggle", choices, int(name in self.void), endless=True)
         count = len(self.names)
         places = tuple(str(i + 1) for i in range(count))
         return SettingValue("toggle", places, min(self.places[name], count) - 1, endless=True)
@@ -243,6 +256,8 @@ class Correction(SettingsPage):
     def apply(self, name: str, chosen: int) -> None:
         if name == NOTE:
             self.note = chosen
+        elif self.tried:
+            self.void = self.void | {name} if chosen else self.void - {name}
         else:
             self.places[name] = chosen + 1
 
@@ -280,6 +295,13 @@ class Correction(SettingsPage):
 def result_of(event: Event, fixture: Fixture) -> Result:
     """The result of a match; while its extra matches are open, that of the match itself."""
     return event.outcomes.get(fixture.number) or event.played[fixture.number][0]
+
+
+def tries_line(words: Words, outcome: Result) -> str:
+    """Who has tried, and what they have reached."""
+    names = [name for place in outcome.places for name in place]
+    reached = {name: worth(words, score) for name, score in outcome.scores.items()}
+    return "   ".join(f"{shortened(name)}  {reached.get(name, '–')}" for name in names)
 
 
 def row_box(i: int) -> pygame.Rect:

@@ -10,6 +10,7 @@ import pytest
 from pigaming_app.events.match_setup import setup_of
 from pigaming_app.events.spec import Format
 from pigaming_app.scenes.app import App
+from pigaming_app.scenes.events.arrange_page import ArrangePage
 from pigaming_app.scenes.events.board.event_page import (
     CALL,
     FOOT,
@@ -50,6 +51,8 @@ FIELDS = [
     (Format.SWISS, 12, 2, 7),
     (Format.SWISS, 64, 4, 20),
     (Format.GRAND_PRIX, 4, 4, 1),
+    (Format.GROUPS, 23, 2, 9),
+    (Format.CHALLENGE, 12, 2, 3),
 ]
 
 
@@ -296,3 +299,12 @@ def test_its_cost_is_measured_over_all_of_its_pages(home: Path, monkeypatch: pyt
     assert min(ratios.values()) > 0.0
     assert {page for page, shown in seen[60:] if shown} == {*second_screen.PAGES}
     assert [shown for _, shown in seen[60:]] == ([True] * 40 + [False] * 40) * 3
+
+
+def test_between_two_tries_the_second_screen_shows_the_table(arcade: Arcade) -> None:
+    run, clock = running(played(an_event(Format.TIME_TRIAL, 5, 1), 5)), Clock()
+    assert not run.event.open
+    found = every_page(EventBoardPage(arcade.context, clock), clock, [ArrangePage(arcade.context, run)])
+    text = str(found)
+    assert all(entrant.name in text for entrant in run.event.entrants)
+    assert "Tries: 5" in text
