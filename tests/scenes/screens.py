@@ -13,6 +13,7 @@ import pytest
 
 from pigaming_app.ai.game_ai import ONE_BUTTON, POINT
 from pigaming_app.ai.registry import AIS
+from pigaming_app.events.journal import Paused, Summoned
 from pigaming_app.events.ladder import Climb, table_of, worth
 from pigaming_app.events.league_files import Ratings, Strength
 from pigaming_app.events.spec import Entrant, Format
@@ -34,7 +35,9 @@ from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.events.arrange_page import ArrangePage
 from pigaming_app.scenes.events.choice import EventsPage
+from pigaming_app.scenes.events.desk.host import desk_host
 from pigaming_app.scenes.events.manage.corrections import Correction, ResultsList
+from pigaming_app.scenes.events.manage.desk_page import DeskPage
 from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.podium_page import EventPodiumPage
@@ -358,6 +361,27 @@ def event_managed(arcade: Arcade, row: str, form: Format = Format.SWISS) -> Scen
     return scene
 
 
+def event_desk(arcade: Arcade, url: str = "", trouble: str = "") -> Scene:
+    host = arcade.context.shared(desk_host)
+    server: Any = SimpleNamespace(url=url)
+    host.server = server if url else None
+    host.trouble = (trouble, {})
+    return DeskPage(arcade.context)
+
+
+def event_waiting(arcade: Arcade) -> Scene:
+    run = event(Format.SWISS, 3, 2, 0)
+    run.event = run.event.after(Summoned(run.event.open[0].number, "left"))
+    run.arcade = "right"
+    return NextMatch(arcade.context, run)
+
+
+def event_break(arcade: Arcade) -> Scene:
+    run = event(Format.SWISS, 8, 4, 0)
+    run.event = run.event.after(Paused("W" * 200))
+    return NextMatch(arcade.context, run)
+
+
 def events(arcade: Arcade) -> Scene:
     for i, form in enumerate(Format):
         drawn.running(drawn.played(drawn.an_event(form, 12, 4, title=30 * "W"), 3 * i), f"event-{i}")
@@ -586,6 +610,11 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "correction in own words": lambda arcade: correction(arcade, 40 * "W"),
     "event managed": lambda arcade: event_managed(arcade, "rename"),
     "event withdrawal": lambda arcade: event_managed(arcade, "withdraw"),
+    "event in browser": lambda arcade: event_managed(arcade, "desk"),
+    "event desk": lambda arcade: event_desk(arcade, "http://192.168.100.200:65535/"),
+    "event desk without PIN": lambda arcade: event_desk(arcade, trouble="desk.no_pin"),
+    "event waiting": event_waiting,
+    "event break": event_break,
     "event deletion": lambda arcade: event_managed(arcade, "delete"),
     "event title": lambda arcade: TextPage(arcade.context, arcade.context.words("events.rename"), 20 * "W", 60, str),
     "widest next match": partial(next_match, count=64, seats=4, wide=True),

@@ -375,7 +375,7 @@ class NextMatch:
             caption(shortened(line, 1600), FOCUS).draw(screen, 960, view.MESSAGE_Y)
         elif fixture is None:
             if self.running.event.open:
-                caption(words("desk.elsewhere"), FOCUS).draw(screen, 960, view.MESSAGE_Y)
+                caption(words("desk.elsewhere"), FOCUS).draw(screen, 960, 540)
         elif self.quick:
             call_to_action(words("events.playing"), "", LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
         elif (self.seats.people and not self.seats.waiting) or (self.show and not self.seats.people):

@@ -46,6 +46,8 @@ OPERATORS = {
     "event managed": Right.EVENTS,
     "event withdrawal": Right.EVENTS,
     "event deletion": Right.EVENTS,
+    "event in browser": Right.EVENTS,
+    "event desk": Right.EVENTS,
     "correction": Right.EVENTS,
     "widest correction": Right.EVENTS,
     "robots menu": Right.ROBOTS,

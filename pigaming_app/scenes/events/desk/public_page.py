@@ -13,7 +13,17 @@ from pigaming_app.events.spec import Fixture, Result
 from pigaming_app.scenes.events.bracket_view import BracketBox, Column
 from pigaming_app.scenes.events.desk.document import document
 from pigaming_app.scenes.events.names import places_of
-from pigaming_app.scenes.events.overview import BRACKET, GROUPS, TEAM_FIGURES, Overview, heads_of, overview, worth
+from pigaming_app.scenes.events.overview import (
+    BRACKET,
+    GROUPS,
+    TABLE,
+    TEAM_FIGURES,
+    TEAMS,
+    Overview,
+    heads_of,
+    overview,
+    worth,
+)
 from pigaming_app.scenes.events.running import decided_by, progress_line, round_name
 from pigaming_app.scenes.events.table_view import TableRow
 from pigaming_app.ui.i18n import Words
@@ -76,8 +86,8 @@ def tables(words: Words, event: Event) -> Iterator[Markup]:
 HEADINGS = {
     BRACKET: "desk.bracket",
     GROUPS: "events.groups_side",
-    "table": "events.hint_table",
-    "teams": "desk.teams",
+    TABLE: "events.hint_table",
+    TEAMS: "desk.teams",
 }
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from pigaming_app.events.event_files import update
+from pigaming_app.events.journal import Paused
 from pigaming_app.events.spec import Format
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.web.server import PageServer
@@ -167,6 +168,8 @@ def test_a_projector_shows_every_part_by_turns_large_enough(tmp_path: Path, brow
     for _ in range(20):
         if cup(path).open:
             update(path, lambda event: event.record(ranked(event.open[0], *event.open[0].entrants)))
+
+    update(path, lambda event: event.after(Paused("until 11:30")))
 
     async def tell(browser: Browser) -> None:
         page = await browser.phone(f"{server.url}?big", PROJECTOR)

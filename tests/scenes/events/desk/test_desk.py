@@ -7,7 +7,7 @@ from random import Random
 import pytest
 
 from pigaming_app.events.changes.live import LiveMatch, write
-from pigaming_app.events.event_files import update
+from pigaming_app.events.event_files import save, update
 from pigaming_app.events.spec import Format
 from pigaming_app.scenes.events.desk.sessions import LASTS, MOST, Sessions
 from pigaming_app.storage.pin import PinFile
@@ -15,6 +15,7 @@ from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.web.server import WebRequest
 from tests.events.examples import ranked
 from tests.jobs.kiosk.test_supervisor import Clock
+from tests.scenes.events import drawn
 from tests.scenes.events.desk.examples import PIN, Operator, cup, desk_on, new_event
 from tests.ui.web.test_markup import HOSTILE, Reader
 
@@ -270,3 +271,16 @@ def test_results_of_the_arcade_meanwhile_are_kept(path: Path, operator: Operator
 def best_first(event):
     fixture = event.open[0]
     return ranked(fixture, *fixture.entrants)
+
+
+@pytest.mark.parametrize("form", list(Format))
+@pytest.mark.parametrize("rounds", [0, 2, 1000])
+def test_every_format_has_its_pages_at_every_time(tmp_path: Path, form: Format, rounds: int) -> None:
+    path = tmp_path / "cup.json"
+    save(path, drawn.played(drawn.an_event(form, 6), rounds))
+    operator = Operator(desk_on(path))
+    operator.log_in()
+    for address in ("/", "/desk", "/desk/match/1", "/desk/entrant/0", "/desk/enter"):
+        page = operator.get(address)
+        assert page.status == 200 or (address == "/desk/match/1" and not cup(path).fixtures)
+        assert page.status == 404 or cup(path).spec.title in Reader(page.body.decode()).text
