@@ -51,7 +51,8 @@ def run(options: ExportOptions) -> int:
     if options.site:
         files += _site(event, options.site).items()
     if not files:
-        raise Refusal("--csv, --matches, --json, --poster, --certificates or --site with a name is needed")
+        named = "--csv, --matches, --json, --poster or --certificates"
+        raise Refusal(f"{named} with the name of a file is needed, or --site with a folder")
     names = [os.path.realpath(name) for name in (options.file, *(target for target, _ in files))]
     if len({*names}) < len(names):
         raise Refusal("every file needs a name of its own")
