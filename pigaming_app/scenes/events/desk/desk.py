@@ -52,6 +52,7 @@ class Desk:
         self._files = contents()
         self._lock = threading.Lock()  # of the event and of the live matches
         self._version: tuple[int, ...] = ()
+        self._pages: dict[str, tuple[Event, tuple[LiveMatch, ...], bytes]] = {}  # latest public page by language
         self._event = event_files.latest(path)
 
     def __call__(self, request: WebRequest) -> WebReply:
@@ -78,8 +79,13 @@ class Desk:
 
     def _public(self, request: WebRequest) -> WebReply:
         words = self._words(request, request.query.get("language", ""))
-        foot = [languages(words, "?language={language}")]
-        return tagged(request, _page(public_page(words, self.event(), self._now(), foot, LOOKS)))
+        event, live = self.event(), self._now()
+        known = self._pages.get(words.language)
+        if known is None or known[0] is not event or known[1] != live:
+            foot = [languages(words, "?language={language}")]
+            page = public_page(words, event, live, foot, LOOKS).encode()
+            known = self._pages[words.language] = event, live, page
+        return tagged(request, WebReply(known[2]))
 
     def _desk(self, request: WebRequest) -> WebReply:
         token = request.cookies.get(COOKIE, "")

@@ -3,12 +3,15 @@
 import re
 from pathlib import Path
 from random import Random
+from unittest.mock import Mock
 
 import pytest
 
 from pigaming_app.events.changes.live import LiveMatch, write
 from pigaming_app.events.event_files import save, update
 from pigaming_app.events.spec import Format
+from pigaming_app.scenes.events.desk import desk
+from pigaming_app.scenes.events.desk.public_page import public_page
 from pigaming_app.scenes.events.desk.sessions import LASTS, MOST, Sessions
 from pigaming_app.storage.pin import PinFile
 from pigaming_app.ui.i18n import LANGUAGES
@@ -284,3 +287,17 @@ def test_every_format_has_its_pages_at_every_time(tmp_path: Path, form: Format, 
         page = operator.get(address)
         assert page.status == 200 or (address == "/desk/match/1" and not cup(path).fixtures)
         assert page.status == 404 or cup(path).spec.title in Reader(page.body.decode()).text
+
+
+def test_many_who_look_at_the_public_page_cost_one_page(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = Mock(side_effect=public_page)
+    monkeypatch.setattr(desk, "public_page", page)
+    operator = Operator(desk_on(path))
+    pages = {operator.get("/").body for _ in range(20)}
+    assert (len(pages), page.call_count) == (1, 1)
+    update(path, lambda event: event.withdraw("Duda"))
+    assert operator.get("/").body not in pages
+    write(path, LiveMatch("left", 1, {"Ana": "12"}, "1:30"))
+    assert "1:30" in operator.get("/").body.decode()
+    operator.get("/?language=de")
+    assert page.call_count == 4
