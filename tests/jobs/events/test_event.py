@@ -356,7 +356,7 @@ def test_a_wrong_option_is_one_line(words, reason, refused):
         (["run", "cup.json", "--arcade", "left", "--headless"], "--arcade go without --headless"),
         (["run", "cup.json", "--arcade", "x" * 25], "1 to 24 printable characters"),
         (["show", "."], "cannot be read"),
-        (["export", "cup.json"], "--poster, --certificates or --site"),
+        (["export", "cup.json"], "--csv, --matches, --json, --poster or --certificates"),
         (["export", "cup.json", "--certificates", "a.png"], "is not the name of a .pdf file"),
         (["export", "cup.json", "--certificates", "a.pdf"], "no match has been played"),
         (["export", "cup.json", "--csv", "a.csv", "--places", "3"], "--places goes with --certificates"),
