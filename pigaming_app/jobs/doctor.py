@@ -176,8 +176,8 @@ def _restarts(data: Path) -> Iterator[Line]:
 
 def _kiosk(config: Path) -> Line:
     """How visitors could leave a kiosk here."""
-    ways = [] if PinFile(config).path.exists() else ["its operator has no PIN"]
-    advice = [] if PinFile(config).path.exists() else [f"{PROGRAM} kiosk pin"]
+    ways = [] if PinFile(config).exists else ["its operator has no PIN"]
+    advice = [] if PinFile(config).exists else [f"{PROGRAM} kiosk pin"]
     if sys.platform == "win32":
         ways.append("Ctrl+Alt+Del leads out")
         advice.append("a user with assigned access (docs/open-day.md)")

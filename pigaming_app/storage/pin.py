@@ -67,9 +67,14 @@ class PinFile:
     @property
     def is_set(self) -> bool:
         """True if a PIN is needed; also if the file cannot be read, which only its owner may mend."""
-        if (self.folder / RESET).exists():
+        if os.path.exists(self.folder / RESET):
             self._reset()
-        return self.path.exists()
+        return self.exists
+
+    @property
+    def exists(self) -> bool:
+        """True if there is a file, usable or not."""
+        return os.path.exists(self.path)  # unlike a method of Path, also false for a name that is too long
 
     def set(self, pin: str) -> None:
         """Replace the PIN. Raises ValueError unless it has SHORTEST to LONGEST digits, or NotSaved."""

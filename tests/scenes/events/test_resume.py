@@ -25,7 +25,7 @@ from tests.scenes.events.drawn import an_event, played, running
 pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")
 
 STEP = 0.1  # s of a frame
-KIOSK = Options(headless=True, kiosk=True, step=STEP)
+KIOSK = Options(headless=True, kiosk=True, step=STEP, changed_settings={"pin_asked": True})
 KEYS = Device("keys", 0)
 
 
