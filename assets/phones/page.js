@@ -216,7 +216,7 @@
 
   // A locked phone, or another page in front, is an unplugged pad.
   document.addEventListener("visibilitychange", () => {
-    if (document.hidden) { clearTimeout(retry); if (socket) socket.close(); }
+    if (document.hidden) { clearTimeout(retry); if (socket) { socket.close(); closed(1000); } }
     else back();
   });
   addEventListener("pageshow", back);
