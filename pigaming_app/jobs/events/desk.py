@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from pigaming_app.jobs.events.files import FileOption, loaded
 from pigaming_app.jobs.terminal.options import integer, option, word
 from pigaming_app.jobs.terminal.refusal import Refusal, require
-from pigaming_app.scenes.events.desk.host import PORT
 from pigaming_app.storage.pin import PinFile
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import english
+from pigaming_app.ui.web import PORT
 
 LOOPBACK = "127.0.0.1"
 

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.storage.pin import PinFile
 from pigaming_app.storage.settings import folders
+from pigaming_app.ui.web import PORT
 
 if TYPE_CHECKING:
     from pigaming_app.ui.web.server import PageServer
 
-PORT = 8788
 CHECK_SECONDS = 3.0  # s between two attempts to start
 NEEDED = ("pigaming_app.ui.input.phones.server", "ifaddr", "segno")  # feature and extra `phones`
 

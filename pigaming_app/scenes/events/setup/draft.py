@@ -96,17 +96,20 @@ class Draft:
             return LENGTHS if any(len(variant_of(game).minutes) > 1 for game in self.games) else ("normal",)
         if row == "rounds":
             return tuple(n * len(self.games) for n in TIMES) if self.kind.series else tuple(sorted(self.kind.rounds))
-        return tuple(sorted(self.kind.seats)) if row == "seats" else (False, True)
+        if row == "seats":
+            alone = all(time_record(game, variant_of(game)) for game in self.games)  # only against the clock
+            return tuple(count for count in sorted(self.kind.seats) if count > 1 or alone)
+        return (False, True)
 
     def choose(self, row: str, option: object) -> None:
         """Choose an option of a row; other rows follow where they have to."""
         setattr(self, row, option)
         if row == "format":
             self.seats = self.kind.seats[0]
-        for other in ("game", "length", "rounds"):
+        for other in ("game", "length", "seats", "rounds"):
             choices = self.options(other)
             if getattr(self, other) not in choices:
-                usual = {"length": "normal", "rounds": self.kind.rounds[0]}.get(other)
+                usual = {"length": "normal", "seats": self.kind.seats[0], "rounds": self.kind.rounds[0]}.get(other)
                 setattr(self, other, usual if usual in choices else choices[0])
 
     def minutes(self, game: str) -> float:
