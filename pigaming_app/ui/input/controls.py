@@ -75,7 +75,7 @@ class Controls:
         """Hand a letter or a backspace of the keyboard to the typist; true if so."""
         if self.typist is None or event.type != pygame.KEYDOWN:
             return False
-        letter = "\b" if event.key == pygame.K_BACKSPACE else event.unicode
+        letter = "\b" if event.key == pygame.K_BACKSPACE else event.dict.get("unicode", "")
         if letter != "\b" and not (letter and letter.isprintable()):
             return False
         self.typist(letter)

@@ -37,7 +37,7 @@ def test_compiled_matches_have_the_same_outcomes():
         Entrant(f"P{number}", brain) for number, brain in enumerate(("idle", "random", "random", "idle"), 1)
     )
     event = short_event(seats=2)
-    event = replace(event, spec=replace(event.spec, entrants=entrants, minutes={"pitanks": 1.0}))
+    event = replace(event, spec=replace(event.spec, entrants=entrants, minutes={"pitanks": 2.0}))
     plain, fast = HeadlessRun(event, fast=False), HeadlessRun(event, fast=True)
     outcomes = fast.play(event)
     assert [outcome.fixture for outcome in outcomes] == [1, 2, 3, 4, 5, 6]
