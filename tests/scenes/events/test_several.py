@@ -166,6 +166,7 @@ def playing(path: Path, name: str) -> Iterator["subprocess.Popen[bytes]"]:
 
 
 @pytest.mark.long
+@pytest.mark.again  # with screens; without them it is in tests/jobs/events/test_desk.py
 @pytest.mark.skipif(os.name != "posix", reason="SIGKILL")
 def test_two_arcades_of_which_one_is_killed_play_every_match_once(tmp_path: Path) -> None:
     entrants = tuple(Entrant(name, "random") for name in "ABCD")
