@@ -12,10 +12,10 @@ PEOPLE, MATCHES, SEED = 24, 16, 2026
 WITHIN = 0.15  # of a trait, or of its whole range where it is a share
 FOUND = {  # traits that half an hour of play tells so well
     ("pitanks", "turn"): ("reaction", "decisions", "timing", "aim", "prediction", "tactics"),
-    ("pitanks", "point"): tuple(name for name in FITTED if name != "aim"),
+    ("pitanks", "point"): FITTED,
     ("race", "turn"): ("decisions", "timing", "tactics"),
 }
-OPEN = {("pitanks", "point"): ("aim",)}  # 17.5 %: since guns hold five shots, fewer of them tell how well one aims
+AIM_OF_STICKS = "17.5 %: since guns hold five shots, fewer of them tell how well one aims; open in issue 30"
 
 
 @pytest.mark.long
@@ -32,8 +32,13 @@ def test_known_people_are_found_within_15_percent(game: str, driving: str) -> No
             off[name].append(abs(plain(name, raw) - true) / (1.0 if name in SHARES else true))
             outside[name].append(abs(raw - raw_of(name, true)) > 1.96 * error)
     middle = {name: float(np.median(values)) for name, values in off.items()}
-    assert all(middle[name] <= WITHIN for name in FOUND[game, driving]), middle
-    assert all(middle[name] > WITHIN for name in OPEN.get((game, driving), ())), f"found again: {middle}"
+    late = [name for name in FOUND[game, driving] if middle[name] > WITHIN]
+    if (game, driving) == ("pitanks", "point"):
+        assert late == ["aim"], middle  # strictly: no other, and none fewer
+    else:
+        assert not late, middle
     beyond = {name: float(np.mean(values)) for name, values in outside.items()}  # 5 % are expected
     assert np.mean([*beyond.values()]) <= 0.12, beyond
     assert max(beyond.values()) <= 0.05 + 5.0 * sqrt(0.05 * 0.95 / PEOPLE), beyond
+    if late:
+        pytest.xfail(AIM_OF_STICKS)
