@@ -24,7 +24,6 @@ ALLOWED = {
     ("balance", "learning"): "its compiled loops",
     ("balance", "factory"): "tricks in this game",
     ("events", "learning"): "its compiled loops, for `event run --headless`",
-    ("events", "phones"): "the limits of a server that anybody on the network may ask",
 }
 GUARDED = {"pigaming_app.scenes.brain.panels"}  # asks whether the game is there before it imports its crates late
 

@@ -99,8 +99,8 @@ from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phone_messages import Wish, WishKind
 from pigaming_app.ui.input.phones.guest import Stage
 from pigaming_app.ui.input.phones.names import MAX_NAME
-from pigaming_app.ui.input.phones.network import NetworkInterface, PhonesUnavailable
 from pigaming_app.ui.input.phones.roster import MAX_CONNECTED
+from pigaming_app.ui.web.network import NetworkInterface, ServerUnavailable
 from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.events import drawn
@@ -427,7 +427,7 @@ def with_phones(arcade: Arcade, trouble: str = "") -> Arcade:
     host = arcade.context.shared(phone_host)
     host._asked = ("", 65535)
     if trouble:
-        host.trouble = PhonesUnavailable(trouble, port=65535, name="Intel(R) Wi-Fi 6E AX210 160MHz")
+        host.trouble = ServerUnavailable(trouble, port=65535, name="Intel(R) Wi-Fi 6E AX210 160MHz")
     else:
         server: Any = SimpleNamespace(url=URL, port=65535, visited=False, stop=lambda: None)
         host.server = server

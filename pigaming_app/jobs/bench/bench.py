@@ -74,11 +74,11 @@ def _phones() -> dict[str, Any]:
     require("phones")
     from pigaming_app.jobs.bench.phones import measure
     from pigaming_app.ui.i18n import english
-    from pigaming_app.ui.input.phones.network import PhonesUnavailable
+    from pigaming_app.ui.web.network import ServerUnavailable
 
     try:
         return measure()
-    except PhonesUnavailable as trouble:
+    except ServerUnavailable as trouble:
         raise Refusal(english()(f"phones.{trouble.key}", **trouble.values)) from None
 
 

@@ -100,7 +100,7 @@ async def _wait(socket: Any) -> None:
 
 
 def measure(seconds: float = SECONDS) -> dict[str, Any]:
-    """The figures: latencies in ms, messages a second of each phone. Raises PhonesUnavailable, or Refusal if
+    """The figures: latencies in ms, messages a second of each phone. Raises ServerUnavailable, or Refusal if
     other programs leave no time to measure.
     """
     os.environ["SDL_VIDEODRIVER"] = "dummy"

@@ -35,7 +35,7 @@ def run(options: DeskOptions) -> int:
     if not pin.is_set:
         raise Refusal("event desk: the operator has no PIN; `python3 main.py kiosk pin` sets one")
     from pigaming_app.scenes.events.desk.desk import Desk
-    from pigaming_app.ui.input.phones.network import PhonesUnavailable, chosen, networks
+    from pigaming_app.ui.web.network import ServerUnavailable, chosen, networks
     from pigaming_app.ui.web.server import PageServer
 
     settings, _ = Settings.load(folders().config)
@@ -44,7 +44,7 @@ def run(options: DeskOptions) -> int:
         address = network if network == LOOPBACK else chosen(network, networks()).address
         server = PageServer(Desk(options.file, pin, settings.language), address, options.port)
         server.start()
-    except PhonesUnavailable as trouble:
+    except ServerUnavailable as trouble:
         raise Refusal(english()(f"phones.{trouble.key}", **trouble.values)) from None
     except ValueError as reason:
         raise Refusal(str(reason)) from None

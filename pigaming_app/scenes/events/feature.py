@@ -186,7 +186,7 @@ def is_running(scenes: Sequence[Scene]) -> bool:
 
 FEATURE = Feature(
     "events",
-    rooms=("scenes.events", "jobs.events", "events", "ui.web"),
+    rooms=("scenes.events", "jobs.events", "events"),
     menu=MenuItem(2, page),
     service=service,
     board_pages=board_pages,

@@ -21,8 +21,8 @@ from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.draw.text import fit_lines, fit_size, fit_text, paragraph, text, wrap
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
-from pigaming_app.ui.input.phones.code import qr_code, wifi_text
 from pigaming_app.ui.input.phones.host import PhoneHost
+from pigaming_app.ui.web.code import qr_code, wifi_text
 from pigaming_app.ui.widgets.labels import pulse, sign
 
 IDLE = 60.0  # s without input until the title

@@ -17,7 +17,7 @@ from pigaming_app.ui.draw import ALARM, BODY, FOCUS, MIST, STEEL, THIN, text_wid
 from pigaming_app.ui.draw.layers import LEFT, RIGHT
 from pigaming_app.ui.draw.text import SMALLEST, fit_text, text
 from pigaming_app.ui.input.events import InputEvent
-from pigaming_app.ui.input.phones.network import NetworkInterface, PhonesUnavailable, networks
+from pigaming_app.ui.web.network import NetworkInterface, ServerUnavailable, networks
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.labels import sign
 from pigaming_app.ui.widgets.setting_row import SettingValue
@@ -44,7 +44,7 @@ class PhonesPage(SettingsPage):
         """Look which networks there are."""
         try:
             self.networks = networks()
-        except PhonesUnavailable:
+        except ServerUnavailable:
             self.networks = []  # the status says why
 
     def paint(self, screen: pygame.Surface) -> None:

@@ -15,8 +15,8 @@ from pigaming_app.scenes.phones.settings_page import PhonesPage
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.input.phone_messages import Wish, WishKind
-from pigaming_app.ui.input.phones.code import wifi_text
 from pigaming_app.ui.input.phones.roster import Roster
+from pigaming_app.ui.web.code import wifi_text
 from tests.scenes.arcade import Arcade
 
 pytestmark = pytest.mark.usefixtures("_nothing_prewarmed")

@@ -2,12 +2,15 @@
 
 import socket
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from dataclasses import dataclass
+from typing import TypeVar
 from urllib.parse import urlencode
 
+from pigaming_app.ui.web.listener import Listener
 from pigaming_app.ui.web.server import Answer, PageServer
 
+Served = TypeVar("Served", bound=Listener)
 LONG = 60.0  # s, for whatever must come: the machine may be busy
 
 
@@ -21,14 +24,18 @@ class Received:
 
 
 @contextmanager
-def serving(answer: Answer) -> Iterator[PageServer]:
-    """A server on a free port of this computer."""
-    server = PageServer(answer, "127.0.0.1", 0)
+def running(server: Served) -> Iterator[Served]:
+    """The server, until the end of the block."""
     server.start()
     try:
         yield server
     finally:
         server.stop()
+
+
+def serving(answer: Answer) -> AbstractContextManager[PageServer]:
+    """A server of pages on a free port of this computer."""
+    return running(PageServer(answer, "127.0.0.1", 0))
 
 
 def ask(server: PageServer, path: str, form: dict[str, str] | None = None, **headers: str) -> Received:
@@ -43,7 +50,7 @@ def ask(server: PageServer, path: str, form: dict[str, str] | None = None, **hea
     return parsed(raw(server, ("\r\n".join(lines) + "\r\n\r\n").encode() + body))
 
 
-def raw(server: PageServer, request: bytes) -> bytes:
+def raw(server: Listener, request: bytes) -> bytes:
     """All bytes that answer these."""
     received = b""
     with socket.create_connection((server.address, server.port), LONG) as peer:

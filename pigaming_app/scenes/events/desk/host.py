@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from pigaming_app.ui.web.server import PageServer
 
 CHECK_SECONDS = 3.0  # s between two attempts to start
-NEEDED = ("pigaming_app.ui.input.phones.server", "ifaddr", "segno")  # feature and extra `phones`
+NEEDED = ("pigaming_app.ui.web.server", "ifaddr", "segno")  # of the extra `phones`
 
 
 class DeskHost:
@@ -56,7 +56,7 @@ class DeskHost:
             self.trouble = ("phones.missing", {})
             return
         from pigaming_app.scenes.events.desk.desk import Desk
-        from pigaming_app.ui.input.phones.network import PhonesUnavailable, chosen, networks
+        from pigaming_app.ui.web.network import ServerUnavailable, chosen, networks
         from pigaming_app.ui.web.server import PageServer
 
         pin = PinFile(folders().config)
@@ -66,7 +66,7 @@ class DeskHost:
         try:
             server = PageServer(Desk(path, pin, language), chosen(network, networks()).address, self.port)
             server.start()
-        except PhonesUnavailable as trouble:
+        except ServerUnavailable as trouble:
             self.trouble = (f"phones.{trouble.key}", trouble.values)
         except ValueError:
             self.trouble = ("events.damaged", {"name": path.name})

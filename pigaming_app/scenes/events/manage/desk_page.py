@@ -40,7 +40,7 @@ class DeskPage(SettingsPage):
     def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
         x, y = dials.CENTRE
         if self.host.url and can_serve():
-            from pigaming_app.ui.input.phones.code import qr_code
+            from pigaming_app.ui.web.code import qr_code
 
             code = qr_code(self.host.url.upper(), SIZE, BLACK, ICE)
             screen.blit(code, code.get_rect(center=(x, y)))

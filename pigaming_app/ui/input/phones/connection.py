@@ -6,8 +6,8 @@ from collections import deque
 from aiohttp import WSMessage, WSMsgType, web
 
 from pigaming_app.ui.input import phone_messages as protocol
-from pigaming_app.ui.input.phones.refusals import RateMeter, Refusals
 from pigaming_app.ui.input.phones.roster import Roster
+from pigaming_app.ui.web.refusals import RateMeter, Refusals
 
 SILENT_SECONDS = 1.5  # without a message, after which a phone counts as unplugged; a page sends at least five a second
 STALL_SECONDS = 0.05  # for messages that were waiting while this computer did nothing

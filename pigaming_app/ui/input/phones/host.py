@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones import memory
-from pigaming_app.ui.input.phones.network import PhonesUnavailable, chosen, networks
 from pigaming_app.ui.input.phones.roster import Roster
+from pigaming_app.ui.web.network import ServerUnavailable, chosen, networks
 
 if TYPE_CHECKING:
     from pigaming_app.ui.input.phones.server import PhoneServer
@@ -32,7 +32,7 @@ class PhoneHost:
         self.roster = Roster(phones)
         self._token = ""  # of the page, as long as phones are on
         self.server: PhoneServer | None = None
-        self.trouble: PhonesUnavailable | None = None
+        self.trouble: ServerUnavailable | None = None
         self._asked: tuple[str, int] | None = None  # network and port of the settings; None: phones are off
         self._checked_at = 0.0
 
@@ -112,7 +112,7 @@ class PhoneHost:
             server = PhoneServer(self.phones, address, port, texts, self.roster, self._token, keep)
             server.start()
             self.server, self._token = server, server.token
-        except PhonesUnavailable as trouble:
+        except ServerUnavailable as trouble:
             self.trouble = trouble
 
     def _check(self, texts: Mapping[str, str]) -> None:
@@ -124,7 +124,7 @@ class PhoneHost:
         try:
             address = chosen(self._asked[0], networks()).address
             self.trouble = None
-        except PhonesUnavailable as trouble:
+        except ServerUnavailable as trouble:
             self.trouble = trouble
             return
         if address != self.server.address:
@@ -134,6 +134,6 @@ class PhoneHost:
 
 
 def require_libraries() -> None:
-    """Raises PhonesUnavailable without the extra `phones`."""
+    """Raises ServerUnavailable without the extra `phones`."""
     if not all(find_spec(module) for module in MODULES):
-        raise PhonesUnavailable("missing")
+        raise ServerUnavailable("missing")

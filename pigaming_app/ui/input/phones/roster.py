@@ -18,7 +18,7 @@ from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones.guest import CHEER_SECONDS, Guest, Stage, hash_of
 from pigaming_app.ui.input.phones.memory import FORGET_SECONDS, Hall, KnownPhone
 from pigaming_app.ui.input.phones.names import kind_name
-from pigaming_app.ui.input.phones.refusals import RateMeter
+from pigaming_app.ui.web.refusals import RateMeter
 
 MAX_CONNECTED, MAX_OF_ADDRESS = 32, 31  # phones: a school may be behind one address, which never takes the last one
 MAX_NEW, NEW_SECONDS = 40, 600.0  # phones that one address may bring in that time

@@ -2,8 +2,8 @@
 
 import asyncio
 import json
-from collections.abc import Awaitable, Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Awaitable, Callable
+from contextlib import AbstractContextManager
 from typing import Any, TypeVar
 
 from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType
@@ -11,8 +11,8 @@ from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType
 from pigaming_app.ui.input.phone_messages import Touches, pack
 from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones.server import PhoneServer
+from tests.ui.web.client import LONG, running
 
-LONG = 60.0  # s, for whatever must come: the machine may be busy
 TEXTS = {"page_old": "This code is old.", "page_fire": "fire </script>"}
 T = TypeVar("T")
 
@@ -72,11 +72,5 @@ async def until(condition: Callable[[], Any]) -> None:
             await asyncio.sleep(0.005)
 
 
-@contextmanager
-def serving(phones: Phones, **options: Any) -> Iterator[PhoneServer]:
-    server = PhoneServer(phones, "127.0.0.1", options.pop("port", 0), options.pop("texts", TEXTS))
-    server.start()
-    try:
-        yield server
-    finally:
-        server.stop()
+def serving(phones: Phones, **options: Any) -> AbstractContextManager[PhoneServer]:
+    return running(PhoneServer(phones, "127.0.0.1", options.pop("port", 0), options.pop("texts", TEXTS)))

@@ -14,9 +14,10 @@ from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.phone_messages import Wish, WishKind, pack_wish
 from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones import host as hosts
-from pigaming_app.ui.input.phones import memory, network
+from pigaming_app.ui.input.phones import memory
 from pigaming_app.ui.input.phones.host import CHECK_SECONDS, PhoneHost
-from pigaming_app.ui.input.phones.network import NetworkInterface, PhonesUnavailable, chosen, networks
+from pigaming_app.ui.web import network
+from pigaming_app.ui.web.network import NetworkInterface, ServerUnavailable, chosen, networks
 from tests.ui.input.phones.client import phone, play, until
 
 pytestmark = pytest.mark.usefixtures("_no_threads_stay")
@@ -57,7 +58,7 @@ def test_the_chosen_network_is_found_by_name_or_address() -> None:
 
 @pytest.mark.parametrize(("name", "key"), [("", "no_network"), ("eth9", "network_gone"), ("10.0.0.1", "network_gone")])
 def test_no_other_network_replaces_the_chosen_one(name: str, key: str) -> None:
-    with pytest.raises(PhonesUnavailable) as trouble:
+    with pytest.raises(ServerUnavailable) as trouble:
         chosen(name, [] if not name else [WIFI])
     assert trouble.value.key == key
 

@@ -1,6 +1,5 @@
 """Raw bytes from a hostile peer: frames and requests that no browser sends, and many connections at once."""
 
-import logging
 import os
 import socket
 import struct
@@ -9,7 +8,6 @@ import zlib
 from collections.abc import Iterator
 from contextlib import ExitStack, suppress
 from itertools import pairwise
-from typing import Any
 
 import pytest
 from aiohttp import ClientSession
@@ -17,11 +15,12 @@ from aiohttp import ClientSession
 from pigaming_app.ui.input import phone_messages as protocol
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from pigaming_app.ui.input.phones import connection, limits, refusals
-from pigaming_app.ui.input.phones import server as servers
+from pigaming_app.ui.input.phones import connection
 from pigaming_app.ui.input.phones.server import PhoneServer
-from tests.ui.input.phones.client import LONG, phone, play, serving, until
+from pigaming_app.ui.web import limits
+from tests.ui.input.phones.client import phone, play, serving, until
 from tests.ui.input.phones.test_server import pressed, presses, still_plays
+from tests.ui.web.client import LONG
 
 pytestmark = pytest.mark.usefixtures("_no_threads_stay")
 FIN, RESERVED, TEXT, BINARY, CLOSE, PING = 0x80, 0x40, 1, 2, 8, 9
@@ -32,17 +31,6 @@ REFUSED_FRAME = "malformed or giant frame refused"
 def server(controls: Controls) -> Iterator[PhoneServer]:
     with serving(controls.phones) as server:
         yield server
-
-
-@pytest.fixture
-def quiet(caplog: pytest.LogCaptureFixture, capfd: Any, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """No traceback is printed or logged, and one line of a kind at most, however long the test takes."""
-    monkeypatch.setattr(refusals, "LOG_SECONDS", 1e6)
-    logging.getLogger("pigaming").propagate = True
-    yield
-    assert "Traceback" not in caplog.text + "".join(capfd.readouterr())
-    kinds = [record.getMessage().split(",")[0] for record in caplog.records]
-    assert len(kinds) == len(set(kinds)), kinds
 
 
 def frame(opcode: int, payload: bytes, bits: int = FIN) -> bytes:
@@ -110,15 +98,6 @@ FRAMES = {
     "a giant": frame(BINARY, b"x" * 65_000),
     "gigabytes announced": b"\x82\xff" + (2**62).to_bytes(8, "big") + b"\0" * 4 + b"x" * 1000,
 }
-REQUESTS = {
-    "TLS": b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + b"\0" * 200,
-    "a long path": b"GET " + b"/" * 20_000 + b" HTTP/1.1\r\n\r\n",
-    "many headers": b"GET / HTTP/1.1\r\n" + b"".join(b"A%d: b\r\n" % i for i in range(500)) + b"\r\n",
-    "another HTTP": b"GET / HTTP/9.9\r\n\r\n",
-    "no path": b"OPTIONS * HTTP/1.1\r\nHost: x\r\n\r\n",
-    "zeros": b"\0" * 5000,
-    "half a chunk": b"POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n",
-}
 
 
 @pytest.mark.usefixtures("quiet")
@@ -130,20 +109,6 @@ def test_a_frame_that_no_page_sends_ends_the_connection(controls: Controls, serv
         rest(peer)
     play(lambda session: until(lambda: server.refusals.counts[REFUSED_FRAME] == 1 and not server.phones._connected))
     pressed(controls)
-    play(lambda session: still_plays(session, server, controls))
-
-
-@pytest.mark.usefixtures("quiet")
-@pytest.mark.parametrize("name", REQUESTS)
-def test_a_malformed_request_is_refused(controls: Controls, server: PhoneServer, name: str) -> None:
-    first = b""
-    with connected(server) as peer, suppress(ConnectionError):
-        peer.sendall(REQUESTS[name])
-        first = peer.recv(1000)
-    assert first[:12] in (
-        b"",
-        *(b"HTTP/1.%d %d" % answer for answer in ((1, 400), (0, 400), (1, 403), (1, 405), (0, 403))),
-    )
     play(lambda session: still_plays(session, server, controls))
 
 
@@ -228,24 +193,6 @@ def test_five_hundred_connections_leave_room_for_those_who_play(controls: Contro
             assert (Button.LOST, 0) not in seen
 
     play(story)
-
-
-@pytest.mark.usefixtures("quiet")
-def test_a_slow_request_is_cut_whatever_it_dribbles(controls: Controls, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(servers, "IDLE_SECONDS", 0.4)
-    with serving(controls.phones) as server, connected(server) as peer:
-        begun = time.monotonic()
-        cut = False
-        peer.setblocking(False)
-        while not cut and time.monotonic() - begun < LONG:
-            try:
-                peer.sendall(b"G" if time.monotonic() - begun < 0.05 else b"E")
-                cut = peer.recv(100) == b""
-            except BlockingIOError:
-                time.sleep(0.05)
-            except ConnectionError:
-                cut = True
-        assert cut
 
 
 @pytest.mark.usefixtures("quiet")

@@ -2,7 +2,6 @@
 
 import asyncio
 import json
-import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -18,9 +17,9 @@ from pigaming_app.ui.input.phone_messages import BITS, SeatView, Wish, WishKind
 from pigaming_app.ui.input.phones import connection
 from pigaming_app.ui.input.phones import roster as rosters
 from pigaming_app.ui.input.phones import server as servers
-from pigaming_app.ui.input.phones.network import PhonesUnavailable
 from pigaming_app.ui.input.phones.server import PhoneServer
-from tests.ui.input.phones.client import LONG, origin, phone, play, serving, socket_of, until
+from tests.ui.input.phones.client import origin, phone, play, serving, socket_of, until
+from tests.ui.web.client import LONG
 
 pytestmark = pytest.mark.usefixtures("_no_threads_stay")
 
@@ -147,14 +146,6 @@ def test_a_page_of_another_origin_opens_no_socket(controls: Controls, server: Ph
     play(story)
 
 
-def test_another_host_name_for_this_address_is_refused(server: PhoneServer) -> None:
-    async def story(session: ClientSession) -> None:
-        assert (await answer(session, server, f"/{server.token}", Host="evil.example"))[0] == 403
-        assert server.refusals.counts["foreign host refused"] == 1
-
-    play(story)
-
-
 def test_unknown_pages_and_methods_are_refused(controls: Controls, server: PhoneServer) -> None:
     async def story(session: ClientSession) -> None:
         for path in ("/settings.toml", "/page.html", "/..%2f..%2fsettings.toml", "/pad/pad"):
@@ -185,7 +176,7 @@ def test_a_flood_ends_the_connection_and_slows_nobody(controls: Controls, server
 
 
 def test_sixty_messages_a_second_are_no_flood() -> None:
-    from pigaming_app.ui.input.phones.refusals import RateMeter
+    from pigaming_app.ui.web.refusals import RateMeter
 
     meter = RateMeter(protocol.MAX_RATE)
     assert not any(meter.exceeded(i / 60) for i in range(600))
@@ -343,42 +334,6 @@ def test_switching_off_unplugs_all_phones(controls: Controls) -> None:
         assert await one.closed() in (1001, 1006)
 
     play(story)
-
-
-def test_a_connection_that_sends_nothing_is_closed(controls: Controls, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(servers, "IDLE_SECONDS", 0.2)
-    with serving(controls.phones) as server:
-        for first in (b"", b"GET / HTTP/1.1\r\nHost:"):
-            with socket.create_connection((server.address, server.port)) as peer:
-                peer.sendall(first)
-                peer.settimeout(LONG)
-                assert peer.recv(1000) == b""
-
-
-def test_refusals_are_logged_in_one_line_per_kind_and_time(caplog: pytest.LogCaptureFixture) -> None:
-    from pigaming_app.ui.input.phones.refusals import LOG_SECONDS, Refusals
-
-    now = [0.0]
-    refusals = Refusals(lambda: now[0])
-    for _ in range(1000):
-        refusals.note("wrong token refused", "10.0.0.9")
-    now[0] = LOG_SECONDS
-    refusals.note("wrong token refused", "10.0.0.9")
-    lines = [record.getMessage() for record in caplog.records]
-    assert lines == ["phones: wrong token refused, 10.0.0.9.", "phones: wrong token refused, 10.0.0.9, and 999 more."]
-    assert refusals.counts["wrong token refused"] == 1001
-
-
-def test_it_listens_on_the_chosen_address_only(server: PhoneServer) -> None:
-    with pytest.raises(OSError, match=r".*"):
-        socket.create_connection(("127.0.0.2", server.port), 0.5)
-
-
-def test_an_address_of_another_computer_is_one_sentence(controls: Controls) -> None:
-    server = PhoneServer(controls.phones, "203.0.113.9", 0, {})
-    with pytest.raises(PhonesUnavailable) as trouble:
-        server.start()
-    assert trouble.value.key == "no_network"
 
 
 def test_texts_for_a_slow_phone_do_not_pile_up(controls: Controls, server: PhoneServer) -> None:

@@ -6,7 +6,7 @@ import re
 import pytest
 
 from pigaming_app.ui.draw.pixels import pixels_of
-from pigaming_app.ui.input.phones.code import qr_code, wifi_text
+from pigaming_app.ui.web.code import qr_code, wifi_text
 
 cv2 = pytest.importorskip("cv2", reason="the extra `hardware` is not installed")
 NETWORKS = [

@@ -1,4 +1,4 @@
-"""The networks of this computer, and the one that phones use."""
+"""The networks of this computer, and the one that devices use."""
 
 import ipaddress
 from dataclasses import dataclass
@@ -6,8 +6,8 @@ from dataclasses import dataclass
 WIRELESS = ("wl", "wi-fi", "wifi", "wireless", "wlan", "airport")  # in the names of wireless interfaces
 
 
-class PhonesUnavailable(Exception):
-    """Phones cannot join. `key`, in the table `phones` of the texts, and `values` make the sentence."""
+class ServerUnavailable(Exception):
+    """No device can reach this computer. `key`, in the table `phones` of the texts, and `values` make the sentence."""
 
     def __init__(self, key: str, **values: object) -> None:
         super().__init__(key)
@@ -27,11 +27,11 @@ class NetworkInterface:
 
 
 def networks() -> list[NetworkInterface]:
-    """The networks on which a phone may be: wireless ones first. Raises PhonesUnavailable without ifaddr."""
+    """The networks on which a phone may be: wireless ones first. Raises ServerUnavailable without ifaddr."""
     try:
         import ifaddr
     except ImportError:
-        raise PhonesUnavailable("missing") from None
+        raise ServerUnavailable("missing") from None
     found = [
         NetworkInterface(adapter.nice_name, ip.ip)
         for adapter in ifaddr.get_adapters()
@@ -42,7 +42,7 @@ def networks() -> list[NetworkInterface]:
 
 
 def chosen(name: str, found: list[NetworkInterface]) -> NetworkInterface:
-    """The network with this name or address; empty: the first one. Raises PhonesUnavailable if it is not there.
+    """The network with this name or address; empty: the first one. Raises ServerUnavailable if it is not there.
 
     The loopback address may be chosen, too, for tests on this computer.
     """
@@ -51,7 +51,7 @@ def chosen(name: str, found: list[NetworkInterface]) -> NetworkInterface:
     for network in found:
         if name in ("", network.name, network.address):
             return network
-    raise PhonesUnavailable("network_gone", name=name) if name else PhonesUnavailable("no_network")
+    raise ServerUnavailable("network_gone", name=name) if name else ServerUnavailable("no_network")
 
 
 def _reachable(address: str) -> bool:

@@ -3,7 +3,7 @@
 import pygame
 import pytest
 
-from pigaming_app.ui.input.phones.code import qr_code
+from pigaming_app.ui.web.code import qr_code
 
 URL = "HTTP://192.168.100.200:8787/ABCDEFGHJK"
 DARK, LIGHT = (0, 0, 0), (226, 238, 255)

@@ -5,7 +5,7 @@ from typing import Any
 
 from aiohttp import web
 
-from pigaming_app.ui.input.phones.refusals import RateMeter, Refusals
+from pigaming_app.ui.web.refusals import RateMeter, Refusals
 
 MAX_CONNECTIONS, MAX_OF_PEER = 160, 96  # a school may be behind one address: 31 phones, and pages that load
 MAX_OPENED, OPENED_SECONDS = 200, 10.0  # connections that a peer may open in that time: five for each page
