@@ -276,7 +276,7 @@ def _of_word(word: str) -> Entrant:
 def _checked(entrant: Entrant) -> Entrant:
     check_name(entrant.name)
     if entrant.team:
-        check_name(entrant.team, "team")
+        check_name(entrant.team, "bad_team")
     return entrant
 
 

@@ -28,7 +28,9 @@ from pigaming_app.events.journal import (
     Swapped,
     Withdrawn,
 )
+from pigaming_app.events.refusals import Refused
 from pigaming_app.events.spec import MOST, WALKOVER, Entrant, EventSpec, Fixture, Result, Round, check_name
+from pigaming_app.storage.parsing import quote
 
 SEED_STEP = 10_000  # between the seeds of two events, more than an event has matches
 
@@ -51,7 +53,7 @@ class Progress:
     joined: Mapping[str, int] = field(default_factory=dict)  # periods closed before somebody entered late
 
     def after(self, entry: Entry) -> "Progress":
-        """The event after this entry. Raises ValueError, with one sentence, if it is not possible."""
+        """The event after this entry. Raises Refused if it is not possible."""
         match entry:
             case Recorded(outcome):
                 return self._recorded(outcome)
@@ -83,11 +85,11 @@ class Progress:
                 return self._called(number, arcade)
             case Paused(note):
                 if self.pause is not None:
-                    raise ValueError("the break has begun already")
+                    raise Refused("break_begun")
                 return replace(self, pause=note)
             case Resumed():
                 if self.pause is None:
-                    raise ValueError("there is no break")
+                    raise Refused("no_break")
                 return replace(self, pause=None)
             case Arranged(names):
                 return self._arranged(names)
@@ -171,9 +173,9 @@ class Progress:
     def _arranged(self, names: tuple[str, ...]) -> "Progress":
         on_call = self.kind.on_call
         if on_call is None:
-            raise ValueError("this format draws its matches itself")
+            raise Refused("drawn")
         if not self.running:
-            raise ValueError("the event is over")
+            raise Refused("over")
         for name in names:
             self._present(name)
         on_call.check(self.as_field(), names)
@@ -184,7 +186,7 @@ class Progress:
     def _closed(self) -> "Progress":
         """The period is over. Nobody wins a match that is open."""
         if not self.running:
-            raise ValueError("there is no day or week to be closed")
+            raise Refused("no_period")
         still = [one for one in self.fixtures if one.number not in self.outcomes]
         lapsed = {one.number: Result(one.number, (tuple(sorted(one.entrants)),), note=WALKOVER) for one in still}
         return replace(self, outcomes={**self.outcomes, **lapsed}, closed=self.closed + 1).drawn()
@@ -244,22 +246,17 @@ class Progress:
     def _corrected(self, outcome: Result) -> "Progress":
         number = outcome.fixture
         if number not in self.played:
-            raise ValueError(f"match {number} has not been played")
+            raise Refused("unplayed", match=number)
         if not outcome.note.strip():
-            raise ValueError("a correction needs a note")
+            raise Refused("no_reason")
         fixture = self.fixtures[number - 1]
         outcomes = {other: kept for other, kept in self.outcomes.items() if other != number}
         before = replace(self, outcomes=outcomes, played={**self.played, number: ()})
         progress = before._after_match(fixture, checked(outcome, fixture))
         if self._qualified(fixture) != progress._qualified(fixture):
-            later = [
-                str(one.number)
-                for one in self.fixtures
-                if one.round > fixture.round and self._played(one) and self.kind.wins(self.spec, one)
-            ]
-            if later:
-                which = f"match {later[0]} has" if len(later) == 1 else f"matches {', '.join(later)} have"
-                raise ValueError(f"match {fixture.number} decides who goes on, and {which} been played since")
+            for one in self.fixtures:
+                if one.round > fixture.round and self._played(one) and self.kind.wins(self.spec, one):
+                    raise Refused("decided", match=number, later=one.number)
         return progress._without_unplayed_rounds().drawn() if self.kind.follows_results else progress
 
     def through(self, fixture: Fixture) -> frozenset[str]:
@@ -274,19 +271,19 @@ class Progress:
     def _added(self, entrant: Entrant) -> "Progress":
         check_name(entrant.name)
         if entrant.team:
-            check_name(entrant.team, "team")
+            check_name(entrant.team, "bad_team")
         if any(one.name == entrant.name for one in self.entrants):
-            raise ValueError(f"{entrant.name} is entered already")
+            raise Refused("entered", name=entrant.name)
         if len(self.entrants) == MOST:
-            raise ValueError(f"an event has at most {MOST} entrants")
+            raise Refused("full", most=MOST)
         if self.kind.on_call:
             if not self.running:
-                raise ValueError(f"{entrant.name} is too late: the event is over")
+                raise Refused("late_over", name=entrant.name)
             joined = {**self.joined, entrant.name: self.closed}
             return replace(self, entrants=(*self.entrants, entrant), joined=joined)
         progress = self._without_unplayed_rounds()
         if len(progress.rounds) > 1:
-            raise ValueError(f"{entrant.name} is too late: round 2 has begun")
+            raise Refused("late_round", name=entrant.name)
         late = self.late | {entrant.name} if progress.rounds else self.late
         return replace(progress, entrants=(*self.entrants, entrant), late=late).drawn()
 
@@ -315,9 +312,9 @@ class Progress:
     def _open_fixture(self, number: int) -> Fixture:
         fixtures = self.fixtures
         if not 0 < number <= len(fixtures):
-            raise ValueError(f"there is no match {number}")
+            raise Refused("no_match", match=number)
         if number in self.outcomes:
-            raise ValueError(f"match {number} has been played")
+            raise Refused("played", match=number)
         return fixtures[number - 1]
 
     def _called(self, number: int, arcade: str | None) -> "Progress":
@@ -325,34 +322,34 @@ class Progress:
         called = {other: where for other, where in self.called.items() if other != number}
         if arcade is None:
             if number not in self.called:
-                raise ValueError(f"match {number} is not called")
+                raise Refused("not_called", match=number)
             return replace(self, called=called)
         if arcade:
-            check_name(arcade, "name of an arcade")
+            check_name(arcade, "bad_arcade")
         if self.pause is not None:
-            raise ValueError("nothing is called during a break")
+            raise Refused("in_break")
         for other in called.keys() - self.outcomes.keys():
             busy = {*self.next_match(self.fixtures[other - 1]).entrants} & {*fixture.entrants}
             if busy:
-                raise ValueError(f"{min(busy)} is called to match {other}")
+                raise Refused("called", name=min(busy), match=other)
         return replace(self, called={**called, number: arcade})
 
     def _present(self, name: str) -> None:
         if all(entrant.name != name for entrant in self.entrants):
-            raise ValueError(f"{name} is not entered")
+            raise Refused("not_entered", name=name)
         if name in self.withdrawn:
-            raise ValueError(f"{name} has withdrawn")
+            raise Refused("withdrawn", name=name)
 
 
 def checked(outcome: Result, fixture: Fixture) -> Result:
-    """The outcome with equal places in one order. Raises ValueError unless it has every entrant of the match once."""
+    """The outcome with equal places in one order. Raises Refused unless it has every entrant of the match once."""
     named = sorted(name for place in outcome.places for name in place)
     if named != sorted(fixture.entrants) or not all(outcome.places):
-        raise ValueError(f"match {fixture.number} is between {', '.join(fixture.entrants)}, each with one place")
+        raise Refused("one_place", match=fixture.number, names=", ".join(fixture.entrants))
     if not {*outcome.scores} <= {*fixture.entrants}:
-        raise ValueError(f"match {fixture.number} has scores of {', '.join(fixture.entrants)} only")
+        raise Refused("other_scores", match=fixture.number, names=", ".join(fixture.entrants))
     if outcome.note == WALKOVER:
-        raise ValueError(f"{WALKOVER!r} is not a note of a match")
+        raise Refused("bad_note", note=quote(WALKOVER))
     if outcome.extra != fixture.extra:
-        raise ValueError(f"match {fixture.number} goes on with extra match {fixture.extra}, not {outcome.extra}")
+        raise Refused("other_extra", match=fixture.number, open=fixture.extra, extra=outcome.extra)
     return replace(outcome, places=tuple(tuple(sorted(place)) for place in outcome.places))

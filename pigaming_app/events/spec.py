@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from datetime import date
 from enum import StrEnum
 
+from pigaming_app.events.refusals import Refused
 from pigaming_app.storage.schema import Finite, Line
 
 FEWEST, MOST = 3, 64  # entrants
@@ -140,14 +141,14 @@ class Round:
     byes: tuple[str, ...] = ()
 
 
-class NameRefused(ValueError):
+class NameRefused(Refused):
     """A name is empty, too long or unprintable."""
 
 
-def check_name(name: str, what: str = "name") -> None:
-    """Raises NameRefused unless this can be the name of an entrant or a team."""
+def check_name(name: str, refusal: str = "bad_name") -> None:
+    """Raises NameRefused, with this key, unless this can be the name of an entrant, a team or an arcade."""
     if not 0 < len(name) <= MAX_NAME or not name.isprintable() or name != name.strip():
-        raise NameRefused(f"{name[:40]!r}: a {what} has 1 to {MAX_NAME} printable characters")
+        raise NameRefused(refusal, name=repr(name[:40]), most=MAX_NAME)
 
 
 def check_spec(spec: EventSpec) -> None:
@@ -159,7 +160,7 @@ def check_spec(spec: EventSpec) -> None:
     for entrant in spec.entrants:
         check_name(entrant.name)
         if entrant.team:
-            check_name(entrant.team, "team")
+            check_name(entrant.team, "bad_team")
         if names.count(entrant.name) > 1:
             raise ValueError(f"{entrant.name} is entered twice")
     if not spec.games:

@@ -1,6 +1,6 @@
 """What an operator asks for, in words or from a form, as an entry of the journal.
 
-Each function reads the event and returns one entry, which `Event.after` checks; its ValueErrors are plain sentences.
+Each function reads the event and returns one entry, which `Event.after` checks, or raises Refused.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -10,6 +10,7 @@ from math import isfinite
 from pigaming_app.events.entrant_lists import entrants_of_words
 from pigaming_app.events.event import Event
 from pigaming_app.events.journal import Added, Corrected, Recorded, Reseated
+from pigaming_app.events.refusals import Refused
 from pigaming_app.events.spec import Entrant, Fixture, Result
 from pigaming_app.storage.parsing import quote
 
@@ -33,10 +34,10 @@ def corrected(event: Event, number: int, words: Sequence[str], reason: str) -> C
 
 
 def scored(event: Event, number: int, extra: int, scores: Mapping[str, float]) -> Recorded:
-    """The result by scores of the match, or extra match, that somebody saw. Raises ValueError if it has counted."""
+    """The result by scores of the match, or extra match, that somebody saw. Raises Refused if it has counted."""
     fixture = next((one for one in event.open if one.number == number), None) or _fixture(event, number)
     if number in event.outcomes or fixture.extra != extra:
-        raise ValueError(f"match {number} has a result already")
+        raise Refused("counted", match=number)
     return Recorded(Result(number, by_score(fixture, scores), scores, extra=extra))
 
 
@@ -49,10 +50,10 @@ def entered(event: Event, word: str, complete: Callable[[Entrant, Sequence[str]]
 def seats(event: Event, number: int, words: Sequence[str]) -> Reseated:
     """The seats of a match: A=2 B=1; those who are not named keep the order of the others."""
     fixture = _fixture(event, number)
-    wanted = {name: figure(text, "seat") for name, text in map(_pair, words)}
+    wanted = {name: figure(text, "bad_seat") for name, text in map(_pair, words)}
     places = range(1, len(fixture.entrants) + 1)
     if not wanted or not {*wanted.values()} <= {*places} or len({*wanted.values()}) < len(words):
-        raise ValueError(f"match {number} has the seats 1 to {len(places)}, each for one: A=2 B=1")
+        raise Refused("seats", match=number, most=len(places))
     _require_entrants(fixture, wanted)
     rest = iter(name for name in fixture.entrants if name not in wanted)
     by_seat = {int(seat): name for name, seat in wanted.items()}
@@ -63,9 +64,9 @@ def by_score(fixture: Fixture, scores: Mapping[str, float]) -> Places:
     """The places of everybody in a match, who has a score each: more is better, equal ones share a place."""
     _require_entrants(fixture, scores)
     if missing := [name for name in fixture.entrants if name not in scores]:
-        raise ValueError(f"match {fixture.number}: the score of {missing[0]} is missing")
+        raise Refused("no_score", match=fixture.number, name=missing[0])
     if any(not isfinite(score) or abs(score) > MAX_SCORE for score in scores.values()):
-        raise ValueError(f"match {fixture.number}: a score is a number up to {MAX_SCORE:.0f}")
+        raise Refused("score_range", match=fixture.number, most=f"{MAX_SCORE:.0f}")
     ranked = sorted(scores, key=lambda name: (-scores[name], name))
     return tuple(tuple(names) for _, names in groupby(ranked, key=scores.__getitem__))
 
@@ -74,9 +75,9 @@ def _read(fixture: Fixture, words: Sequence[str]) -> tuple[Places, dict[str, flo
     """Places and scores: `A=3 B=1` are scores, more is better; `A B` are places, best first; `A+B` share one."""
     if any("=" in word and word not in fixture.entrants for word in words):
         pairs = [*map(_pair, words)]
-        scores = {name: figure(text, "score") for name, text in pairs}
+        scores = {name: figure(text) for name, text in pairs}
         if len(scores) < len(pairs):
-            raise ValueError(f"match {fixture.number}: each entrant has one score")
+            raise Refused("one_score", match=fixture.number)
         return by_score(fixture, scores), scores
     places = tuple((word,) if word in fixture.entrants else tuple(word.split("+")) for word in words)
     _require_entrants(fixture, [name for place in places for name in place])
@@ -86,26 +87,26 @@ def _read(fixture: Fixture, words: Sequence[str]) -> tuple[Places, dict[str, flo
 def _pair(word: str) -> tuple[str, str]:
     name, sign, text = word.rpartition("=")
     if not sign:
-        raise ValueError(f"{quote(word)}: NAME=NUMBER is needed")
+        raise Refused("no_pair", word=quote(word))
     return name, text
 
 
-def figure(text: str, what: str) -> float:
-    """A number with a decimal point or comma. Raises ValueError with `what` it is not."""
+def figure(text: str, refusal: str = "bad_score") -> float:
+    """A number with a decimal point or comma. Raises Refused."""
     try:
         return float(text.strip().replace(",", ".").replace("−", "-"))
     except ValueError:
-        raise ValueError(f"{quote(text)} is not a {what}") from None
+        raise Refused(refusal, text=quote(text)) from None
 
 
 def _fixture(event: Event, number: int) -> Fixture:
     fixture = next((one for one in event.fixtures if one.number == number), None)
     if fixture is None:
-        raise ValueError(f"there is no match {number}")
+        raise Refused("no_match", match=number)
     return fixture
 
 
 def _require_entrants(fixture: Fixture, names: Sequence[str] | Mapping[str, float]) -> None:
     if strangers := [name for name in names if name not in fixture.entrants]:
         who = ", ".join(fixture.entrants)
-        raise ValueError(f"{quote(strangers[0])} does not play in match {fixture.number}, which is between {who}")
+        raise Refused("stranger", name=quote(strangers[0]), match=fixture.number, names=who)

@@ -9,6 +9,7 @@ played for IDLE weeks in a row falls by one place.
 
 from pigaming_app.events.formats import tie_breaks
 from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, OnCall
+from pigaming_app.events.refusals import Refused
 from pigaming_app.events.spec import WALKOVER, WEEK, EventSpec, Standing
 
 WEEKS = 4  # by default
@@ -74,11 +75,11 @@ def in_reach(field: EntrantField, name: str) -> tuple[str, ...]:
 
 def _check(field: EntrantField, names: tuple[str, ...]) -> None:
     if len(names) != 2:
-        raise ValueError("a challenge is between two entrants, the challenger first")
+        raise Refused("two")
     if busy := [name for name in names if name in field.busy]:
-        raise ValueError(f"{busy[0]} has an open challenge")
+        raise Refused("challenge_open", name=busy[0])
     if names[1] not in in_reach(field, names[0]):
-        raise ValueError(f"{names[0]} can challenge those up to {field.spec.reach} places above only")
+        raise Refused("reach", name=names[0], reach=field.spec.reach)
 
 
 def _next(field: EntrantField) -> tuple[str, ...] | None:

@@ -10,6 +10,7 @@ from math import inf
 
 from pigaming_app.events.formats import tie_breaks
 from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, OnCall
+from pigaming_app.events.refusals import Refused
 from pigaming_app.events.spec import WALKOVER, EventSpec, Format, Standing
 
 TRIES = 3  # of AIs, unless the spec has another number
@@ -49,12 +50,12 @@ def table(field: EntrantField) -> tuple[Standing, ...]:
 
 def _check(field: EntrantField, names: tuple[str, ...]) -> None:
     if not 1 <= len(names) <= field.spec.seats or len({*names}) < len(names):
-        raise ValueError(f"1 to {field.spec.seats} entrants play a match, each of them once")
+        raise Refused("once", most=field.spec.seats)
     for name in names:
         if name in field.busy:
-            raise ValueError(f"{name} has an open try")
+            raise Refused("try_open", name=name)
         if field.spec.rounds and made(field, name) >= field.spec.rounds:
-            raise ValueError(f"{name} has had {field.spec.rounds} tries")
+            raise Refused("tries", name=name, most=field.spec.rounds)
 
 
 def _check_spec(spec: EventSpec) -> None:

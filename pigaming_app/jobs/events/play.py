@@ -47,7 +47,7 @@ def run(options: PlayEventOptions) -> int:
     event = loaded(options.file)
     if options.arcade:
         with refused(ValueError):
-            check_name(options.arcade, "name of an arcade")
+            check_name(options.arcade, "bad_arcade")
     if not options.headless:
         return _in_window(options, event)
     if options.kiosk or options.display is not None or options.scoreboard or options.arcade:

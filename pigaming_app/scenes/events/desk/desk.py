@@ -1,35 +1,24 @@
-"""The pages of an event by their addresses, and what their forms do.
+"""The pages of an event by their addresses, and the changes by their forms.
 
 Everything a browser sends is text that may be wrong. A form needs the session of the operator, its key, and an Origin
 that is this server; it becomes one entry of the journal, as on the command line.
 """
 
+import contextlib
+import logging
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from datetime import date
 from pathlib import Path
 
-from pigaming_app.ai.brain_files import is_path
-from pigaming_app.ai.registry import find_brain
-from pigaming_app.events import event_files
-from pigaming_app.events.changes import actions
+from pigaming_app.events import calendar, event_files
 from pigaming_app.events.changes.live import LiveMatch, LiveMatches
 from pigaming_app.events.event import Event
-from pigaming_app.events.journal import (
-    Added,
-    Entry,
-    Paused,
-    Postponed,
-    Reseated,
-    Resumed,
-    Substituted,
-    Summoned,
-    Swapped,
-    Withdrawn,
-)
-from pigaming_app.events.spec import DEFAULT_AI, Entrant, Fixture
-from pigaming_app.scenes.events.desk import desk_pages
+from pigaming_app.events.refusals import Refused
+from pigaming_app.scenes.events.desk import desk_pages, on_call_pages
 from pigaming_app.scenes.events.desk.desk_pages import DeskView
 from pigaming_app.scenes.events.desk.document import FILES, contents, languages
+from pigaming_app.scenes.events.desk.forms import Action, action_of, fixture_of, index
 from pigaming_app.scenes.events.desk.public_page import public_page
 from pigaming_app.scenes.events.desk.sessions import COOKIE, Session, Sessions, cookie, is_key
 from pigaming_app.storage.pin import PinFile
@@ -40,6 +29,8 @@ from pigaming_app.ui.web.server import WebReply, WebRequest, tagged
 
 LOOKS = 1.5  # s between two looks of the public page
 MAX_LENGTH = 400  # characters of a field; longer ones are cut
+
+log = logging.getLogger("pigaming")
 
 
 class Desk:
@@ -67,12 +58,15 @@ class Desk:
         return WebReply(status=404)
 
     def event(self) -> Event:
-        """The event in the file, read again if it has changed; the last one while it cannot be read."""
+        """The event in the file, whose past weeks are closed; the last one while it cannot be read."""
         with self._lock:
             if (version := event_files.version(self.path)) != self._version:
                 found, _ = event_files.load(self.path)
                 if found is not None:
                     self._event, self._version = found, version
+            if calendar.due(self._event, date.today()):
+                with contextlib.suppress(ValueError, NotSaved):
+                    self._event = event_files.update(self.path, lambda event: calendar.up_to(event, date.today()))
             return self._event
 
     # ---- pages
@@ -110,9 +104,10 @@ class Desk:
         return self._changed(request, session)
 
     def _log_in(self, request: WebRequest) -> WebReply:
-        words = self._words(request, "")
+        words = self._words(request, request.form.get("language", ""))
         token = self.sessions.begin(request.form.get("pin", ""), request.peer) if request.own else ""
-        if token:
+        if session := self.sessions.find(token):
+            session.language = words.language
             return _see("/desk", cookie(token))
         wait = self.sessions.pin.wait(request.peer)
         told = words("access.wait", seconds=round(wait + 0.5)) if wait else words("access.wrong")
@@ -123,12 +118,16 @@ class Desk:
         view = self._view(request, session, key)
         match request.path.strip("/").split("/"):
             case ["desk"]:
-                reply = _page(desk_pages.overview_page(view), status)
+                reply = _page(desk_pages.overview_page(view, on_call_pages.buttons(view.words, view.event)), status)
                 return reply if key else tagged(request, reply)
             case ["desk", "enter"]:
                 return _page(desk_pages.enter_page(view, request.form), status)
             case ["desk", "break"]:
                 return _page(desk_pages.pause_page(view), status)
+            case ["desk", "arrange"] if view.event.progress.running:
+                return _page(on_call_pages.arrange_page(view, {}), status)
+            case ["desk", "close"] if view.event.progress.running:
+                return _page(on_call_pages.close_page(view), status)
             case ["desk", "match", number]:
                 if fixture := fixture_of(view.event, number):
                     return _page(desk_pages.match_page(view, fixture), status)
@@ -137,9 +136,9 @@ class Desk:
                     return _page(desk_pages.entrant_page(view, i), status)
         return WebReply(status=404)
 
-    def _view(self, request: WebRequest, session: Session, key: str = "", detail: str = "") -> DeskView:
+    def _view(self, request: WebRequest, session: Session, key: str = "", **values: str) -> DeskView:
         words = self._words(request, session.language)
-        message = words(key, reason=detail) if key else ""
+        message = words(key, **values) if key else ""
         return DeskView(words, self.event(), self._now(), session.key, message)
 
     # ---- forms
@@ -152,12 +151,20 @@ class Desk:
             return WebReply(status=404)
         try:
             with self._lock:
-                self._event = event_files.update(self.path, lambda event: event.after(action(event)))
+                self._event = event_files.update(self.path, lambda event: _changed(event, action))
                 self._version = event_files.version(self.path)
         except (ValueError, NotSaved) as reason:
-            view = self._view(request, session, "desk.refused", str(reason))
+            view = self._view(request, session, "desk.refused", reason=self._why(request, session, reason))
             return _page(_again(request, view, form), 409)
         return _see("/desk")
+
+    def _why(self, request: WebRequest, session: Session, reason: Exception) -> str:
+        """The sentence of a refusal in the language of the operator."""
+        words = self._words(request, session.language)
+        if isinstance(reason, Refused):
+            return words(f"refused.{reason.key}", **reason.values)
+        log.warning("%s", reason)
+        return words("app.unsaved") if isinstance(reason, NotSaved) else words("events.damaged", name=self.path.name)
 
     def _now(self) -> tuple[LiveMatch, ...]:
         with self._lock:
@@ -170,95 +177,10 @@ class Desk:
         return Words(found)
 
 
-Action = Callable[[Event], Entry]
-
-
-def action_of(path: str, form: Mapping[str, str]) -> Action | None:
-    """What a form does; None if there is no such form. The action raises ValueError."""
-    match [*path.strip("/").split("/"), form.get("do", "")]:
-        case ["desk", "enter", _]:
-            return lambda event: _entered(event, form)
-        case ["desk", "break", "begin"]:
-            return lambda _: Paused(plain(form.get("note", ""))[: actions.MAX_NOTE])
-        case ["desk", "break", "end"]:
-            return lambda _: Resumed()
-        case ["desk", "entrant", number, do] if do in ENTRANT_ACTIONS:
-            return lambda event: ENTRANT_ACTIONS[do](_name(event, number), form)
-        case ["desk", "match", number, do] if do in MATCH_ACTIONS:
-            return lambda event: MATCH_ACTIONS[do](event, _fixture(event, number), form)
-    return None
-
-
-def _result(event: Event, fixture: Fixture, form: Mapping[str, str]) -> Entry:
-    extra = index(form.get("extra", "0"))
-    return actions.scored(event, fixture.number, extra, _scores(fixture, form))
-
-
-def _correction(event: Event, fixture: Fixture, form: Mapping[str, str]) -> Entry:
-    words = [f"{name}={score!r}" for name, score in _scores(fixture, form).items()]
-    return actions.corrected(event, fixture.number, words, plain(form.get("reason", "")))
-
-
-def _reseated(event: Event, fixture: Fixture, form: Mapping[str, str]) -> Entry:
-    return Reseated(fixture.number, tuple(form.get(f"seat{i}", "") for i in range(len(fixture.entrants))))
-
-
-MATCH_ACTIONS: Mapping[str, Callable[[Event, Fixture, Mapping[str, str]], Entry]] = {
-    "result": _result,
-    "correct": _correction,
-    "seats": _reseated,
-    "call": lambda event, fixture, form: Summoned(fixture.number, form.get("arcade", "").strip()),
-    "call_off": lambda event, fixture, form: Summoned(fixture.number, None),
-    "postpone": lambda event, fixture, form: Postponed(fixture.number),
-}
-ENTRANT_ACTIONS: Mapping[str, Callable[[str, Mapping[str, str]], Entry]] = {
-    "withdraw": lambda name, form: Withdrawn(name),
-    "absent": lambda name, form: Substituted(name, DEFAULT_AI),
-    "back": lambda name, form: Substituted(name, ""),
-    "swap": lambda name, form: Swapped(name, form.get("other", "")),
-}
-
-
-def fixture_of(event: Event, number: str) -> Fixture | None:
-    """The match of a number, its extra match if that is open."""
-    wanted = index(number)
-    return next((one for one in (*event.open, *event.fixtures) if one.number == wanted), None)
-
-
-def index(text: str) -> int:
-    """A small whole number; a huge one for anything else."""
-    return int(text) if text.isascii() and text.isdigit() and len(text) < 6 else 10**6
-
-
-def plain(text: str) -> str:
-    """A text on one line, without spaces around it."""
-    return "".join(char for char in " ".join(text.split()) if char.isprintable())
-
-
-def _scores(fixture: Fixture, form: Mapping[str, str]) -> dict[str, float]:
-    return {name: actions.figure(form.get(f"score{i}", ""), "score") for i, name in enumerate(fixture.entrants)}
-
-
-def _fixture(event: Event, number: str) -> Fixture:
-    fixture = fixture_of(event, number)
-    if fixture is None:
-        raise ValueError("there is no such match")
-    return fixture
-
-
-def _name(event: Event, number: str) -> str:
-    if (i := index(number)) >= len(event.entrants):
-        raise ValueError("there is no such entrant")
-    return event.entrants[i].name
-
-
-def _entered(event: Event, form: Mapping[str, str]) -> Added:
-    name, team, brain = (plain(form.get(field, "")) for field in ("name", "team", "brain"))
-    if brain and is_path(brain):
-        raise ValueError("the desk takes AIs by their names only")
-    for game in event.spec.games if brain else ():
-        find_brain(game, brain)
-    return Added(Entrant(name, brain, team))
+def _changed(event: Event, action: Action) -> Event:
+    """With what a form does, after the weeks that have passed are closed."""
+    event = calendar.up_to(event, date.today())
+    return event.after(action(event))
 
 
 def _again(request: WebRequest, view: DeskView, form: Mapping[str, str]) -> Markup:
@@ -266,6 +188,8 @@ def _again(request: WebRequest, view: DeskView, form: Mapping[str, str]) -> Mark
     match request.path.strip("/").split("/"):
         case ["desk", "enter"]:
             return desk_pages.enter_page(view, form)
+        case ["desk", "arrange"] if view.event.progress.running:
+            return on_call_pages.arrange_page(view, form)
         case ["desk", "match", number]:
             if fixture := fixture_of(view.event, number):
                 return desk_pages.match_page(view, fixture)

@@ -41,9 +41,10 @@ class DeskView:
         return document(words, f"{title} · {self.event.spec.title}", [top, message, *main], foot, every, "/")
 
     def form(self, address: str, *fields: object, **more: object) -> Markup:
-        """A form that only this session can send."""
+        """A form that only this session can send, and that counts once."""
         key = tag("input", type="hidden", name="key", value=self.key)
-        return tag("form", key, *fields, method="post", action=address, autocomplete="off", **more)
+        seen = tag("input", type="hidden", name="seen", value=len(self.event.journal))
+        return tag("form", key, seen, *fields, method="post", action=address, autocomplete="off", **more)
 
 
 def login_page(words: Words, title: str, message: str = "") -> Markup:
@@ -63,6 +64,7 @@ def login_page(words: Words, title: str, message: str = "") -> Markup:
                 autofocus=True,
             ),
         ),
+        tag("input", type="hidden", name="language", value=words.language),
         tag("button", words("desk.login")),
         method="post",
         action="/desk/login",
@@ -73,8 +75,8 @@ def login_page(words: Words, title: str, message: str = "") -> Markup:
     return document(words, title, [tag("h1", title), told, form], foot, 0, "/")
 
 
-def overview_page(view: DeskView) -> Markup:
-    """Break, open matches, late entries and entrants, then what everybody sees."""
+def overview_page(view: DeskView, buttons: Sequence[Markup]) -> Markup:
+    """Break, open matches, late entries and entrants, then what everybody sees; `buttons`: of the format."""
     words, event = view.words, view.event
     open_rows = [_open_row(view, one) for one in event.open]
     played = [one for one in reversed(event.fixtures) if one.number in event.played]
@@ -87,7 +89,7 @@ def overview_page(view: DeskView) -> Markup:
         words("desk.title"),
         *head(words, event),
         *now(words, event, view.live),
-        tag("section", tag("h2", words("desk.coming")), tag("ol", *open_rows, class_="rows"), _pause(view)),
+        tag("section", tag("h2", words("desk.coming")), tag("ol", *open_rows, class_="rows"), *buttons, _pause(view)),
         tag("section", tag("h2", words("desk.entrants")), tag("ol", *_entrants(view), class_="names"), late),
         tag("section", *results) if played else "",
         *tables(words, event),

@@ -72,6 +72,8 @@ def tables(words: Words, event: Event) -> Iterator[Markup]:
     seen = overview(words, event)
     kinds: set[str] = set()
     for kind, i in seen.pages:
+        if kind == BRACKET and not any(column.boxes for column in seen.bracket[i]):
+            continue  # nothing is arranged yet
         heading = None if kind in kinds else words(HEADINGS[kind])
         kinds.add(kind)
         if kind == BRACKET:

@@ -149,6 +149,30 @@ def test_every_page_fits_every_screen(tmp_path: Path, browser: str, language: st
         story(browser, tell)
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_challenge_is_arranged_and_the_week_ended_on_every_screen(
+    tmp_path: Path, browser: str, language: str
+) -> None:
+    path = new_event(tmp_path, *LONG_NAMES, form=Format.CHALLENGE)
+
+    async def tell(browser: Browser) -> None:
+        for i, size in enumerate((LAPTOP, TABLET, PHONE)):
+            page = await logged_in(browser, server, size, language)
+            await sent(page, "a[href='/desk/arrange']")
+            assert not await page.value(TOO_WIDE)
+            await page.value("document.querySelector('[name=name0]').value = 'DDDDDDDDDD ddddddddddddd'; 1")
+            await page.value("document.querySelector('[name=name1]').value = 'BBBBBBBBBB bbbbbbbbbbbbb'; 1")
+            await sent(page, "[action='/desk/arrange'] button")
+            assert [{*one.entrants} for one in cup(path).open] == [{LONG_NAMES[3], LONG_NAMES[1]}]
+            await sent(page, "a[href='/desk/close']")
+            assert not await page.value(TOO_WIDE)
+            await sent(page, "button.grave")
+            assert cup(path).progress.closed == i + 1
+
+    with serving(desk_on(path)) as server:
+        story(browser, tell)
+
+
 SMALL = """
 [...document.querySelectorAll('.shown, header')].flatMap((part) => [...part.querySelectorAll('*')])
     .filter((one) => [...one.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim()))

@@ -97,11 +97,11 @@ REFUSED = (
     ("/desk/match/1", {"do": "seats", "seat0": "Ana", "seat1": "Ana"}, "each with one seat"),
     ("/desk/match/1", {"do": "call_off"}, "is not called"),
     ("/desk/match/1", {"do": "call", "arcade": "x" * 30}, "1 to 24 printable"),
-    ("/desk/match/99", {"do": "postpone"}, "there is no such match"),
+    ("/desk/match/99", {"do": "postpone"}, "there is no match 99"),
     ("/desk/entrant/0", {"do": "swap", "other": "Caio"}, "play each other"),
     ("/desk/entrant/99", {"do": "withdraw"}, "there is no such entrant"),
     ("/desk/enter", {"name": "Ana"}, "is entered already"),
-    ("/desk/enter", {"name": "Eva", "brain": "nobody"}, "no brain"),
+    ("/desk/enter", {"name": "Eva", "brain": "nobody"}, "nobody: there is no AI of this name"),
     ("/desk/enter", {"name": "Eva", "brain": "/etc/passwd.npz"}, "by their names only"),
     ("/desk/enter", {"name": ""}, "1 to 24 printable"),
     ("/desk/break", {"do": "end"}, "there is no break"),
@@ -149,6 +149,16 @@ def test_without_the_pin_nobody_sees_the_desk(path: Path) -> None:
         assert "Ana" not in page
     assert stranger.log_in("000000").status == 403
     assert not stranger.token
+
+
+def test_the_language_of_the_login_stays(path: Path) -> None:
+    operator = Operator(desk_on(path))
+    login = Reader(operator.get("/desk?language=fr").body.decode())
+    (chosen,) = (words["value"] for _, words in login.elements if words.get("name") == "language")
+    assert operator.send("/desk/login", {"pin": "000000", "language": str(chosen)}).status == 403
+    reply = operator.send("/desk/login", {"pin": PIN, "language": str(chosen)})
+    operator.token = reply.headers["Set-Cookie"].partition(";")[0].partition("=")[2]
+    assert 'lang="fr"' in operator.get("/desk").body.decode()
 
 
 def test_guessing_is_slowed_down_by_address(path: Path) -> None:
