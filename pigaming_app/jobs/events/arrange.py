@@ -6,7 +6,8 @@ For formats without a draw: challenge ladder, time trial, high score.
 from dataclasses import dataclass
 from datetime import date
 
-from pigaming_app.events import calendar, event_files
+from pigaming_app.events import event_files
+from pigaming_app.events.changes import calendar
 from pigaming_app.jobs.events.files import FileOption, loaded
 from pigaming_app.jobs.events.show import print_event
 from pigaming_app.jobs.terminal.options import JsonOption, argument

@@ -8,7 +8,8 @@ from datetime import date
 from pathlib import Path
 
 from pigaming_app.ai.registry import find_brain
-from pigaming_app.events import calendar, event_files
+from pigaming_app.events import event_files
+from pigaming_app.events.changes import calendar
 from pigaming_app.events.event import Event
 from pigaming_app.events.journal import Added, Summoned
 from pigaming_app.events.match_setup import setup_of

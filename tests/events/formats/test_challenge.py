@@ -5,7 +5,7 @@ from random import Random
 
 import pytest
 
-from pigaming_app.events.calendar import up_to
+from pigaming_app.events.changes.calendar import up_to
 from pigaming_app.events.event import Event
 from pigaming_app.events.journal import Added, Arranged, Closed, Corrected, Recorded, Withdrawn
 from pigaming_app.events.spec import WALKOVER, Entrant, Format, Result

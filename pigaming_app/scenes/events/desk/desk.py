@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from datetime import date
 from pathlib import Path
 
-from pigaming_app.events import calendar, event_files
+from pigaming_app.events import event_files
+from pigaming_app.events.changes import calendar
 from pigaming_app.events.changes.live import LiveMatch, LiveMatches
 from pigaming_app.events.event import Event
 from pigaming_app.events.refusals import Refused
