@@ -9,7 +9,7 @@
   const FRAME_MS = 1000 / 60, ALIVE_MS = 200, FLASH_MS = 160, OPEN_MS = 1500, RETRY_MS = [200, 400, 800, 1500];
 
   let socket = null, resume = sessionStorage.getItem("resume") || "", attempts = 0, retry = 0;
-  let state = { seat: -1, color: "", playing: false, score: "", clock: "", place: "", before: -1, line: "", name: "" };
+  let state = { seat: -1, color: "", playing: false, score: "", clock: "", place: "", before: -1, line: "", name: "", called: false };
   let x = 0, y = 0, buttons = 0, sentAt = 0, waiting = 0;
   const hall = window.hall((frame) => { if (socket && socket.readyState === 1) socket.send(Uint8Array.from(frame)); }, press);
 
@@ -72,7 +72,7 @@
     const seated = state.seat >= 0, turn = !seated && state.before === -1;
     document.documentElement.style.setProperty("--seat", state.color || "#96acce");
     const who = state.place || state.name || texts.page_player.replace("{player}", state.seat + 1);
-    element("seat").textContent = seated ? who : turn ? texts.page_join : state.name;
+    element("seat").textContent = seated ? who : turn ? (state.called ? texts.page_called : texts.page_join) : state.name;
     element("score").textContent = state.score;
     element("clock").textContent = state.clock;
     element("shape").style.display = seated ? "" : "none";

@@ -1,4 +1,6 @@
-"""Who drives in a match of an event: the pads in the order of the people, and their names on a card."""
+"""Who drives in a match of an event: phones by their names, pads in the order of the people; their words on a card."""
+
+from collections.abc import Collection, Mapping
 
 from pigaming_app.ai.registry import level_of
 from pigaming_app.events.spec import Fixture
@@ -19,10 +21,19 @@ def stood_in(running: RunningEvent, fixture: Fixture) -> list[int]:
     return [i for i, name in enumerate(fixture.entrants) if running.brain(name) and running.is_person(name)]
 
 
-def suggested(controls: Controls, people: list[int], seat: int) -> Device | None:
-    """The device for the seat of a person: the first pad for the first one, and so on; then phones and keyboard."""
-    players, index = controls.offered(), people.index(seat)
-    return players[index] if index < len(players) else None
+def suggested(controls: Controls, free: Mapping[int, str], taken: Collection[Device] = ()) -> dict[int, Device]:
+    """The devices for free seats of people, by their names: the phones that are called; of the others, which are not
+    `taken`, the first pad for the first one, and so on; then phones and keyboard.
+    """
+    called = phones_of(controls, free)
+    others = [device for device in controls.offered() if device not in (*taken, *called.values())]
+    return called | dict(zip((seat for seat in free if seat not in called), others, strict=False))
+
+
+def phones_of(controls: Controls, free: Mapping[int, str]) -> dict[int, Device]:
+    """The phones that are called to free seats of people, by their names."""
+    numbers = {name: number for number, name in controls.phones.called.items()}
+    return {seat: Device("phone", numbers[name]) for seat, name in free.items() if name in numbers}
 
 
 def driver_label(words: Words, controls: Controls, device: Device | None, brain: str) -> tuple[str, str]:

@@ -86,6 +86,11 @@ class NextMatch:
         self._stop_quick()
 
     @property
+    def called(self) -> dict[int, tuple[str, bool]]:
+        """The people who are called, by seat; nobody while AIs play."""
+        return {} if self.quick else self.seats.called
+
+    @property
     def fixture(self) -> Fixture | None:
         """The match; None when all have been played, or are played elsewhere."""
         return self.seats.fixture
@@ -215,7 +220,7 @@ class NextMatch:
         """A person for whom an AI drives is there again."""
         fixture = self.fixture
         assert fixture is not None
-        for seat in self.seats.stood_in[:1]:
+        for seat in self.seats.returning(device):
             if self._change(partial(Event.substitute, name=fixture.entrants[seat], brain="")):
                 self.seats.claims[seat] = device
                 self.context.sounds.play("join", seat)

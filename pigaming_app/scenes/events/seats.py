@@ -7,7 +7,7 @@ import pygame
 
 from pigaming_app.events.spec import Fixture
 from pigaming_app.scenes.events import next_view as view
-from pigaming_app.scenes.events.drivers import driver_label, people_of, stood_in, suggested
+from pigaming_app.scenes.events.drivers import driver_label, people_of, phones_of, stood_in, suggested
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.flow.brain_names import brain_name
 from pigaming_app.scenes.flow.context import Context
@@ -44,6 +44,13 @@ class EventSeats:
         """Seats of people that nobody has taken."""
         return [seat for seat in self.people if seat not in self.claims]
 
+    @property
+    def called(self) -> dict[int, tuple[str, bool]]:
+        """The names of the people, and whether others may take their seats: not those for whom an AI drives."""
+        names = self.fixture.entrants if self.fixture else ()
+        seats = [*self.people, *self.stood_in]
+        return {seat: (names[seat], seat in self.people) for seat in seats}
+
     def keep(self) -> None:
         """Give the seats to the devices that the people have driven with before."""
         for seat in self.waiting:
@@ -53,15 +60,22 @@ class EventSeats:
 
     def take(self, device: Device) -> bool:
         """Take a seat: the one of this device, or the first that is free; false if there is none."""
-        fixture = self.fixture
-        own = [seat for seat in self.waiting if device in (self.suggested(seat), self._last(seat))]
-        seats = [*own, *self.waiting]
+        fixture, phones = self.fixture, phones_of(self.context.controls, self._free)
+        called = [seat for seat, phone in phones.items() if phone == device]
+        own = [seat for seat in self.waiting if device in (self.suggested.get(seat), self._last(seat))]
+        seats = [*called, *(seat for seat in (*own, *self.waiting) if device.kind != "phone" or seat not in phones)]
         if fixture is None or not seats:
             return False
         self.claims[seats[0]] = device
         self.running.devices[fixture.entrants[seats[0]]] = device
         self.context.sounds.play("join", seats[0])
         return True
+
+    def returning(self, device: Device) -> list[int]:
+        """The seat of the person who comes back on a device while an AI drives; empty: none."""
+        phones = phones_of(self.context.controls, {seat: name for seat, (name, _) in self.called.items()})
+        called = [seat for seat in self.stood_in if phones.get(seat) == device]
+        return (called or self.stood_in)[:1]
 
     def move(self, device: Device, by: int) -> bool:
         """Move a device to the next seat of a person; whoever sits there takes the other one. False if it cannot."""
@@ -80,12 +94,14 @@ class EventSeats:
     def release(self, device: Device) -> None:
         self.claims = {seat: other for seat, other in self.claims.items() if other != device}
 
-    def suggested(self, seat: int) -> Device | None:
-        return suggested(self.context.controls, self.people, seat)
+    @property
+    def suggested(self) -> dict[int, Device]:
+        """The devices for the seats that nobody has taken."""
+        return suggested(self.context.controls, self._free, self.claims.values())
 
     def label(self, seat: int) -> str:
         """The button that takes a seat."""
-        words, device = self.context.words, self.suggested(seat)
+        words, device = self.context.words, self.suggested.get(seat)
         return words.key_name(self.context.controls.label(device, Button.FIRE)) if device else words("remap.fire")
 
     def draw(self, screen: pygame.Surface, clock: float) -> None:
@@ -116,6 +132,11 @@ class EventSeats:
             brain = self.running.brain(name)
             yield partial(view.frame, seat, name, *self._driver(seat, brain), view.AI if brain else view.WANTED)
 
+    @property
+    def _free(self) -> dict[int, str]:
+        """The seats that nobody has taken, by name."""
+        return {seat: self.fixture.entrants[seat] for seat in self.waiting} if self.fixture else {}
+
     def _last(self, seat: int) -> Device | None:
         """What the entrant on a seat has driven with before."""
         fixture = self.fixture
@@ -123,5 +144,5 @@ class EventSeats:
 
     def _driver(self, seat: int, brain: str) -> tuple[str, str]:
         """Icon and name of who or what drives."""
-        device = None if brain else self.claims.get(seat) or self.suggested(seat)
+        device = None if brain else self.claims.get(seat) or self.suggested.get(seat)
         return driver_label(self.context.words, self.context.controls, device, brain)

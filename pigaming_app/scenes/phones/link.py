@@ -4,12 +4,11 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from pigaming_app.scenes.features.registry import without_limit
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.phones.audience import Audience
 from pigaming_app.scenes.phones.host import phone_host
-from pigaming_app.scenes.phones.seating import Driven, Ended, Seating, seating
+from pigaming_app.scenes.phones.seating import Calling, Driven, Ended, Seating, seating
 from pigaming_app.ui.draw import MIST, PLAYERS, Color
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device
@@ -20,9 +19,10 @@ PAGE_TEXTS = (
     "page_player", "page_join", "page_fire", "page_turbo", "page_ok", "page_back", "page_lost", "page_old",
     "page_full", "page_refused", "page_elsewhere", "page_removed", "page_next", "page_before",
     "page_idle", "page_game", "page_arena", "page_name", "page_colour", "page_hand", "page_save", "page_unkind",
-    "page_awake", "page_asleep",
+    "page_awake", "page_asleep", "page_called",
 )  # fmt: skip
 TALLY_SECONDS = 0.25  # s between two looks at scores and clock, hence between two messages about them
+CALL = 1.0, 1.0, 0.6  # rumble of a phone that is called: its motors, and s
 RESULT_SECONDS = 2.5  # s for which a result is seen before those who played make room
 
 
@@ -45,6 +45,7 @@ class PhoneLink:
         self._line = ""  # the match in one line
         self._counted_at = -TALLY_SECONDS
         self._texts: dict[str, dict[str, str]] = {}  # of the page, by language
+        self._called: set[int] = set()
         self._match = False  # one is running, or its players have not made room yet
         self._ended_at: float | None = None
 
@@ -94,10 +95,17 @@ class PhoneLink:
                 self._ended_at = self._clock()
             if not over or (self._ended_at is not None and self._clock() - self._ended_at >= RESULT_SECONDS):
                 self._match, self._ended_at = False, None
-                roster.update(now.places, now.phones, True, False)
-                if not without_limit(scenes):
-                    roster.rotate(now.winners if now.winners and settings.phones_stay else ())
-        roster.update(now.places, now.phones, self._match, now.seat_free)
+                roster.update(now.places, now.phones, True, False, now.called)
+                roster.rotate((now.winners if settings.phones_stay else None) or now.kept)
+        roster.update(now.places, now.phones, self._match, now.seat_free, now.called)
+        self._shake()
+
+    def _shake(self) -> None:
+        """Shake the phones that are called."""
+        called = set(self.context.controls.phones.called)
+        for number in called - self._called if self.context.settings.rumble else ():
+            self.context.controls.phones.rumble(number, *CALL)
+        self._called = called
 
     def _seated(self, seat: int, playing: bool) -> SeatView:
         tally = self._tallies.get(seat, Tally())
@@ -108,7 +116,8 @@ class PhoneLink:
         if guest is None:
             return SeatView(color=css(MIST))
         before = LEFT_QUEUE if guest.stage is Stage.IDLE else queue.get(guest.number, ITS_TURN)
-        return SeatView(color=css(self.audience.color(guest.colour)), before=before, line=self._line)
+        called = guest.number in self.context.controls.phones.called
+        return SeatView(color=css(self.audience.color(guest.colour)), before=before, line=self._line, called=called)
 
 
 def tallies(scenes: Sequence[Scene], words: Words) -> tuple[dict[int, Tally], str]:
@@ -118,6 +127,8 @@ def tallies(scenes: Sequence[Scene], words: Words) -> tuple[dict[int, Tally], st
     if scenes and isinstance(scenes[-1], Ended):
         rows = scenes[-1].ended.outcome.rows
         return {row.seat: Tally(place=f"{row.place}{words(f'race.place_{row.place}')}") for row in rows}, ""
+    if isinstance(calls := scenes[-1] if scenes else None, Calling):
+        return {}, " – ".join(name for name, _ in calls.called.values())
     from pigaming_app.scenes.results.snapshot import match_of, snapshot  # late: the title does not wait for it
 
     match, on_top = match_of(scenes)

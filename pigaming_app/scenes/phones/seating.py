@@ -1,7 +1,7 @@
 """What the scenes mean to phones: who has a seat, for how many there is one, whether a match runs or has just ended."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from pigaming_app.scenes.flow.access import Access
@@ -35,10 +35,20 @@ class Ended(Protocol):
     ended: "EndedMatch"
 
 
+@runtime_checkable
+class Calling(Protocol):
+    """A scene that calls people by their names. `called`: for each seat of a person the name, and whether others may
+    take it, too.
+    """
+
+    called: Mapping[int, tuple[str, bool]]
+
+
 @dataclass(frozen=True)
 class Seating:
     """The seats of the uppermost scene that has any. `places`: phones that may act there; `seat_free`: one whose turn
-    it is can sit down; `match`: one is on the stack; `winners`: phones that won the match on top, None: there is none.
+    it is can sit down; `match`: one is on the stack; `winners`: phones that won the match on top, None: there is none;
+    `called`: see `Roster.update`; `kept`: phones that play again, whoever waits.
     """
 
     devices: tuple[Device | None, ...] = ()
@@ -46,6 +56,8 @@ class Seating:
     seat_free: bool = True
     match: bool = False
     winners: tuple[int, ...] | None = None
+    called: Mapping[str, int] = field(default_factory=dict)
+    kept: tuple[int, ...] = ()
 
     @property
     def phones(self) -> list[int]:
@@ -60,6 +72,14 @@ def seating(scenes: Sequence[Scene]) -> Seating:
         return Seating()
     devices = tuple(seated.access.devices())
     others = sum(device is not None and device.kind != "phone" for device in devices)
+    phones = tuple(numbers(devices))
+    if isinstance(coming(seated), Calling):  # its seats are held until the next call
+        return Seating(devices, len(phones), False, True)
+    if isinstance(seated, Calling) and seated.called:
+        seats = seated.called
+        places = sum(everybody for _, everybody in seats.values())
+        awaited = {name: int(not everybody) for seat, (name, everybody) in seats.items() if devices[seat] is None}
+        return Seating(devices, (places or MAX_PHONES) - others, bool(awaited), called=awaited, kept=phones)
     if isinstance(seated, Driven):
         drivers = seated.drivers
         free = [seat for seat in drivers.takeable if seat not in drivers.idle.claims.values()]
@@ -71,6 +91,12 @@ def seating(scenes: Sequence[Scene]) -> Seating:
         due = bool(getattr(seated, "claims", ())) or seated is not scenes[-1]  # initials are to be entered first
         return Seating(devices, len(rows) - others, True, winners=None if due else won)
     return Seating(devices, len(devices) - others, None in devices)
+
+
+def coming(scene: Scene) -> Scene | None:
+    """What follows the moments after a match."""
+    following = getattr(scene, "then", None)
+    return (coming(following) or following) if following else None
 
 
 def numbers(devices: Sequence[Device | None] | dict[Device, int]) -> list[int]:

@@ -60,7 +60,8 @@ class SeatView:
     """What a phone shows: its seat (0..3; -1: none), the colour as #rrggbb, and whether it plays in a match.
 
     `score` and `clock` of a match, and the final `place`, as shown on the screen; empty: none. Without a seat:
-    `before`, the phones that come first, or ITS_TURN or LEFT_QUEUE, and `line`, the match in one line.
+    `before`, the phones that come first, or ITS_TURN or LEFT_QUEUE, and `line`, the match in one line; `called`: its
+    owner is called by name.
     """
 
     seat: int = -1
@@ -72,6 +73,7 @@ class SeatView:
     before: int = ITS_TURN
     line: str = ""
     name: str = ""
+    called: bool = False
 
 
 def parse(frame: bytes) -> Touches | None:

@@ -44,6 +44,7 @@ class Phones:
         self.plugged: dict[int, Phone] = {}  # for the main loop
         self.send: Callable[[int, str], None] = lambda number, text: None
         self.names: dict[int, str] = {}  # of all phones, waiting ones too; empty: none
+        self.called: dict[int, str] = {}  # of those whose turn it is: the name of the person who is called, if any
         self.watching: set[int] = set()  # phones that wait: they are shown things, and do nothing
         self._connected: dict[int, Phone] = {}  # for the server
         self._queue: deque[tuple[int, ButtonChange | Button]] = deque()

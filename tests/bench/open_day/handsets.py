@@ -3,24 +3,26 @@
 import asyncio
 import threading
 from contextlib import suppress
+from typing import Any
 
 from aiohttp import ClientError, ClientSession, ClientTimeout, ClientWebSocketResponse, WSMsgType
 
-from pigaming_app.ui.input.phone_messages import Touches, pack
+from pigaming_app.ui.input.phone_messages import Touches, Wish, WishKind, pack, pack_wish
 
 BEAT = 0.15  # s between two messages of a phone that is not touched
 RETRY = 0.1  # s until the next attempt to connect
 
 
 class Handset:
-    """A phone that has scanned the code. `touch` is called from any thread."""
+    """A phone that has scanned the code. `touch` is called from any thread. `state`: what its page shows last."""
 
     def __init__(self, loop: asyncio.AbstractEventLoop, session: ClientSession, url: str) -> None:
         self._loop, self._session, self._url = loop, session, url
         self._origin = url.rsplit("/", 1)[0]
-        self._touches: asyncio.Queue[Touches] = asyncio.Queue()
+        self._touches: asyncio.Queue[Touches | Wish] = asyncio.Queue()
         self._now = Touches()
         self._resume = ""
+        self.state: dict[str, Any] = {}
         self.connections = self.texts = 0
         self.error: Exception | None = None  # the last one
         self._task: asyncio.Task[None] | None = None
@@ -29,6 +31,10 @@ class Handset:
     def touch(self, touches: Touches) -> None:
         """Send what the player touches from now on."""
         self._loop.call_soon_threadsafe(self._touches.put_nowait, touches)
+
+    def name(self, text: str) -> None:
+        """Enter a name."""
+        self._loop.call_soon_threadsafe(self._touches.put_nowait, Wish(WishKind.NAME, text=text))
 
     def lock(self) -> None:
         """Lock the phone: its socket is cut without a farewell."""
@@ -66,7 +72,11 @@ class Handset:
                 await socket.send_bytes(pack(self._now))
                 with suppress(TimeoutError):
                     async with asyncio.timeout(BEAT):  # unlike `wait_for`, it never swallows a cancellation
-                        self._now = await self._touches.get()
+                        wanted = await self._touches.get()
+                    if isinstance(wanted, Wish):
+                        await socket.send_bytes(pack_wish(wanted))
+                    else:
+                        self._now = wanted
         finally:
             reader.cancel()
             if socket._response.connection and socket._response.connection.transport:
@@ -76,6 +86,7 @@ class Handset:
         async for message in socket:
             if message.type is WSMsgType.TEXT:
                 self.texts += 1
+                self.state = message.json().get("state", self.state)
                 if "resume" in (values := message.json()):
                     self._resume = values["resume"]
 

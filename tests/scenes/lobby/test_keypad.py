@@ -91,10 +91,11 @@ def test_the_seats_that_no_free_device_can_take_are_offered_to_pads_and_phones(
 
 def test_an_event_calls_nobody_to_a_number_pad_that_may_not_exist(controls: Controls) -> None:
     words = Arcade(controls).context.words
-    assert suggested(controls, [0, 1, 2, 3], 3) is None
+    seats = dict.fromkeys(range(4), "")
+    assert 3 not in suggested(controls, seats)
     assert driver_label(words, controls, None, "") == ("pad", "Pad 1")
     controls.has_keypad = True
-    assert suggested(controls, [0, 1, 2, 3], 3) == KEYS[3]
+    assert suggested(controls, seats)[3] == KEYS[3]
     assert driver_label(words, controls, KEYS[3], "") == ("keypad", "Number pad")
 
 

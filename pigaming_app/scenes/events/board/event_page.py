@@ -95,11 +95,13 @@ def event_now(context: Context, scenes: Sequence[Scene]) -> EventNow | None:
 
 def called(context: Context, running: RunningEvent, fixture: Fixture, claims: dict[int, Device]) -> tuple[Called, ...]:
     """Who plays a match, and on which device; `claims`: the seats that are taken."""
-    words, people = context.words, people_of(running, fixture)
+    words, seats = context.words, people_of(running, fixture)
+    free = {seat: fixture.entrants[seat] for seat in seats if seat not in claims}
+    devices = suggested(context.controls, free, claims.values()) | claims
     found = []
     for seat, name in enumerate(fixture.entrants):
         brain = running.brain(name)
-        device = None if brain else claims.get(seat) or suggested(context.controls, people, seat)
+        device = None if brain else devices.get(seat)
         sign, driver = driver_label(words, context.controls, device, brain)
         device_name = words("match.arrows") if driver and driver[0] in ARROWS else driver
         robot = brain_name(words, fixture.game, brain) if brain else ""

@@ -1,15 +1,16 @@
 """The order of the phones: who plays, whose turn it is, who waits. It has neither sockets nor scenes.
 
 At most PLACES phones may act at a time: to the scenes they are devices like pads. All others wait in a queue: who has
-waited longest comes first, and after a match those who played are last. A phone that is locked during its match keeps
-its place until the end. The server's thread and the main loop share one roster.
+waited longest comes first, and after a match those who played are last. Whoever is called by name comes before all
+others. A phone that is locked during its match keeps its place until the end. The server's thread and the main loop
+share one roster.
 """
 
 import secrets
 import threading
 import time
 from collections import Counter, deque
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from typing import Literal
 
 from pigaming_app.ui.input.phone_messages import Touches, Wish, WishKind, name_text
@@ -42,6 +43,8 @@ class Roster:
         self.changed: Callable[[], None] = lambda: None
         self.expel: Callable[[int, Refusal], None] = lambda number, why: None  # closes a socket; set by the server
         self._guests: dict[int, Guest] = {}
+        self._called: dict[str, tuple[str, int]] = {}  # by what a phone is named: the name, and places that it adds
+        self._silent: set[int] = set()  # phones that have let this call pass
         self._banned: set[str] = set()  # hashes of tokens and of addresses
         self._new: dict[str, RateMeter] = {}  # by address
         self._wishes: deque[tuple[int, Wish]] = deque(maxlen=MAX_WISHES)
@@ -124,11 +127,20 @@ class Roster:
 
     # ---- for the main loop
 
-    def update(self, places: int, seated: Collection[int], match: bool, seat_free: bool) -> None:
+    def update(
+        self,
+        places: int,
+        seated: Collection[int],
+        match: bool,
+        seat_free: bool,
+        called: Mapping[str, int] | None = None,
+    ) -> None:
         """Follow the scene on top. `places`: phones that may act; `seated`: those with a seat; `match`: these keep it,
-        locked or not; `seat_free`: a phone whose turn it is can take one.
+        locked or not; `seat_free`: a phone whose turn it is can take one; `called`: the names of people who are called,
+        with the number of places that each adds for their own phone alone.
         """
         with self._lock:
+            self._call(called or {})
             now = self.clock()
             seconds, self._updated_at = now - self._updated_at, now
             self.places = max(0, min(PLACES, places))
@@ -251,6 +263,7 @@ class Roster:
 
     def _touch(self, guest: Guest, pressed: bool) -> None:
         guest.touched_at = self.clock()
+        self._silent.discard(guest.number)
         if guest.stage is Stage.IDLE and pressed:
             guest.stage, guest.since, guest.missed = Stage.WAITING, guest.touched_at, 0
             self._fill()
@@ -273,18 +286,44 @@ class Roster:
         elif guest.stage is Stage.TURN and turn and self.queue():
             guest.turn += turn
             if guest.turn >= TURN_SECONDS:
+                self._silent.add(guest.number)
                 guest.turn, guest.since, guest.missed = 0.0, now, guest.missed + 1
                 guest.stage = Stage.WAITING if guest.missed < MAX_MISSED else Stage.IDLE
                 self.changed()
 
+    def _call(self, called: Mapping[str, int]) -> None:
+        """Note who is called, by the names that phones may have."""
+        names = {kind_name(name).casefold(): (name, places) for name, places in called.items()}
+        names.pop("", None)
+        if names.keys() != self._called.keys():
+            self._silent.clear()
+        self._called = names
+
+    def _calls(self) -> dict[int, str]:
+        """The phones that are called, with the name: of several with the same one the next in the queue."""
+        free = [one for one in self._guests.values() if one.connected and one.stage is not Stage.PLAYING]
+        found: dict[str, int] = {}
+        for guest in sorted(free, key=lambda one: (one.stage is not Stage.TURN, one.rank)):
+            if guest.name.casefold() in self._called and guest.number not in self._silent:
+                found.setdefault(guest.name.casefold(), guest.number)
+        return {number: self._called[name][0] for name, number in found.items()}
+
     def _fill(self) -> None:
-        """Give free places to those who wait longest; take them from those called last if there are too many."""
-        placed = [guest for guest in self._guests.values() if guest.placed]
-        called = sorted((guest for guest in placed if guest.stage is Stage.TURN), key=lambda guest: guest.rank)
-        for guest in called[::-1][: max(0, len(placed) - self.places)]:
-            guest.stage = Stage.WAITING
-        for guest in self.queue()[: max(0, self.places - len(placed))]:
-            guest.stage, guest.turn = Stage.TURN, 0.0
+        """Give free places to those who are called, then to those who wait longest; take them from those called last
+        if there are too many.
+        """
+        calls = self._calls()
+        free = self.places - sum(guest.stage is Stage.PLAYING for guest in self._guests.values())
+        free += sum(places for name, places in self._called.values() if name in calls.values())
+        there = [guest for guest in self._guests.values() if guest.connected and guest.stage is not Stage.PLAYING]
+        there = [guest for guest in there if guest.stage is not Stage.IDLE or guest.number in calls]
+        there.sort(key=lambda guest: (guest.number not in calls, guest.stage is not Stage.TURN, guest.rank))
+        for place, guest in enumerate(there):
+            if place < min(free, PLACES) and guest.stage is not Stage.TURN:
+                guest.stage, guest.turn = Stage.TURN, 0.0
+            elif place >= min(free, PLACES) and guest.stage is Stage.TURN:
+                guest.stage = Stage.WAITING
         for guest in self._guests.values():
             self.phones.plug(guest.number, guest.connected and guest.placed)
         self.phones.watching = {one.number for one in self._guests.values() if one.connected and not one.placed}
+        self.phones.called = {number: name for number, name in calls.items() if self._guests[number].placed}
