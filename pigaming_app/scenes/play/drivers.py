@@ -231,6 +231,7 @@ class Drivers:
         )
         self.match.sit(seat, brain)
         self.runner.players[seat] = "human" if device else STAND_IN
+        self.runner.sit(seat, device)
 
     def _read(self, seat: int, device: Device) -> StickState:
         """The state of a device for this tick."""

@@ -93,10 +93,13 @@ class PausedMatch(Protocol):
     """The match below a page."""
 
     context: Context
-    names: Sequence[str]
     restart_allowed: bool
     runner: MatchRunner
     drivers: Drivers
+
+    @property
+    def names(self) -> Sequence[str]:
+        """See `MatchRunner`."""
 
     @property
     def robots(self) -> Robots:

@@ -46,7 +46,7 @@ TOP_SIGNS, SIGN_ROOM = 260.0, 110  # px from the upper edge, above which signs a
 class MatchRunner:
     """A match and its view. `loud`: play its sounds. `rumble`: called for each seat whose player feels an event.
 
-    `names`: of the entrants on the first seats, in an event.
+    `names`: of the entrants on the first seats, in an event; else those that people have given their phones.
     """
 
     def __init__(
@@ -57,7 +57,8 @@ class MatchRunner:
         rumble: Callable[[int, Rumble], None] = lambda seat, rumble: None,
         names: Sequence[str] = (),
     ) -> None:
-        self.context, self.match, self.loud, self.rumble, self.names = context, match, loud, rumble, names
+        self.context, self.match, self.loud, self.rumble = context, match, loud, rumble
+        self.names, self._entrants = names, bool(names)
         self.players = [seat.brain for seat in match.setup.seats]  # the driver of each seat; may be changed
         kind = SCREENS[match.setup.game].view
         with self._tag_sprites():
@@ -72,6 +73,13 @@ class MatchRunner:
         self.second = TICK_SOUNDS + 1
         self.last_lap = False  # of the first in a race, whose end no clock tells
         self.last_hit: LastHit | None = None  # recorder, if the scene repeats the last hit
+
+    def sit(self, seat: int, device: Device | None) -> None:
+        """Show the name of who drives a seat from now on; entrants keep theirs."""
+        name = self.context.controls.owner(device)
+        if not self._entrants and name != name_of(self.names, seat):
+            self.names = [name if i == seat else name_of(self.names, i) for i in range(len(self.players))]
+            self.view.show_names(self.names)
 
     def prewarm(self, milliseconds: float) -> bool:
         """Prewarm sprites for up to `milliseconds`; true when done."""
@@ -158,7 +166,7 @@ class MatchRunner:
         driver, sign = self.driver(seat, device)
         if name := name_of(self.names, seat):
             name = fit_text(name, BODY, NAME_ROOM, "body", BODY)[0]
-            driver = f"{name}  ·  {driver}" if device else name
+            driver = f"{name}  ·  {driver}" if device and self._entrants else name
         return caption(driver, PLAYERS[seat], sign=sign)
 
     def draw_beside(self, screen: pygame.Surface, seat: int, sheet: Caption) -> None:

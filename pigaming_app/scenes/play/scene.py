@@ -59,9 +59,12 @@ class MatchScene:
         self.context, self.setup, self.speed = context, setup, speed
         self.game_choice, self.rounds, self.after = game_choice, rounds, after
         self.make, self.records = make, records
-        self.match, self.names = make(setup), getattr(after, "names", ())
+        self.match = make(setup)
         self.runner = MatchRunner(
-            context, self.match, rumble=lambda seat, felt: self.drivers.rumble(seat, felt), names=self.names
+            context,
+            self.match,
+            rumble=lambda seat, felt: self.drivers.rumble(seat, felt),
+            names=getattr(after, "names", ()),
         )
         self.runner.view.ceremonies = True
         self.drivers = Drivers(context, self.runner, devices, may_join=after is None)
@@ -143,6 +146,11 @@ class MatchScene:
             self.runner.draw_hints(screen, self.devices)
         self.drivers.draw(screen)
         self.runner.notice.draw(screen)
+
+    @property
+    def names(self) -> Sequence[str]:
+        """Those on the seats, see `MatchRunner`."""
+        return self.runner.names
 
     @property
     def preparing(self) -> bool:

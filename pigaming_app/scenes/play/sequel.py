@@ -33,7 +33,6 @@ class PlayedScene(Protocol):
     speed: float
     game_choice: SceneFactory | None
     rounds: Rounds | None
-    names: Sequence[str]
     match: Match
     runner: MatchRunner
     drivers: Drivers
@@ -119,7 +118,7 @@ class Sequel:
             return results.ended, results
         following = self.scene.after(self.scene)
         devices, outcome = tuple(self.drivers.devices), self.match.outcome()
-        ended = EndedMatch(self.match.setup, outcome, devices, self.scene.names, self.stood_in)
+        ended = EndedMatch(self.match.setup, outcome, devices, self.scene.runner.names, self.stood_in)
         if not (self.match.over and ended.humans):
             return ended, following
         page = Ceremony(self.scene.context, ended, True, self.feats)
@@ -144,6 +143,7 @@ class Sequel:
             replay_of(self.match),
             rounds,
             self.feats,
+            self.scene.runner.names,
         )
 
 

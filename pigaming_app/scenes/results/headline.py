@@ -10,6 +10,7 @@ from pigaming_app.ai.registry import AIS
 from pigaming_app.games.game import ALLIES, PAIRS, Outcome, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.brain_names import lit_stars
+from pigaming_app.scenes.views.hud.ai_sign import name_of
 from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.ui.draw import FOCUS, ICE, PLAYERS, Color
 from pigaming_app.ui.i18n import Words
@@ -18,8 +19,8 @@ from pigaming_app.ui.input.events import Device
 
 @dataclass(frozen=True)
 class EndedMatch:
-    """A match and how it ended. `devices`: of each seat at its end; `names`: of the first seats in an event;
-    `stood_in`: seats of people of the event for whom an AI has driven from the start.
+    """A match and how it ended. `devices`: of each seat at its end; `names`: of the entrants on the first seats, in an
+    event, else of the phones; `stood_in`: seats of people of the event for whom an AI has driven from the start.
     """
 
     setup: Setup
@@ -53,14 +54,14 @@ def headline(words: Words, ended: EndedMatch) -> str:
     if not outcome.winners:
         return words("results.tie")
     seat, names = outcome.winners[0], [_entrant(words, ended, seat) for seat in outcome.winners]
-    if ended.names and len(names) > 1:
+    if len(names) > 1 and all(name_of(ended.names, winner) for winner in outcome.winners):
         return words("results.names_win", name=" + ".join(names))
     if in_teams(outcome, setup):
         return words("results.team_wins", team=team_name(words, setup, setup.seats[seat].team))
     brain = ended.brain(seat)
     kind = "stand_in_" if seat in ended.absent else "ai_" if brain else ""
-    if seat < len(ended.names):
-        return words(f"results.{kind}name_wins", name=ended.names[seat])
+    if name := name_of(ended.names, seat):
+        return words(f"results.{kind}name_wins", name=name)
     if kind != "ai_":
         return words(f"results.{kind}wins", player=seat + 1)
     return words("results.ai_wins", player=seat + 1, name=lit_stars(brain) or f"({_of_ai(words, setup.game, brain)})")
@@ -75,7 +76,7 @@ def _of_ai(words: Words, game: str, brain: str) -> str:
 
 def _entrant(words: Words, ended: EndedMatch, seat: int) -> str:
     """The name of an entrant in a team, marked if an AI drove."""
-    name = ended.names[seat] if seat < len(ended.names) else ""
+    name = name_of(ended.names, seat)
     return words("results.ai_named", name=name) if ended.brain(seat) else name
 
 

@@ -186,7 +186,8 @@ class Initials:
         ask_bar(label, words(f"results.{key}"), pulse(self.age, 5)).draw(screen, x, page.TOP_Y)
 
     def _frame(self, claim: Qualification, done: bool) -> LitImage:
-        return page.frame(claim.seat, self.context.words("lobby.seat", player=claim.seat + 1), self._lines(claim), done)
+        label = self.context.controls.owner(claim.device) or self.context.words("lobby.seat", player=claim.seat + 1)
+        return page.frame(claim.seat, label, self._lines(claim), done)
 
     def _prewarm_jobs(self) -> Iterator[Callable[[], object]]:
         words = self.context.words

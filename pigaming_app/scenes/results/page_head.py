@@ -52,8 +52,11 @@ class PageHead:
         self.steel = line(kit.STEEL, RIGHT - LEFT, kit.THIN)
         yield
         self.room = float(RIGHT)  # px, right limit of the title
-        if not self.ended.names:  # of an event, they need the room
-            self.parts.append(RevealedPart(self._where(), 0.1))
+        where = self._where()
+        if any(self.ended.names) and self._size() < kit.TITLE:  # the names need the room
+            self.room = float(RIGHT)
+        else:
+            self.parts.append(RevealedPart(where, 0.1))
         yield
         self.parts.append(RevealedPart(self._title(), self.title_at))
         yield
@@ -74,20 +77,28 @@ class PageHead:
 
     def _title(self) -> LitImage:
         """Headline in the winner's colour, with a crown."""
-        words = self.context.words
         layer = Layer(LEFT, 54, RIGHT - LEFT, 116)
-        x = LEFT
-        for seat in () if self.stars else self.winners:
-            kit.badge(layer.glow, seat, x + 52, 110, 50)
-            x += 128
-        x += 14 if self.winners and not self.stars else 0
-        text = headline(words, self.ended) if self.finished else words("results.ended")
-        size = fit_size(text, kit.TITLE, self.room - x - (130 if self.winners else 0))
+        for i, seat in enumerate(() if self.stars else self.winners):
+            kit.badge(layer.glow, seat, LEFT + 128 * i + 52, 110, 50)
+        text, size, x = self._text(), self._size(), self._text_x
         layer.canvas.text(text, size, x, 112, self._color())
         if self.winners and not self.stars:
             at = x + kit.text_width(text, size) + 70
             kit.icon(layer.glow, "crown", at, 108, 40, kit.FOCUS, kit.LINE)
         return layer.render()
+
+    @property
+    def _text_x(self) -> int:
+        """The left edge of the title, px."""
+        return LEFT + (128 * len(self.winners) + 14 if self.winners and not self.stars else 0)
+
+    def _text(self) -> str:
+        words = self.context.words
+        return headline(words, self.ended) if self.finished else words("results.ended")
+
+    def _size(self) -> int:
+        """The size of the title in its room, px."""
+        return fit_size(self._text(), kit.TITLE, self.room - self._text_x - (130 if self.winners else 0))
 
     def _where(self) -> LitImage:
         """Game, duration, arena."""

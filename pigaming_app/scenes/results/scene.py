@@ -66,7 +66,7 @@ class Results:
     `rematch`: factory of the rematch; `game_choice`: factory of the game selection, if offered. `ai_assisted`: seats
     that changed drivers during the match; their scores do not count as records. `recording`: the replay, if it can be
     saved. `rounds`: those that led to this outcome; their records count even if the match was ended between them.
-    `feats`: of each seat, for the awards.
+    `feats`: of each seat, for the awards; `names`: see `EndedMatch`.
     """
 
     def __init__(
@@ -82,11 +82,12 @@ class Results:
         recording: Replay | None = None,
         rounds: Rounds | None = None,
         feats: Mapping[int, Feats] | None = None,
+        names: Sequence[str] = (),
     ) -> None:
         self.context, self.setup, self.rematch, self.game_choice = context, setup, rematch, game_choice
         self.recording = recording
         seats = [row.seat for row in sorted(outcome.rows, key=lambda row: row.seat)]
-        self.ended = EndedMatch(setup, outcome, tuple(devices))
+        self.ended = EndedMatch(setup, outcome, tuple(devices), names)
         self.ballot = RematchVote(context, seats, self.ended.humans, devices)
         self.ceremony = Ceremony(context, self.ended, finished, feats or {}, rounds)
         self.numbers: ResultsView = (

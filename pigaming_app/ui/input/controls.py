@@ -183,6 +183,10 @@ class Controls:
     def has_keypad(self, known: bool) -> None:
         self._keyboard.has_keypad = known
 
+    def owner(self, device: Device | None) -> str:
+        """The name that the owner of a device has given it; empty: none. Only phones have one."""
+        return self.phones.names.get(device.number, "") if device and device.kind == "phone" else ""
+
     def sign(self, device: Device) -> str:
         """The icon of a device."""
         return "keypad" if self.name(device) == "Keypad" else device.kind

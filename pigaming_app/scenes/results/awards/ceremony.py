@@ -12,6 +12,7 @@ from pigaming_app.scenes.results.awards.feats import Feats
 from pigaming_app.scenes.results.awards.praise import places, praises
 from pigaming_app.scenes.results.headline import EndedMatch, is_allied
 from pigaming_app.scenes.results.page_head import RevealedPage, RevealedPart, row_starts
+from pigaming_app.scenes.views.hud.ai_sign import name_of
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.sprites.stars import STARS, draw_star
 from pigaming_app.ui import draw as kit
@@ -133,9 +134,9 @@ def award_text(words: Words, game: str, award: Award) -> str:
 
 
 def seat_name(words: Words, ended: EndedMatch, seat: int) -> str:
-    """The name of an entrant, of an AI, or of a player."""
-    if seat < len(ended.names):
-        return ended.names[seat]
+    """The name of an entrant or a phone, of an AI, or of a player."""
+    if name := name_of(ended.names, seat):
+        return name
     if seat in ended.humans:
         return words("match.player", player=seat + 1)
     return brain_name(words, ended.setup.game, ended.brain(seat))

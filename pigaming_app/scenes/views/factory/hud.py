@@ -36,7 +36,7 @@ class FactoryHud:
         self.parts = HudParts(background)
         self.teams = (ICE,) if state.rules.allies else tuple(range(TEAMS))
         self.delivered = list(state.delivered)
-        self.names: Sequence[str] = ()  # of the first seats, in an event
+        self.names: Sequence[str] = ()  # by seat; of entrants, or of phones
         self.calls: dict[int, tuple[str, int]] = {}  # by team: the call on its panel, and the tick at which it ends
 
     def call(self, team: int, key: str, tick: int) -> None:

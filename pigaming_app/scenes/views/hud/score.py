@@ -80,7 +80,7 @@ class ScoreHud:
         self.parts = parts.HudParts(background)
         self.points: dict[int, int] = {}
         self.clock_words = ""  # in place of the clock; | parts lines
-        self.names: Sequence[str] = ()  # of the first seats, in an event
+        self.names: Sequence[str] = ()  # by seat; of entrants, or of phones
 
     def show(self, state: Any) -> list[SeatPanel]:
         """Bake changed parts; returns the panels whose points changed."""

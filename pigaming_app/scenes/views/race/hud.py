@@ -42,7 +42,7 @@ class RaceHud:
         self.seats, self.xs = seats, XS[len(seats)]
         self.parts = HudParts(background)
         self.moves: dict[int, tuple[int, int]] = {}  # seat: (direction, tick) of its last change of place
-        self.names: Sequence[str] = ()  # of the first seats, in an event
+        self.names: Sequence[str] = ()  # by seat; of entrants, or of phones
         self.notice = "", 0  # words in place of the clock, and their first tick
 
     def moved(self, seat: int, ahead: bool, tick: int) -> None:
