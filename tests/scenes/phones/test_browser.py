@@ -4,12 +4,16 @@ Browser, server and arcade share a machine that may be slow: a story waits for w
 never for a fixed time. The arcade's time is counted by frames, and stands still where a page could be late.
 """
 
+import json
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 
+from pigaming_app.scenes.flow.access import Access
+from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import JoinByPhone
@@ -17,10 +21,12 @@ from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
 from pigaming_app.sim.world import HZ
+from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.phone_messages import Wish, WishKind
 from pigaming_app.ui.input.phones import connection
 from tests.matches import setup_of
-from tests.scenes.arcade import Arcade
+from tests.scenes.arcade import Arcade, Floor
 from tests.scenes.phones.browser import Browser, browsing, chromium, running_browser
 from tests.scenes.phones.touch_page import LONG, OPEN, PORTRAIT
 from tests.scenes.phones.visitors import OpenDay
@@ -33,6 +39,13 @@ pytestmark = [
 WATCH_FLASH = """
 new MutationObserver(([change]) => { window.flashed ||= change.target.classList.contains("lit"); })
     .observe(document.getElementById("flash"), { attributes: true }); 1
+"""
+SEAT_ROOM = """
+(() => {
+    const range = document.createRange(), seat = document.getElementById("seat");
+    range.selectNodeContents(seat);
+    return document.getElementById("who").clientWidth - range.getBoundingClientRect().width;
+})()
 """
 ROOM_LEFT = """
 (() => {
@@ -195,5 +208,31 @@ def test_touches_become_stick_and_buttons(day: OpenDay) -> None:
         for width, height in ((320, 568), (568, 320)):
             await page.resize(width, height)
             assert await page.value(ROOM_LEFT) >= 0, "a lap and a long time"
+
+    day.run(story)
+
+
+class Call(Floor):
+    """A scene that calls somebody."""
+
+    called: ClassVar = {0: ("Ana", True)}
+
+    def __init__(self, context: Context) -> None:
+        self.access = Access(context, lambda: [None] * 4)
+
+
+def test_a_phone_that_is_called_says_so_in_every_language_on_the_smallest_screen(day: OpenDay) -> None:
+    context, roster = day.arcade.context, day.link.host.roster
+
+    async def story(browser: Browser) -> None:
+        page = await browser.phone(day.url, (568, 320))
+        await page.until(OPEN)
+        roster.wish(0, Wish(WishKind.NAME, text="ana"))
+        await day.between_frames(lambda: day.arcade.open(Call(context)))
+        for language in LANGUAGES:
+            await day.between_frames(partial(setattr, context, "words", Words(language)))
+            said = context.words("phones.page_called")
+            await page.until(f"document.getElementById('seat').textContent === {json.dumps(said)}")
+            assert await page.value(SEAT_ROOM) >= 0, said
 
     day.run(story)
