@@ -81,6 +81,7 @@ class Handset:
             reader.cancel()
             if socket._response.connection and socket._response.connection.transport:
                 socket._response.connection.transport.abort()
+            socket._response.close()
 
     async def _read(self, socket: ClientWebSocketResponse) -> None:
         async for message in socket:
