@@ -11,6 +11,7 @@ import pytest
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.spec import DEFAULT_AI, Entrant, EventSpec, Fixture, Format
+from pigaming_app.scenes.events import next_page
 from pigaming_app.scenes.events.next_page import INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.phones.host import phone_host
@@ -228,7 +229,10 @@ def test_pads_and_keys_play_for_anybody_as_before(halls: Callable[..., Hall]) ->
     hall.until(lambda: not hall.called() | hall.turns())
 
 
-def test_an_ai_that_drives_for_somebody_gives_the_seat_back_to_their_phone(halls: Callable[..., Hall]) -> None:
+def test_an_ai_that_drives_for_somebody_gives_the_seat_back_to_their_phone(
+    halls: Callable[..., Hall], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(next_page, "ALL_READY", math.inf)
     hall = halls(*NAMES[:4])
     _, owner = hall.next().entrants
     for name in ("first", "second", owner):
