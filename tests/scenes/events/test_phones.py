@@ -107,7 +107,7 @@ class Hall:
 
     def called(self) -> set[str]:
         """Whose phones say that their owner is called."""
-        return {owner for owner, phone in self.phones.items() if phone.state["called"]}
+        return {owner for owner, phone in self.phones.items() if phone.state.get("called")}
 
     def calls(self, owners: set[str]) -> bool:
         return self.called() == owners
@@ -118,11 +118,11 @@ class Hall:
     def turns(self) -> set[str]:
         """Whose phones ask for a press."""
         states = {owner: phone.state for owner, phone in self.phones.items()}
-        return {owner for owner, state in states.items() if state["seat"] < 0 and state["before"] == -1}
+        return {owner for owner, state in states.items() if state and state["seat"] < 0 and state["before"] == -1}
 
     def seats(self) -> dict[int, str]:
         """Whose phones show a seat."""
-        return {phone.state["seat"]: owner for owner, phone in self.phones.items() if phone.state["seat"] >= 0}
+        return {phone.state["seat"]: owner for owner, phone in self.phones.items() if phone.state.get("seat", -1) >= 0}
 
     def drives(self, owner: str, seat: int, match: MatchScene) -> bool:
         """True if the robot of a seat, and no other, moves as soon as a phone's stick does."""
