@@ -14,7 +14,7 @@ RETRY = 0.1  # s until the next attempt to connect
 
 
 class Handset:
-    """A phone that has scanned the code. `touch` is called from any thread. `state`: what its page shows, if it is open."""
+    """A phone that has scanned the code. `touch` is called from any thread. `state`: what its open page shows."""
 
     def __init__(self, loop: asyncio.AbstractEventLoop, session: ClientSession, url: str) -> None:
         self._loop, self._session, self._url = loop, session, url
