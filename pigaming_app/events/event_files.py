@@ -9,13 +9,13 @@ A file is replaced in one step (temporary file, fsync, rename) and has a backup,
 
 import contextlib
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import takewhile
 from pathlib import Path
 
 from pigaming_app.events.event import Event
-from pigaming_app.events.journal import Entry
+from pigaming_app.events.journal import Entry, Summoned
 from pigaming_app.events.spec import EventSpec
 from pigaming_app.storage.file_lock import locked
 from pigaming_app.storage.parsing import describe_error, read_text
@@ -107,15 +107,49 @@ def version(path: Path) -> tuple[int, ...]:
 
 def _joined(path: Path, event: Event, known: Event) -> Event:
     """An event with the entries that only `known` has, as far as they are still possible."""
-    if replace(event.spec, title=known.spec.title) != known.spec:
+    if not same_event(event, known):
         raise ValueError(f"{path}: another event")
-    pairs = zip(event.journal, known.journal, strict=False)
+    common, own = beyond(known.journal, event.journal)
+    return merged(event, common, own)
+
+
+def same_event(event: Event, other: Event) -> bool:
+    """True for two copies of one event, even under different titles."""
+    return replace(event.spec, title=other.spec.title) == other.spec
+
+
+def beyond(journal: Sequence[Entry], other: Sequence[Entry]) -> tuple[int, list[Entry]]:
+    """How many entries two journals have in common at their beginnings, and what one has that the other lacks."""
+    pairs = zip(journal, other, strict=False)
     common = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
-    others = event.journal[common:]
-    for entry in known.journal[common:]:
-        if entry not in others:
-            with contextlib.suppress(ValueError):  # the other process was faster
-                event = event.after(entry)
+    return common, without(journal[common:], other[common:])
+
+
+def without(entries: Sequence[Entry], others: Sequence[Entry]) -> list[Entry]:
+    """Entries without others, each of which takes away one that is equal."""
+    left, found = list(others), []
+    for entry in entries:
+        if entry in left:
+            left.remove(entry)
+        else:
+            found.append(entry)
+    return found
+
+
+def merged(event: Event, common: int, own: Sequence[Entry]) -> Event:
+    """The event with entries of a copy that has the same first `common` ones: what it lacks, as far as it is possible.
+
+    Nobody takes over by this a match that others have called meanwhile, nor takes back their call.
+    """
+    lost: set[int] = set()
+    for entry in without(own, event.journal[common:]):
+        if isinstance(entry, Summoned):
+            if entry.arcade is not None and event.calls.get(entry.fixture, entry.arcade) != entry.arcade:
+                lost.add(entry.fixture)
+            if entry.fixture in lost:
+                continue
+        with contextlib.suppress(ValueError):  # others were faster
+            event = event.after(entry)
     return event
 
 

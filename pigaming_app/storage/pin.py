@@ -104,6 +104,11 @@ class PinFile:
         except NotSaved:
             return False
 
+    def signature(self, text: str) -> str:
+        """A text signed with the PIN, which holds until that is set anew; empty without a PIN."""
+        record = self._read()
+        return hmac.digest(bytes.fromhex(record.salt + record.hash), text.encode(), "sha256").hex() if record else ""
+
     # ---- internals
 
     def _check(self, pin: str, source: str) -> bool:

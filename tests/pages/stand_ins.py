@@ -109,6 +109,7 @@ ELSEWHERE = (
     Elsewhere(r".*tests\.bench\.marker_ids.*", MINUTES_LONG, "tests/hardware/calibration/test_quality.py"),
     Elsewhere(r".*tests\.bench\.reproduce_table.*", MINUTES_LONG, "tests/bench/test_reproduce_table.py"),
     Elsewhere(r".*tests\.bench\.figures.*", MINUTES_LONG, "tests/pages/test_figures.py"),
+    Elsewhere(r".*event run http:.*", "another computer has the event", "tests/jobs/events/test_joining.py"),
     Elsewhere(r".*event desk .*", "it serves until Ctrl-C", "tests/jobs/events/test_desk.py"),
     Elsewhere(r".*people fit\b.*", "a replay with people", "tests/jobs/balance/test_fit.py"),
     Elsewhere(r".*tests\.bench\.fit_people.*", MINUTES_LONG, "tests/ai/people/fit/test_known_people.py"),

@@ -44,6 +44,14 @@ def write(event_file: Path, live: LiveMatch) -> None:
             draft.unlink(missing_ok=True)
 
 
+def read(event_file: Path, arcade: str) -> LiveMatch | None:
+    """What an arcade has written last; None if there is nothing to be read."""
+    try:
+        return from_json(read_text(_file_of(event_file, arcade), MAX_BYTES), LiveMatch)
+    except (OSError, ValueError):
+        return None
+
+
 def remove(event_file: Path, arcade: str) -> None:
     """The arcade is closed, or shows something else."""
     with contextlib.suppress(OSError):

@@ -49,7 +49,8 @@ def run(options: DeskOptions) -> int:
     except ValueError as reason:
         raise Refusal(str(reason)) from None
     try:
-        print(f"everybody: {server.url}\noperator:  {server.url}desk\nCtrl-C ends it.", flush=True)
+        print(f"everybody: {server.url}\noperator:  {server.url}desk", flush=True)
+        print(f"another arcade: event run {server.url} --arcade NAME\nCtrl-C ends it.", flush=True)
         while True:
             time.sleep(3600.0)
     finally:

@@ -6,26 +6,32 @@ kill or a power cut.
 """
 
 import sys
+from argparse import ArgumentTypeError
 from dataclasses import dataclass, replace
 from functools import partial
 from math import inf
+from pathlib import Path
 from time import perf_counter, sleep
 
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files, resume
 from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import check_playable
+from pigaming_app.events.network.mirror import SCHEME, Host, host_at
 from pigaming_app.events.spec import Result, check_name
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.jobs import arcade
-from pigaming_app.jobs.events.files import FileOption, loaded
+from pigaming_app.jobs.events.files import loaded
 from pigaming_app.jobs.events.headless import HeadlessRun, seconds_of
+from pigaming_app.jobs.events.joining import joined
 from pigaming_app.jobs.events.show import print_event
-from pigaming_app.jobs.terminal.options import JsonOption, KioskOptions, decimal, flag, option, word
+from pigaming_app.jobs.terminal.options import JsonOption, KioskOptions, argument, decimal, flag, option, path, word
 from pigaming_app.jobs.terminal.refusal import Refusal, module_of, refused, require_for_brains
 from pigaming_app.sim.arena import ArenaError
+from pigaming_app.storage.parsing import quote
 from pigaming_app.storage.safe_files import require_writable
 from pigaming_app.storage.settings import folders
+from pigaming_app.ui.web import PORT
 
 
 def _speed(text: str) -> float:
@@ -33,10 +39,21 @@ def _speed(text: str) -> float:
     return inf if text == "max" else decimal(0.01, 10_000.0)(text)
 
 
+def _place(text: str) -> Path | Host:
+    """A file, or the computer at an address."""
+    if not text.lower().startswith(SCHEME):
+        return path(text)
+    try:
+        return host_at(text, PORT)
+    except ValueError:
+        raise ArgumentTypeError(f"{quote(text)} is not the address of a desk, as http://192.168.1.5:{PORT}") from None
+
+
 @dataclass(frozen=True, kw_only=True)
-class PlayEventOptions(FileOption, KioskOptions, JsonOption):
+class PlayEventOptions(KioskOptions, JsonOption):
     """The event, and how to play it."""
 
+    file: Path | Host = argument("the event, or the address of a desk that has it: http://…", _place, metavar="FILE")
     arcade: str = option("name of this arcade, if several play the event", word, "", metavar="NAME")
     headless: bool = flag("no window, no sound")
     speed: float = option("with --headless: times real time, or max; default max", _speed, inf)
@@ -44,16 +61,19 @@ class PlayEventOptions(FileOption, KioskOptions, JsonOption):
 
 def run(options: PlayEventOptions) -> int:
     """Play all matches that are left and print the table, or open the event in the arcade. Raises Refusal, NotSaved."""
-    event = loaded(options.file)
     if options.arcade:
         with refused(ValueError):
             check_name(options.arcade, "bad_arcade")
+    if isinstance(options.file, Host) and (options.headless or not options.arcade):
+        raise Refusal("event run: an address needs --arcade, and goes without --headless")
+    file = joined(options.file, options.arcade) if isinstance(options.file, Host) else options.file
+    event = loaded(file)
     if not options.headless:
-        return _in_window(options, event)
+        return _in_window(options, file, event)
     if options.kiosk or options.display is not None or options.scoreboard or options.arcade:
         raise Refusal("event run: --kiosk, --display, --scoreboard and --arcade go without --headless")
     module_of("learning", "learning")  # whose compiled loops play the matches
-    require_writable(options.file)
+    require_writable(file)
     require_for_brains(entrant.brain for entrant in event.entrants)
     began, before = perf_counter(), len(event.outcomes)
     with refused(ChoiceError, ArenaError, ValueError):
@@ -61,11 +81,11 @@ def run(options: PlayEventOptions) -> int:
         headless = HeadlessRun(event)
         while not event.over:
             if not event.open:
-                event = event_files.update(options.file, _continued, event)
+                event = event_files.update(file, _continued, event)
                 continue
             started = perf_counter()
             outcomes, entrants = headless.play(event), event.entrants
-            event = event_files.update(options.file, partial(_recorded, outcomes), event)
+            event = event_files.update(file, partial(_recorded, outcomes), event)
             if event.entrants != entrants:  # changed by another process
                 headless = HeadlessRun(event)
             _progress(event)
@@ -78,12 +98,12 @@ def run(options: PlayEventOptions) -> int:
     return 0
 
 
-def _in_window(options: PlayEventOptions, event: Event) -> int:
+def _in_window(options: PlayEventOptions, file: Path, event: Event) -> int:
     """The arcade on the page of the next match; in a kiosk under a supervisor. Raises Refusal or NotSaved."""
     if options.json or options.speed < inf:
         raise Refusal("event run: --json and --speed need --headless")
     if arcade.needs_supervisor(options):
-        resume.mark(folders().data, options.file, options.arcade)
+        resume.mark(folders().data, file, options.arcade)
         return arcade.supervised(options)
     from pigaming_app.boot.fetch import COMMAND
     from pigaming_app.scenes.events.choice import page_of
@@ -93,7 +113,7 @@ def _in_window(options: PlayEventOptions, event: Event) -> int:
     plain = Options(display=options.display, scoreboard=options.scoreboard, kiosk=options.kiosk, fetch_networks=COMMAND)
     if options.kiosk:  # which opens the event that is marked, until somebody leaves it
         return arcade.show(plain)
-    running = RunningEvent(options.file, event, arcade=options.arcade)
+    running = RunningEvent(file, event, arcade=options.arcade)
     return arcade.show(replace(plain, first_scene=lambda context: page_of(context, running)))
 
 

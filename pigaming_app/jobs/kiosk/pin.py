@@ -3,10 +3,10 @@
 import json
 import sys
 from dataclasses import dataclass
-from getpass import getpass
 
 from pigaming_app.jobs.terminal.options import JsonOption, flag
 from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.jobs.terminal.typed import typed
 from pigaming_app.storage.pin import LONGEST, SHORTEST, PinFile, is_easy
 from pigaming_app.storage.settings import folders
 
@@ -36,8 +36,8 @@ def run(options: PinOptions) -> int:
 
 
 def _set(file: PinFile) -> None:
-    pin = _typed(f"New PIN, {SHORTEST} to {LONGEST} digits: ")
-    if sys.stdin.isatty() and pin != _typed("Once more: "):
+    pin = typed(f"New PIN, {SHORTEST} to {LONGEST} digits: ", "kiosk pin")
+    if sys.stdin.isatty() and pin != typed("Once more: ", "kiosk pin"):
         raise Refusal("kiosk pin: those were two different ones; nothing was changed")
     try:
         file.set(pin)
@@ -45,11 +45,3 @@ def _set(file: PinFile) -> None:
         raise Refusal(f"kiosk pin: {reason}") from None
     if is_easy(pin):
         print("PiGaming: this PIN is easy to guess.", file=sys.stderr)
-
-
-def _typed(prompt: str) -> str:
-    """A line that is typed unseen, or read from standard input. Raises Refusal without one."""
-    try:
-        return getpass(prompt) if sys.stdin.isatty() else sys.stdin.readline().strip()
-    except EOFError:
-        raise Refusal("kiosk pin: nothing was typed") from None

@@ -13,6 +13,7 @@ from pigaming_app.scenes.launch import Options
 from pigaming_app.storage.settings import folders
 
 if TYPE_CHECKING:  # the title does not wait for it
+    from pigaming_app.events.network.link import Link
     from pigaming_app.scenes.events.desk.host import DeskHost
     from pigaming_app.scenes.events.running import RunningEvent
 
@@ -99,6 +100,33 @@ class LiveScores(Service):
             self._written = None
 
 
+class LinkService(Service):
+    """Keeps the copy of another computer's event up to date, from its first page until another one is shown."""
+
+    def __init__(self, context: Context) -> None:
+        self.context, self._left = context, 0.0
+        self._path: Path | None = None
+        self._link: Link | None = None
+
+    def update(self, seconds: float, stack: Stack) -> None:
+        self._left -= seconds
+        running = running_of(stack.scenes) if self._left <= 0.0 else None
+        if running is None:
+            return
+        self._left = LIVE_SECONDS
+        if running.path != self._path:
+            self.close()
+            from pigaming_app.events.network.link import link_of
+
+            self._path, self._link = running.path, link_of(running.path, running.arcade)
+        running.alone = bool(self._link and self._link.trouble)
+
+    def close(self) -> None:
+        if self._link:
+            self._link.stop()
+        self._path, self._link = None, None
+
+
 class DeskService(Service):
     """Serves the event that was shown last to browsers, while the operator has switched that on."""
 
@@ -158,7 +186,7 @@ def running_of(scenes: Sequence[Scene]) -> "RunningEvent | None":
 
 def service(context: Context, options: Options) -> Service | None:
     marker = [EventMarker(context, folders().data)] if options.kiosk and not options.without_title else []
-    return EventService(*marker, LiveScores(context), DeskService(context))
+    return EventService(*marker, LiveScores(context), LinkService(context), DeskService(context))
 
 
 def page(context: Context, game: str) -> Scene:

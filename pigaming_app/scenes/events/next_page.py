@@ -188,7 +188,7 @@ class NextMatch:
         heading(title, view.match_line(words, fixture, self.running.setup(fixture))).draw(screen)
         self.seats.draw(screen, self.clock)
         self._draw_message(screen)
-        view.draw_following(screen, words, self.running.event, self.running.queue)
+        view.draw_following(screen, words, self.running)
         self.prompts.draw(screen)
 
     @property
@@ -380,7 +380,8 @@ class NextMatch:
             caption(shortened(line, 1600), FOCUS).draw(screen, 960, view.MESSAGE_Y)
         elif fixture is None:
             if self.running.event.open:
-                caption(words("desk.elsewhere"), FOCUS).draw(screen, 960, 540)
+                key = "events.alone" if self.running.alone else "desk.elsewhere"
+                caption(words(key), FOCUS).draw(screen, 960, 540)
         elif self.quick:
             call_to_action(words("events.playing"), "", LABEL, pulse(self.clock, 5)).draw(screen, 960, view.MESSAGE_Y)
         elif (self.seats.people and not self.seats.waiting) or (self.show and not self.seats.people):

@@ -5,12 +5,11 @@ from collections.abc import Callable, Sequence
 
 import pygame
 
-from pigaming_app.events.event import Event
 from pigaming_app.events.spec import Fixture
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.events.names import versus
-from pigaming_app.scenes.events.running import progress_line
+from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.flow.arena_cache import load_cached
 from pigaming_app.scenes.flow.match_choice import arena_title
 from pigaming_app.scenes.flow.match_words import game_title, match_length, sudden_death_key
@@ -89,15 +88,16 @@ def match_line(words: Words, fixture: Fixture, setup: Setup | None) -> str:
     return "  ·  ".join((words(f"games.{setup.game}"), length, arena))
 
 
-def draw_following(screen: pygame.Surface, words: Words, event: Event, queue: Sequence[Fixture]) -> None:
-    """Draw who plays after the next match, the first of the queue, and how far the event is."""
-    line = progress_line(words, event)
+def draw_following(screen: pygame.Surface, words: Words, running: RunningEvent) -> None:
+    """Draw who plays after the next match, or that this arcade is cut off, and how far the event is."""
+    line = progress_line(words, running.event)
     text(line, kit.BODY, kit.MIST, "body", "r").draw(screen, RIGHT, THEN_Y)
-    if then := [versus(other.entrants) for other in queue[1:4]]:
-        room = RIGHT - LEFT - 48 - kit.text_width(line, kit.BODY, "body")
-        sentence = following(lambda names: words("events.then", names=names), then, room)
-        sentence, size = fit_text(sentence, kit.LABEL, room)
-        text(sentence, size, kit.MIST, "head", "l").draw(screen, LEFT, THEN_Y)
+    room = RIGHT - LEFT - 48 - kit.text_width(line, kit.BODY, "body")
+    sentence, color = words("events.alone") if running.alone else "", kit.FOCUS
+    if not sentence and (then := [versus(other.entrants) for other in running.queue[1:4]]):
+        sentence, color = following(lambda names: words("events.then", names=names), then, room), kit.MIST
+    sentence, size = fit_text(sentence, kit.LABEL, room)
+    text(sentence, size, color, "head", "l").draw(screen, LEFT, THEN_Y)
 
 
 def following(sentence: Callable[[str], str], matches: Sequence[str], room: float) -> str:

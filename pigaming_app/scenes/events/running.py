@@ -31,6 +31,7 @@ class RunningEvent:
     event: Event
     devices: dict[str, Device] = field(default_factory=dict)
     arcade: str = ""  # its name, if several play this event
+    alone: bool = False  # the computer that has the event does not answer just now
     _version: tuple[int, ...] | None = None  # of the file that was read last
     _known: tuple[Event, Fixture, Setup | None] | None = None  # the latest answer of `setup`
 

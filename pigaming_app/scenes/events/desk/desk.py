@@ -20,6 +20,7 @@ from pigaming_app.scenes.events.desk import desk_pages, on_call_pages
 from pigaming_app.scenes.events.desk.desk_pages import DeskView
 from pigaming_app.scenes.events.desk.document import FILES, contents, languages
 from pigaming_app.scenes.events.desk.forms import Action, action_of, fixture_of, index
+from pigaming_app.scenes.events.desk.joining import Joining
 from pigaming_app.scenes.events.desk.public_page import public_page
 from pigaming_app.scenes.events.desk.sessions import COOKIE, Session, Sessions, cookie, is_key
 from pigaming_app.storage.pin import PinFile
@@ -46,6 +47,7 @@ class Desk:
         self._version: tuple[int, ...] = ()
         self._pages: dict[str, tuple[Event, tuple[LiveMatch, ...], bytes]] = {}  # latest public page by language
         self._event = event_files.latest(path)
+        self._joining = Joining(path, pin, self.event)
 
     def __call__(self, request: WebRequest) -> WebReply:
         """The answer to any request."""
@@ -56,6 +58,8 @@ class Desk:
             return self._public(request)
         if name.partition("/")[0] == "desk":
             return self._desk(request)
+        if name.partition("/")[0] == "join":
+            return self._joining(request)
         return WebReply(status=404)
 
     def event(self) -> Event:
