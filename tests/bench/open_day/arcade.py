@@ -1,4 +1,4 @@
-"""The arcade of the day with its visitors in it: `python -m tests.bench.open_day.arcade FOLDER`, under a supervisor.
+"""The arcade of a day with its visitors in it: `python -m tests.bench.open_day.arcade FOLDER`, under a supervisor.
 
 Simulated time runs as fast as the machine permits; only every DRAWN-th frame of a scene is drawn, and its first one.
 """
@@ -25,13 +25,14 @@ PORT = "PIGAMING_TEST_PHONES"  # variable of the environment
 
 def main(folder: Path) -> int:
     """Run the arcade until the day is over. Returns its exit code."""
-    clock = day_clock.DayClock(folder / "clock")
-    day_clock.install(clock)
+    clock, wishes = day_clock.DayClock(folder / "clock"), json.loads((folder / "day.json").read_text(encoding="utf-8"))
+    day_clock.install(clock, day_clock.Times(**wishes["times"]))
 
     from pigaming_app.jobs.terminal import supervised as child
     from pigaming_app.scenes.app import App
     from pigaming_app.scenes.events.next_page import NextMatch
     from pigaming_app.scenes.launch import Options
+    from pigaming_app.scenes.phones.host import phone_host
     from pigaming_app.scenes.play.scene import MatchScene
     from pigaming_app.scenes.results.awards.moment import AwardsMoment
     from pigaming_app.scenes.results.initials import Initials
@@ -42,12 +43,13 @@ def main(folder: Path) -> int:
     from tests.bench.open_day import ledger as ledgers
     from tests.bench.open_day.event_visit import EventVisit
     from tests.bench.open_day.hands import PhoneHands
-    from tests.bench.open_day.plan import plan
     from tests.bench.open_day.stage import Stage
     from tests.bench.open_day.visit import Visit
     from tests.bench.open_day.watch import Watch
+    from tests.bench.open_day.week import days_of
 
-    day = plan(**json.loads((folder / "day.json").read_text(encoding="utf-8")))
+    day = days_of(**wishes["days"])[wishes["day"]]
+    day = day.second if wishes["second"] and day.second else day
     seen = ledgers.read(folder / "ledger")
     begin = clock.seconds + (RESTART if seen.lives else 0.0)
     clock.write(begin, os.getpid(), "other", 0)
@@ -78,10 +80,10 @@ def main(folder: Path) -> int:
         frames += 1
         app, watch, stage = crew[0]
         now += app.options.step or 0.0
-        watch.look(now, stage.group)
+        watch.look(now, stage.group, stage.visitors)
         clock.write(now, os.getpid(), place(app.stack.scenes[-1] if app.stack.scenes else None), frames)
         stage.play(now)
-        if any(isinstance(player.hands, PhoneHands) for player in stage.players):
+        if stage.school_class or any(isinstance(player.hands, PhoneHands) for player in stage.players):
             sleep(PHONE_PAUSE)
         app.options = replace(app.options, step=STEP if stage.busy else IDLE_STEP)
         return now >= day.seconds and not stage.busy and not watch.pending
@@ -96,6 +98,7 @@ def main(folder: Path) -> int:
         changed_settings=phones,  # in each run, as a supervisor starts the same command again
     )
     with opened(options) as app:
+        app.context.shared(phone_host).roster.clock = lambda: clock.seconds
         draw_rarely(app)
         preload(app.context.preloader)
         file = ledgers.LedgerFile(folder / "ledger")

@@ -5,6 +5,7 @@ import statistics
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
+from datetime import date
 from pathlib import Path
 from typing import Any
 
@@ -19,33 +20,43 @@ from pigaming_app.storage.restarts import restarts
 from pigaming_app.storage.scores import FILE as SCORES
 from pigaming_app.storage.scores import LENGTH
 from pigaming_app.storage.scores.book import parse as parse_scores
-from tests.bench.open_day.clock import OPENING
 from tests.bench.open_day.ledger import Ledger, SeenMatch
 from tests.bench.open_day.plan import Day
 
 FLAT_MB = 20.0
+SHARE = 2  # times the fair share of matches that a phone waits at most
+FULL = "No space left on device"  # of a log that may have such lines
 WARM, TAIL = 1800.0, 1800.0  # s: of a run, after which its memory is read first, and last
 SAMPLES = 3  # readings at least in each of both
 
 
-def problems(day: Day, ledger: Ledger, data: Path, report: Mapping[str, Any]) -> Iterator[str]:
-    """Everything that is not as it has to be."""
+def of_day(day: Day, ledger: Ledger, data: Path, report: Mapping[str, Any]) -> Iterator[str]:
+    """Everything of a day that is not as it has to be."""
+    log = played(data, day.times.wall(0.0).date())
     yield from ledger.troubles
-    yield from matches_counted_once(ledger, played(data))
-    yield from report_agrees(ledger, played(data), report, len(day.kills))
-    yield from results_of_events(ledger, data)
-    yield from scores_counted_once(ledger, data)
-    yield from clean(data, len(day.kills))
+    yield from matches_counted_once(ledger, log)
+    yield from report_agrees(ledger, log, report, len(day.kills))
     yield from flat(ledger, day.seconds)
-    absent = day.visitors - len(ledger.seated)
-    if absent:
-        yield f"{absent} visitors have never played"
+    yield from fair(ledger)
 
 
-def played(data: Path) -> list[PlayedMatch]:
+def of_files(days: Sequence[Day], ledger: Ledger, data: Path) -> Iterator[str]:
+    """What is not as it has to be in the files of an arcade after all its days, of which the ledger is the sum."""
+    yield from scores_counted_once(ledger, data)
+    yield from clean(data, sum(day.crashes for day in days), any(day.full < day.seconds for day in days))
+
+
+def played(data: Path, day: date) -> list[PlayedMatch]:
     """All matches of the day log. A damaged line is a problem of the report."""
-    records, _ = read_day(data, OPENING.date())
+    records, _ = read_day(data, day)
     return [record for record in records if isinstance(record, PlayedMatch)]
+
+
+def fair(ledger: Ledger) -> Iterator[str]:
+    """Phones that waited for more than twice their share of matches."""
+    for wait in ledger.waits:
+        if wait.matches > SHARE * wait.fair:
+            yield f"visitor {wait.visitor} waited for match {wait.matches}, a fair share is {wait.fair}"
 
 
 def matches_counted_once(ledger: Ledger, log: Sequence[PlayedMatch]) -> Iterator[str]:
@@ -87,7 +98,7 @@ def report_agrees(ledger: Ledger, log: Sequence[PlayedMatch], report: Mapping[st
 
 def results_of_events(ledger: Ledger, data: Path) -> Iterator[str]:
     """Each match of people in a finished event has one result in the journal, the one that was seen."""
-    for path in ledger.events.values():
+    for path in {*ledger.events.values()}:
         event, damage = event_files.load(Path(path))
         yield from damage
         if event is None or not event.over:
@@ -157,11 +168,12 @@ def table_key(table: Mapping[str, Any]) -> str:
     return json.dumps({**table, "length": float(table["length"])}, sort_keys=True)
 
 
-def clean(data: Path, kills: int) -> Iterator[str]:
-    """Logs without warnings and stacks; a crash report for each kill, and none besides."""
+def clean(data: Path, kills: int, full: bool = False) -> Iterator[str]:
+    """Logs without warnings and stacks, but for a full disk; a crash report for each kill, and none besides."""
     for path in sorted(data.glob(f"{LOG}*")):
         for line in path.read_text(encoding="utf-8").splitlines():
-            yield f"{path.name}: {line}"
+            if not (full and FULL in line):
+                yield f"{path.name}: {line}"
     stacks = data / CRASH_FILE
     if stacks.exists() and stacks.stat().st_size:
         yield f"{CRASH_FILE}: {stacks.read_text(encoding='utf-8')[:2000]}"

@@ -1,4 +1,4 @@
-"""Simulated time of the day, also for the local time of day; a few bytes in a file, which survive a kill.
+"""Simulated time of a day, also for the time of day; a few bytes in a file, which survive a kill.
 
 `install` replaces `datetime.datetime` and `datetime.date` in this process by classes whose `now` and `today` follow it:
 the day log, the high scores, the quiet hours and the names of files then have simulated times. It has to be called
@@ -8,17 +8,38 @@ before the rest of PiGaming is imported. Types of files keep the real classes, w
 import datetime as datetime_module
 import mmap
 import struct
+from dataclasses import dataclass
 from importlib import import_module
+from math import inf
 from pathlib import Path
 from typing import Any
 
-OPENING = datetime_module.datetime(2026, 6, 20, 10, 0)  # local time
+TIME_ZONE = "CET-1CEST,M3.5.0,M10.5.0/3"  # of all days, as in POSIX: no file is needed
 RECORD = struct.Struct("<dIII")  # seconds, process, place, frames
 STORAGE = "pigaming_app.storage"
 EARLY = (f"{STORAGE}.day_log", f"{STORAGE}.scores.book", f"{STORAGE}.scores.table", "pigaming_app.events.climb_files")
 PLACES = ("other", "title", "match", "event", "ending", "results")
 REAL_DATETIME = datetime_module.datetime
 REAL_DATE = datetime_module.date
+
+
+@dataclass(frozen=True)
+class Times:
+    """The clock on the wall: `opening` as a timestamp; `set_back` s after it, if ever, it is set back by an hour.
+
+    Local times are in the time zone of the process.
+    """
+
+    opening: float = datetime_module.datetime(2026, 6, 20, 8, 0, tzinfo=datetime_module.UTC).timestamp()  # 10:00
+    set_back: float = inf
+
+    def wall(self, seconds: float) -> datetime_module.datetime:
+        """The local time so many seconds after the opening."""
+        return REAL_DATETIME.fromtimestamp(self.stamp(seconds))
+
+    def stamp(self, seconds: float) -> float:
+        """The same as a timestamp."""
+        return self.opening + seconds - (3600.0 if seconds >= self.set_back else 0.0)
 
 
 class DayClock:
@@ -57,7 +78,7 @@ class DayClock:
         return RECORD.unpack(self._bytes[:])
 
 
-def install(clock: DayClock) -> None:
+def install(clock: DayClock, times: Times) -> None:
     """Let this process live in simulated time."""
 
     class _Same(type):
@@ -69,12 +90,12 @@ def install(clock: DayClock) -> None:
     class SimulatedDatetime(REAL_DATETIME, metaclass=_Same):
         @classmethod
         def now(cls, tz: Any = None) -> Any:
-            return (OPENING + datetime_module.timedelta(seconds=clock.seconds)).astimezone(tz).replace(tzinfo=tz)
+            return REAL_DATETIME.fromtimestamp(times.stamp(clock.seconds), tz)
 
     class SimulatedDate(REAL_DATE, metaclass=_Same):
         @classmethod
         def today(cls) -> Any:
-            return (OPENING + datetime_module.timedelta(seconds=clock.seconds)).date()
+            return times.wall(clock.seconds).date()
 
     for module in map(import_module, EARLY):
         vars(module)["datetime"] = SimulatedDatetime

@@ -56,31 +56,24 @@ class PadHands:
 
 
 class PhoneHands:
-    """A visitor's phone. `new`: one that scans the code; `others`: the group's other phones.
+    """A visitor's phone, which scans the code at once. `number_of`: the arcade's number of the phone with a token."""
 
-    They scan it one after the other, after the phones of the group before have gone: so each knows its number.
-    """
-
-    def __init__(self, new: Callable[[], Handset], phones: Phones, others: "Callable[[], list[PhoneHands]]") -> None:
-        self._new, self._phones, self._others = new, phones, others
-        self.handset: Handset | None = None
-        self.number: int | None = None
+    def __init__(self, handset: Handset, phones: Phones, number_of: Callable[[str], int | None]) -> None:
+        self.handset, self._phones, self._number_of = handset, phones, number_of
+        self._number: int | None = None
         self._touches = Touches()
 
     @property
-    def device(self) -> Device | None:
-        if self.number is None:
-            self._join()
-        return Device("phone", self.number) if self.number in self._phones.plugged else None
+    def number(self) -> int | None:
+        """The arcade's number of it; None until it is connected."""
+        if self._number is None and self.handset.token:
+            self._number = self._number_of(self.handset.token)
+        return self._number
 
-    def _join(self) -> None:
-        others = self._others()
-        strange = sorted(set(self._phones.plugged) - {other.number for other in others})
-        if self.handset is None:
-            scanning = any(other.handset and other.number is None for other in others)
-            self.handset = None if strange or scanning else self._new()
-        elif strange:
-            self.number = strange[0]
+    @property
+    def device(self) -> Device | None:
+        """The arcade's name of it; None while it is away or others have their turn."""
+        return Device("phone", self.number) if self.number in self._phones.plugged else None
 
     def press(self, button: Button) -> None:
         if button in STICK:
@@ -98,20 +91,17 @@ class PhoneHands:
         self._send(x, y, BITS[Button.FIRE] * fire | BITS[Button.BACK] * turbo)
 
     def unplug(self) -> None:
-        if self.handset:
-            self.handset.lock()
+        self.handset.lock()
 
     def plug(self) -> None:
         self._touches = Touches()
-        if self.handset:
-            self.handset.unlock()
+        self.handset.unlock()
 
     def _send(self, x: float, y: float, buttons: int) -> None:
         touches = Touches(x, y, buttons)
         if touches != self._touches:
             self._touches = touches
-            if self.handset:
-                self.handset.touch(touches)
+            self.handset.touch(touches)
 
 
 class KeyHands:

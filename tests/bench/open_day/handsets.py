@@ -7,21 +7,23 @@ from typing import Any
 
 from aiohttp import ClientError, ClientSession, ClientTimeout, ClientWebSocketResponse, WSMsgType
 
-from pigaming_app.ui.input.phone_messages import Touches, Wish, WishKind, pack, pack_wish
+from pigaming_app.ui.input.phone_messages import ITS_TURN, VERSION, Touches, Wish, WishKind, pack, pack_wish
 
 BEAT = 0.15  # s between two messages of a phone that is not touched
 RETRY = 0.1  # s until the next attempt to connect
 
 
 class Handset:
-    """A phone that has scanned the code. `touch` is called from any thread. `state`: what its open page shows."""
+    """A phone that has scanned the code. `touch` and `wish` are called from any thread. `state`: what its page shows.
 
-    def __init__(self, loop: asyncio.AbstractEventLoop, session: ClientSession, url: str) -> None:
+    `token`: that of the page, by which it returns.
+    """
+
+    def __init__(self, loop: asyncio.AbstractEventLoop, session: ClientSession, url: str, token: str = "") -> None:
         self._loop, self._session, self._url = loop, session, url
         self._origin = url.rsplit("/", 1)[0]
-        self._touches: asyncio.Queue[Touches | Wish] = asyncio.Queue()
-        self._now = Touches()
-        self._resume = ""
+        self._frames: asyncio.Queue[bytes] = asyncio.Queue()
+        self.token = token
         self.state: dict[str, Any] = {}
         self.connections = self.texts = 0
         self.error: Exception | None = None  # the last one
@@ -30,11 +32,20 @@ class Handset:
 
     def touch(self, touches: Touches) -> None:
         """Send what the player touches from now on."""
-        self._loop.call_soon_threadsafe(self._touches.put_nowait, touches)
+        self._loop.call_soon_threadsafe(self._frames.put_nowait, pack(touches))
+
+    def wish(self, wish: Wish) -> None:
+        """Send a name, a colour, a cheer or a vote."""
+        self._loop.call_soon_threadsafe(self._frames.put_nowait, pack_wish(wish))
 
     def name(self, text: str) -> None:
         """Enter a name."""
-        self._loop.call_soon_threadsafe(self._touches.put_nowait, Wish(WishKind.NAME, text=text))
+        self.wish(Wish(WishKind.NAME, text=text))
+
+    @property
+    def before(self) -> int:
+        """The phones that come first, as the page shows it."""
+        return int(self.state.get("before", ITS_TURN))
 
     def lock(self) -> None:
         """Lock the phone: its socket is cut without a farewell."""
@@ -62,22 +73,19 @@ class Handset:
             await asyncio.sleep(RETRY)
 
     async def _serve(self) -> None:
-        while not self._touches.empty():
-            self._touches.get_nowait()
-        self._now = Touches()
-        socket = await self._session.ws_connect(f"{self._url}/pad?resume={self._resume}", origin=self._origin)
+        while not self._frames.empty():
+            self._frames.get_nowait()
+        held = frame = pack(Touches())
+        socket = await self._session.ws_connect(f"{self._url}/pad?resume={self.token}", origin=self._origin)
         reader = asyncio.create_task(self._read(socket))
         self.connections += 1
         try:
             while not socket.closed:
-                await socket.send_bytes(pack(self._now))
+                await socket.send_bytes(frame)
+                frame = held = frame if frame[0] == VERSION else held
                 with suppress(TimeoutError):
                     async with asyncio.timeout(BEAT):  # unlike `wait_for`, it never swallows a cancellation
-                        wanted = await self._touches.get()
-                    if isinstance(wanted, Wish):
-                        await socket.send_bytes(pack_wish(wanted))
-                    else:
-                        self._now = wanted
+                        frame = await self._frames.get()
         finally:
             reader.cancel()
             if socket._response.connection and socket._response.connection.transport:
@@ -88,9 +96,9 @@ class Handset:
         async for message in socket:
             if message.type is WSMsgType.TEXT:
                 self.texts += 1
-                self.state = message.json().get("state", self.state)
-                if "resume" in (values := message.json()):
-                    self._resume = values["resume"]
+                values = message.json()
+                self.token = values.get("resume", self.token)
+                self.state = values.get("state", self.state)
 
 
 class Handsets:
@@ -102,9 +110,9 @@ class Handsets:
         self._thread.start()
         self._session: ClientSession = asyncio.run_coroutine_threadsafe(_session(), self._loop).result(10.0)
 
-    def new(self, url: str) -> Handset:
-        """A phone that scans this code."""
-        return Handset(self._loop, self._session, url)
+    def new(self, url: str, token: str = "") -> Handset:
+        """A phone that scans this code, or returns with its token."""
+        return Handset(self._loop, self._session, url, token)
 
     def close(self) -> None:
         """End all phones."""

@@ -6,6 +6,7 @@ have counted it or not, but never twice. All others have to be counted exactly o
 
 import json
 import os
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -37,6 +38,18 @@ class SeenMatch:
         return self.game, self.began, self.seconds, self.people, self.ais
 
 
+@dataclass(frozen=True)
+class Wait:
+    """A phone's way to a seat: s in the queue, matches that began in this time up to its own, and its fair share of
+    them, which follows from those who came first when it joined the queue.
+    """
+
+    visitor: int
+    seconds: float
+    matches: int
+    fair: int
+
+
 @dataclass
 class Ledger:
     """All that was seen. `playing`: matches that began and have neither ended nor been left, as after a kill;
@@ -56,6 +69,8 @@ class Ledger:
     done: set[int] = field(default_factory=set)  # groups
     seated: set[int] = field(default_factory=set)  # visitors who have played, by number
     events: dict[int, str] = field(default_factory=dict)  # file by group
+    tokens: dict[int, str] = field(default_factory=dict)  # of the page of each visitor's phone
+    waits: list[Wait] = field(default_factory=list)
 
     @property
     def settled(self) -> list[SeenMatch]:
@@ -66,6 +81,27 @@ class Ledger:
     def open(self) -> list[SeenMatch]:
         """The matches that it may have counted."""
         return [match for match in self.matches if not match.settled]
+
+    def __add__(self, other: "Ledger") -> "Ledger":
+        """Both together. Groups and lives of the other come after those of this one."""
+        groups, lives = max(self.done | {*self.events}, default=-1) + 1, self.lives
+        return Ledger(
+            self.matches + other.matches,
+            self.left + other.left,
+            self.playing + other.playing,
+            self.rows + other.rows,
+            self.entries + other.entries,
+            dict(Counter(self.counts) + Counter(other.counts)),
+            self.memory + [(life + lives, at, mb) for life, at, mb in other.memory],
+            self.troubles + other.troubles,
+            lives + other.lives,
+            self.played | {groups + group: count for group, count in other.played.items()},
+            self.done | {groups + group for group in other.done},
+            self.seated | other.seated,
+            self.events | {groups + group: path for group, path in other.events.items()},
+            self.tokens | other.tokens,
+            self.waits + other.waits,
+        )
 
 
 class LedgerFile:
@@ -132,6 +168,10 @@ def digest(lines: Iterator[dict[str, Any]]) -> Ledger:
                 out.done.add(group)
             case {"what": "event", "group": group, "path": path}:
                 out.events[group] = path
+            case {"what": "phone", "visitor": visitor, "token": token}:
+                out.tokens[visitor] = token
+            case {"what": "wait", **wait}:
+                out.waits.append(Wait(**wait))
             case other:
                 raise ValueError(f"no line of a ledger: {other}")
     out.matches = [

@@ -1,20 +1,25 @@
-"""The schedule of a day: groups of visitors, their wishes and mishaps, the operator's tasks, and the kills."""
+"""The schedule of a day: groups of visitors, their wishes and mishaps, the operator's tasks, and what goes wrong."""
 
 import random
-from dataclasses import dataclass, field
-from datetime import datetime, timedelta
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from datetime import datetime
+from itertools import islice
+from math import inf
 
 from pigaming_app.events.spec import Format
 from pigaming_app.games.registry import games
 from pigaming_app.storage.scores import LETTERS
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.widgets.word_filter import is_rude
-from tests.bench.open_day.clock import OPENING
+from tests.bench.open_day.clock import Times
 
 SIZES, WEIGHTS = (1, 2, 3, 4), (2, 4, 3, 2)  # people of a group, and how often
-PADS = 3
+PADS, PLACES = 3, 4  # pads in the hall, and seats of a match
 MISHAPS = ("pull", "lock", "pause", "stop", "rest")  # pad pulled, phone locked, pause, end by hand, nobody drives
 PIN = "274918"  # of the operator
+FULL_SECONDS = 600.0  # for which a disk is full
+KILLS = 5  # of a long day alone
 GUESS = "guess"  # look for the way out, and guess the PIN
 ONLY = ("events", "phones")  # parts of a day
 LONG_DAY = 2.0  # h from which a day has events, quiet hours and a time limit
@@ -34,11 +39,14 @@ class Visitor:
 
 @dataclass(frozen=True)
 class EventWish:
-    """An event that a group plays. `ais`: entrants that are AIs; `late`: initials of a late entrant, or empty."""
+    """An event that a group plays. `ais`: entrants that are AIs; `late`: initials of a late entrant, or empty;
+    `shared`: it is prepared for two arcades.
+    """
 
     format: Format
     ais: int
     late: str = ""
+    shared: bool = False
 
 
 @dataclass(frozen=True)
@@ -57,6 +65,11 @@ class Group:
     mishap: str = ""
     event: EventWish | None = None
 
+    @property
+    def is_class(self) -> bool:
+        """True for more people than seats, who all have a phone and take turns."""
+        return len(self.visitors) > PLACES and self.event is None
+
 
 @dataclass(frozen=True)
 class Task:
@@ -72,26 +85,40 @@ class Task:
 
 @dataclass(frozen=True)
 class Kill:
-    """A kill of the arcade at the first moment after `after` s at which it is at this place, see `clock.PLACES`."""
+    """A kill of the arcade at the first moment after `after` s at which it is at this place, see `clock.PLACES`.
+
+    `power`: the power fails: its supervisor is killed, too, and started again.
+    """
 
     after: float
     place: str
+    power: bool = False
 
 
 @dataclass(frozen=True)
 class Day:
-    """A whole day of `seconds`."""
+    """A day of `seconds`. `full`: the time from which the disk is full for FULL_SECONDS; `second`: what happens at a
+    second arcade, which shares the event of the first group.
+    """
 
     seconds: float
     groups: tuple[Group, ...]
     tasks: tuple[Task, ...]
     kills: tuple[Kill, ...]
     seed: int
+    times: Times = field(default_factory=Times)
+    full: float = inf
+    second: "Day | None" = None
 
     @property
     def visitors(self) -> int:
         """All people who come."""
         return sum(len(group.visitors) for group in self.groups)
+
+    @property
+    def crashes(self) -> int:
+        """The kills that a supervisor sees."""
+        return sum(not kill.power for kill in self.kills)
 
     def quiet(self, now: datetime) -> bool:
         """True in the quiet hours that the operator has set, if any."""
@@ -99,36 +126,45 @@ class Day:
         return ordered and QUIET[0] <= f"{now:%H:%M}" < QUIET[1]
 
 
-def time_of(seconds: float) -> datetime:
-    """The local time so many seconds after the opening."""
-    return OPENING + timedelta(seconds=seconds)
-
-
-def plan(hours: float, visitors: int, seed: int, kills: int = 5, only: str = "") -> Day:
-    """The day of a seed. `only`: one of ONLY, visitors who all play in an event, or by phone."""
+def plan(hours: float, visitors: int, seed: int, kills: int = KILLS, only: str = "") -> Day:
+    """A day alone. `only`: one of ONLY, visitors who all play in an event, or by phone."""
     rng, seconds, long = random.Random(seed), 3600.0 * hours, hours >= LONG_DAY
     people = iter(crowd(rng, visitors, only == "phones"))
-    groups: list[Group] = []
     events = {}
     if long or only == "events":
         late = initials_at(visitors)
         events = {0.12: (6, EventWish(Format.KNOCKOUT, 0)), 0.42: (8, EventWish(Format.SWISS, 2, late))}
-    for share, (count, wish) in events.items():
-        crew = tuple(next(people) for _ in range(count))
-        groups.append(Group(0, share * seconds, crew, next(iter(games())), 0, event=wish))
+    groups = entrants(events, people, seconds)
     left = 0 if only == "events" else visitors - sum(len(group.visitors) for group in groups)
-    sizes: list[int] = []
-    while left:
-        size = min(left, rng.choices(SIZES, WEIGHTS)[0])
-        sizes.append(size)
-        left -= size
-    for i, size in enumerate(sizes):
-        crew = tuple(next(people) for _ in range(size))
-        at = seconds * LAST_ARRIVAL * (i + rng.uniform(0.0, 0.8)) / len(sizes)
-        groups.append(a_group(rng, i, at, crew, long))
-    groups.sort(key=lambda group: group.at)
-    groups = [Group(**{**vars(group), "number": i}) for i, group in enumerate(groups)]
-    return Day(seconds, tuple(groups), tuple(tasks(seconds, long)), tuple(planned_kills(seconds, long, kills)), seed)
+    groups += arrivals(rng, list(islice(people, left)), seconds, long)
+    return Day(seconds, in_order(groups), tuple(tasks(seconds, long)), tuple(planned_kills(seconds, long, kills)), seed)
+
+
+def entrants(events: dict[float, tuple[int, EventWish]], people: Iterator[Visitor], seconds: float) -> list[Group]:
+    """The groups that play events, by share of the day."""
+    game = next(iter(games()))
+    return [
+        Group(0, share * seconds, tuple(islice(people, count)), game, 0, event=wish)
+        for share, (count, wish) in events.items()
+    ]
+
+
+def arrivals(rng: random.Random, people: list[Visitor], seconds: float, long: bool) -> list[Group]:
+    """Groups of up to four, who come one after the other."""
+    crews: list[tuple[Visitor, ...]] = []
+    while people:
+        size = min(len(people), rng.choices(SIZES, WEIGHTS)[0])
+        crews.append(tuple(people[:size]))
+        people = people[size:]
+    return [
+        a_group(rng, i, seconds * LAST_ARRIVAL * (i + rng.uniform(0.0, 0.8)) / len(crews), crew, long)
+        for i, crew in enumerate(crews)
+    ]
+
+
+def in_order(groups: list[Group]) -> tuple[Group, ...]:
+    """The groups by time, numbered."""
+    return tuple(replace(group, number=i) for i, group in enumerate(sorted(groups, key=lambda group: group.at)))
 
 
 def a_group(rng: random.Random, i: int, at: float, crew: tuple[Visitor, ...], long: bool) -> Group:
@@ -149,13 +185,13 @@ def a_group(rng: random.Random, i: int, at: float, crew: tuple[Visitor, ...], lo
 
 
 def crowd(rng: random.Random, count: int, phones: bool = False) -> list[Visitor]:
-    """Visitors with different, harmless initials; with `phones`, all of them have one."""
+    """Visitors with different, harmless initials; with `phones`, all of them have a phone."""
     return [Visitor(i, initials_at(i), rng.random() < 0.45 or phones) for i in range(count)]
 
 
 def initials_at(number: int) -> str:
     """The initials with this number: different ones, a few steps from AAA, so that they are entered in time."""
-    near = (0, 1, 25, 2, 24, 3, 23, 4)
+    near = (0, 1, 25, 2, 24, 3, 23, 4, 22, 5, 21)
     names = (LETTERS[a] + LETTERS[b] + LETTERS[c] for a in near for b in near for c in near if (a, b, c) != (0, 0, 0))
     return [name for name in names if not is_rude(name)][number]
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from pigaming_app.scenes.app import App
 from pigaming_app.scenes.attract.scene import Attract
+from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.kiosk.operator.figures_page import FiguresPage
 from pigaming_app.scenes.kiosk.operator.page import QUIET as QUIET_ROWS
 from pigaming_app.scenes.kiosk.operator.page import OperatorPage
@@ -18,11 +19,13 @@ from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.input.phones.guest import hash_of
 from pigaming_app.ui.widgets.focus import Focus
 from tests.bench.open_day.hands import Hands, KeyHands, PadHands, PhoneHands
 from tests.bench.open_day.handsets import Handsets
 from tests.bench.open_day.ledger import Ledger
-from tests.bench.open_day.plan import PADS, PIN, Day, Group, Task, Visitor, time_of
+from tests.bench.open_day.plan import PADS, PIN, PLACES, Day, Group, Task, Visitor
+from tests.bench.open_day.school_class import SchoolClass
 from tests.bench.open_day.watch import Watch
 
 TEMPO = 0.35  # s between two presses of a person
@@ -51,9 +54,12 @@ class Stage:
         self.handsets = Handsets()
         self.players: list[Player] = []
         self.group: Group | None = None
+        self.school_class: SchoolClass | None = None  # the group, if it is one
         self.done = set(seen.done)
         self.played = dict(seen.played)  # matches by group, of the runs before
         self.events = dict(seen.events)
+        self.tokens = dict(seen.tokens)  # of the phones, by visitor
+        watch.seated |= seen.seated
         self.now = self.moved = self.changed = now  # s; the last two: progress of the group, change of the top scene
         self.top: Any = None
         self.looked = self.mishap_over = False
@@ -88,8 +94,8 @@ class Stage:
             return
         if self.group is None:
             self._next_group()
-        for player in self.players:
-            _ = player.hands.device  # a phone scans the code
+        if self.school_class:
+            self.players = self.school_class.look(now, top)
         if self.group is not None:
             if self.matches > self.counted:
                 self.counted, self.moved = self.matches, now
@@ -124,7 +130,15 @@ class Stage:
         assert group is not None
         if group.event:
             return group.number in self.done
+        if self.school_class:
+            return self.school_class.finished
         return self.matches >= group.matches
+
+    def visitors(self, match: MatchScene) -> list[int]:
+        """The numbers of those of the group who play a match, by pad or by phone."""
+        if self.school_class:
+            return self.school_class.visitors(match)
+        return [visitor.number for visitor in self.group.visitors[:PLACES]] if self.group else []
 
     @property
     def waiting(self) -> list[Group]:
@@ -138,33 +152,40 @@ class Stage:
 
     def _next_group(self) -> None:
         waiting = self.waiting
-        if not waiting or not isinstance(self.top, Title | Attract):
+        shared = bool(waiting and waiting[0].event and waiting[0].event.shared)  # the arcade opens it by itself
+        if not waiting or not isinstance(self.top, NextMatch if shared else Title | Attract):
             return
         self.group = group = waiting[0]
         self.moved, self.counted = self.now, self.matches
         self.looked, self.mishap_over = not group.look or self.matches > 0, self.matches > 0
+        if group.is_class:
+            hall = [Player(visitor, self._phone(visitor)) for visitor in group.visitors]
+            self.school_class = SchoolClass(self, hall)
+            return
         pads = list(self.pads)
-        phones = 0
-        for visitor in group.visitors:
-            if len(self.players) == 4:
-                break
-            if visitor.phone or not pads:
-                self.players.append(Player(visitor, self._phone()))
-                phones += 1
-            else:
-                self.players.append(Player(visitor, pads.pop(0)))
-        for _ in range(phones):
-            self.watch.count("phones")
+        for visitor in group.visitors[:PLACES]:
+            plays_by_phone = visitor.phone or not pads
+            self.players.append(Player(visitor, self._phone(visitor) if plays_by_phone else pads.pop(0)))
 
-    def _phone(self) -> PhoneHands:
-        host = self.app.context.shared(phone_host)
+    def _phone(self, visitor: Visitor) -> PhoneHands:
+        """The visitor's phone, which returns with the token that it had."""
+        host, token = self.app.context.shared(phone_host), self.tokens.get(visitor.number, "")
+        self.watch.count("phones that return" if token else "phones")
+        return PhoneHands(self.handsets.new(host.url, token), self.app.context.controls.phones, self._number)
 
-        def others() -> list[PhoneHands]:
-            phones = [player.hands for player in self.players if isinstance(player.hands, PhoneHands)]
-            return [phone for phone in phones if phone is not hands]
+    def _number(self, token: str) -> int | None:
+        """The arcade's number of the phone with a token."""
+        hashed = hash_of(token)
+        guests = self.app.context.shared(phone_host).roster.guests()
+        return next((guest.number for guest in guests if guest.token == hashed), None)
 
-        hands = PhoneHands(lambda: self.handsets.new(host.url), self.app.context.controls.phones, others)
-        return hands
+    def note_tokens(self, players: Sequence[Player]) -> None:
+        """Keep the tokens of the phones for the next run."""
+        for player in players:
+            token = player.hands.handset.token if isinstance(player.hands, PhoneHands) else ""
+            if token and token != self.tokens.get(player.visitor.number):
+                self.tokens[player.visitor.number] = token
+                self.watch.ledger.note("phone", visitor=player.visitor.number, token=token)
 
     def leave(self) -> None:
         """The group goes home; its phones are locked."""
@@ -172,15 +193,15 @@ class Stage:
         self.done.add(self.group.number)
         self.watch.ledger.note("done", group=self.group.number)
         self._let_go()
-        for player in self.players:
+        for player in self.school_class.hall if self.school_class else self.players:
             if isinstance(player.hands, PhoneHands):
                 player.hands.unplug()
-        self.players, self.group = [], None
+        self.players, self.group, self.school_class = [], None, None
         self.watch.memory(self.now)
 
     def _let_go(self) -> None:
         """Release sticks and buttons after a match."""
-        for player in self.players:
+        for player in self.school_class.hall if self.school_class else self.players:
             player.hands.steer(0.0, 0.0, False, False)
 
     def _give_up(self) -> None:
@@ -188,7 +209,7 @@ class Stage:
         assert self.group is not None
         devices = [player.hands.device for player in self.players]
         what = f"group {self.group.number} is stuck at {type(self.top).__name__} with {devices}"
-        self.watch.trouble(f"{time_of(self.now):%H:%M}: {what}")
+        self.watch.trouble(f"{self.day.times.wall(self.now):%H:%M}: {what}")
         self.app.context.canvas.screenshot(self.folder / f"stuck-{self.group.number}.png")
         self.leave()
 

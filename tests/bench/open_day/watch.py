@@ -1,6 +1,7 @@
 """What is noted in the ledger: matches, high scores and events as the screens show them, between two frames."""
 
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import asdict
 
 from pigaming_app.games.rounds import Rounds
@@ -15,7 +16,7 @@ from pigaming_app.scenes.results.initials import Initials
 from pigaming_app.scenes.title.scene import Title
 from tests.bench.open_day.audit import table_key
 from tests.bench.open_day.ledger import LedgerFile
-from tests.bench.open_day.plan import Day, Group, time_of
+from tests.bench.open_day.plan import Day, Group
 from tests.scenes.arcade import service_of
 
 LONGEST_STAY = 1.0  # s that a group may stay beyond its limit and the farewell
@@ -35,13 +36,14 @@ class Watch:
         self.before: object = None  # the top scene of the last frame
         self.farewell = False
         self.played = Counter[int]()  # matches by group, of this run
+        self.seated: set[int] = set()  # visitors who have played, by number
         ledger.note("life", life=life)
 
-    def look(self, seconds: float, group: Group | None) -> None:
-        """Note what has happened. `seconds`: since the opening; `group`: on the stage."""
+    def look(self, seconds: float, group: Group | None, visitors: Callable[[MatchScene], list[int]]) -> None:
+        """Note what has happened. `seconds`: since the opening; `group`: on the stage; `visitors`: of a match."""
         scenes = self.app.stack.scenes
         top = scenes[-1] if scenes else None
-        self._matches(group)
+        self._matches(group, visitors)
         self._entries(top)
         if isinstance(top, Attract) and not isinstance(self.before, Attract):
             self.count("attract")
@@ -73,7 +75,7 @@ class Watch:
         self.numbers[what] += 1
         return f"{self.life}.{self.numbers[what]}"
 
-    def _matches(self, group: Group | None) -> None:
+    def _matches(self, group: Group | None, visitors: Callable[[MatchScene], list[int]]) -> None:
         here = next((scene for scene in self.app.stack.scenes if isinstance(scene, MatchScene)), None)
         if self.match is not None and here is not self.match:
             self._gone(self.match)
@@ -84,7 +86,7 @@ class Watch:
         if self.match is not None and self.match.match.over and not self.over:
             self.over = True
             if decides(self.match):
-                self._ended(self.match, group)
+                self._ended(self.match, group, visitors(self.match))
 
     def _gone(self, match: MatchScene) -> None:
         """The page of a match is gone: its result is counted by now."""
@@ -93,10 +95,9 @@ class Watch:
         else:
             self.ledger.note("settled" if decided(match) else "round", match=self.name)
 
-    def _ended(self, scene: MatchScene, group: Group | None) -> None:
+    def _ended(self, scene: MatchScene, group: Group | None, visitors: list[int]) -> None:
         """Note a result, before the arcade has counted it. The fixture is an argument of the page that follows."""
         state, event = scene.match.state, {}
-        visitors = [visitor.number for visitor in group.visitors[:4]] if group else []
         if isinstance(scene.after, EventMatch):
             running, fixture = scene.after.running, scene.after.fixture
             scores = {name: float(state.robots[seat].score) for seat, name in enumerate(fixture.entrants)}
@@ -106,6 +107,8 @@ class Watch:
         people = len(scene.drivers.people)
         if group:
             self.played[group.number] += 1
+            self.seated.update(visitors)
+            self.count(f"matches in {self.app.context.words.language}")
         self.ledger.note(
             "over",
             match=self.name,
@@ -135,9 +138,10 @@ class Watch:
             self.ledger.note("asked", entry=self.entry_name, rows=rows)
 
     def _quiet(self, seconds: float, title: Title) -> None:
-        quiet = self.day.quiet(time_of(seconds))
-        if title.music != (not quiet) and quiet == self.day.quiet(time_of(seconds - 1.0)):
-            self.trouble(f"{time_of(seconds)}: music {title.music} on the title")
+        now = self.day.times.wall(seconds)
+        quiet = self.day.quiet(now)
+        if title.music != (not quiet) and quiet == self.day.quiet(self.day.times.wall(seconds - 1.0)):
+            self.trouble(f"{now}: music {title.music} on the title")
         if quiet and not isinstance(self.before, Title):
             self.count("titles in quiet hours")
 
