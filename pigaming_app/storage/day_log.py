@@ -1,15 +1,18 @@
 """The day log: every match, start, end and failure of the arcade, and the batteries of its robots.
 
 A text file for each day in the folder `days` of the user's data, one JSON object a line; lines are only appended.
-A line is written at once, so a killed process loses none. Lines that cannot be read are skipped and counted. Each names
-its arcade, as several may run at once; while one runs, it holds the lock of a file of its name.
+A line is on the disk at once, so a kill or a power cut loses none; while the disk is full, lines wait for the next one.
+Lines that cannot be read are skipped and counted. Each names its arcade, as several may run at once; while one runs, it
+holds the lock of a file of its name.
 """
 
 import contextlib
+import errno
 import logging
 import os
 import re
 import secrets
+from collections import deque
 from datetime import date, datetime, timedelta
 from pathlib import Path
 from typing import Annotated
@@ -27,6 +30,7 @@ RUNNING = "running-"  # beginning of the name of an arcade's file
 KEPT_DAYS = 56  # days after which a file is deleted
 MAX_BYTES = 8_000_000  # of one day; nothing is appended beyond
 MAX_LINE = 1000  # characters
+MAX_UNSAVED = 1000  # lines kept while the disk is full
 MOST_SECONDS = 86_400.0  # of a match
 MOST_VOLTS = 100.0
 ROBOTS = ("simulated", "emulated", "real")
@@ -78,25 +82,30 @@ class DamagedLine(ValueError):
 
 
 class DayLog:
-    """Appends records to the log in a data folder; without one it keeps nothing. Losses are logged, never raised."""
+    """Appends records to the log in a data folder; without one it keeps nothing. Trouble is logged, never raised."""
 
     def __init__(self, data: Path | None = None) -> None:
         self.folder = data / FOLDER if data else None
         self.arcade = secrets.token_hex(4)
         self._held: int | None = None  # handle of the file of this arcade, while it runs
-        self._silent = False  # a loss has been logged
+        self._unsaved = deque[tuple[Path, str]](maxlen=MAX_UNSAVED)  # files and lines
+        self._silent = False  # the trouble has been logged
 
     def add(self, record: Record) -> None:
-        """Append a record to the file of its day."""
+        """Append a record to the file of its day, after those that could not be written before."""
         if self.folder is None:
             return
-        try:
-            line = to_line(replace(record, arcade=self.arcade))
-            _append(self.folder / f"{record.at:%Y-%m-%d}.jsonl", line)
-        except (OSError, ValueError) as error:
-            if not self._silent:
-                log.warning("The day log cannot be written: %s.", describe_error(error))
-            self._silent = True
+        self._unsaved.append((self.folder / f"{record.at:%Y-%m-%d}.jsonl", to_line(replace(record, arcade=self.arcade))))
+        for _ in range(len(self._unsaved)):
+            path, line = self._unsaved.popleft()
+            try:
+                _append(path, line)
+            except OSError as error:
+                self._unsaved.append((path, line))
+                if not self._silent:
+                    log.warning("The day log cannot be written: %s.", describe_error(error))
+                self._silent = True
+        self._silent = bool(self._unsaved)
 
     def note(self, what: str) -> None:
         """Append one of PROGRAM now."""
@@ -185,14 +194,24 @@ def parse_line(line: str) -> Record:
 
 
 def _append(path: Path, line: str) -> None:
-    """Append a line; one that an interrupted write has left incomplete is ended first. Raises OSError."""
+    """Append a line, which is on the disk then; an incomplete one of an interrupted write is ended first.
+
+    Raises OSError if it does not fit; nothing of it stays then.
+    """
     path.parent.mkdir(parents=True, exist_ok=True)
     require_file(path)
-    with path.open("a+b") as file:
+    with path.open("a+b", buffering=0) as file:
         size = file.seek(0, os.SEEK_END)
         if size > MAX_BYTES:
             raise OSError(f"{one_line(str(path))} is full")
         if size:
             file.seek(size - 1)
         torn = size > 0 and file.read(1) != b"\n"
-        file.write((b"\n" if torn else b"") + line.encode() + b"\n")
+        raw = (b"\n" if torn else b"") + line.encode() + b"\n"
+        written = file.write(raw)
+        if written < len(raw):
+            if file.seek(0, os.SEEK_END) == size + written:  # no other arcade has appended
+                file.truncate(size)
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        with contextlib.suppress(OSError):  # a file system without it
+            os.fsync(file.fileno())

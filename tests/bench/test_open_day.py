@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
@@ -16,19 +17,31 @@ from pigaming_app.storage.scores import LENGTH, LETTERS, Scores, ScoreTable
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.letter_picker import LetterPicker
 from tests.bench.open_day import audit, ledger
-from tests.bench.open_day.clock import OPENING, DayClock
-from tests.bench.open_day.plan import MISHAPS, PADS, plan, time_of
-from tests.bench.open_day.run import outcome_of_day
+from tests.bench.open_day.clock import TIME_ZONE, DayClock, Times
+from tests.bench.open_day.plan import MISHAPS, PADS, plan
+from tests.bench.open_day.run import outcome
 from tests.bench.open_day.visit import next_letter
 from tests.scenes.events.drawn import an_event, result_of
 
 TABLE = ScoreTable("pitanks", "classic", "points", rules="plain", length=2, people=1)
 KEY = audit.table_key(asdict(TABLE))
+TIMES = Times()
+
+
+@pytest.fixture(autouse=True)
+def _time_zone(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """The local time is that of the days."""
+    follow = getattr(time, "tzset", lambda: None)  # not on Windows
+    monkeypatch.setenv("TZ", TIME_ZONE)
+    follow()
+    yield
+    monkeypatch.undo()
+    follow()
 
 
 def over(name: str, at: float, **more: Any) -> dict[str, Any]:
     """A line of a match that was seen at its end."""
-    seen = {"game": "pitanks", "began": time_of(at).isoformat(), "seconds": 60.0, "people": 2, "ais": 1}
+    seen = {"game": "pitanks", "began": TIMES.wall(at).isoformat(), "seconds": 60.0, "people": 2, "ais": 1}
     event = {"event": "", "fixture": 0, "scores": {}}
     return {"what": "over", "match": name, "group": 0, "visitors": [1, 2], **seen, **event, **more}
 
@@ -41,7 +54,7 @@ def settled(name: str, at: float, **more: Any) -> Iterator[dict[str, Any]]:
 
 
 def logged(at: float, complete: bool = True) -> PlayedMatch:
-    return PlayedMatch(time_of(at), "pitanks", 60.0, 2, 1, complete=complete)
+    return PlayedMatch(TIMES.wall(at), "pitanks", 60.0, 2, 1, complete=complete)
 
 
 def counted(seen: ledger.Ledger, log: list[PlayedMatch]) -> list[str]:
@@ -87,15 +100,15 @@ def test_a_round_of_several_is_neither_a_match_nor_left() -> None:
 
 def test_the_report_of_the_arcade_is_compared_line_by_line(tmp_path: Path) -> None:
     killed, log = DayLog(tmp_path), DayLog(tmp_path)
-    killed.add(ProgramEvent(time_of(0.0), "start"))
+    killed.add(ProgramEvent(TIMES.wall(0.0), "start"))
     for what, at in (("start", 300.0), ("end", 7200.0)):
-        log.add(ProgramEvent(time_of(at), what))
+        log.add(ProgramEvent(TIMES.wall(at), what))
     matches = [logged(10), logged(4000), logged(5000), logged(6000, complete=False)]
     for match in matches:
         log.add(match)
     lines = [line for i, at in enumerate((10, 4000, 5000)) for line in settled(f"1.{i}", at)]
     left = [{"what": "playing", "match": "1.9"}, {"what": "left", "match": "1.9"}]
-    seen, report = ledger.digest(iter([*lines, *left])), report_of(tmp_path, OPENING.date()).as_json()
+    seen, report = ledger.digest(iter([*lines, *left])), report_of(tmp_path, TIMES.wall(0.0).date()).as_json()
     assert report["busiest_hour"] == 11
     assert list(audit.report_agrees(seen, matches, report, 1)) == []
     for name in ("matches", "left", "busiest_hour", "people", "starts", "crashes", "failures", "skipped_lines"):
@@ -140,7 +153,7 @@ def scores_of(data: Path, values: list[int]) -> None:
     data.mkdir(exist_ok=True)
     book = Scores()
     for value in values:
-        book.add(TABLE, "ABC", value, OPENING)
+        book.add(TABLE, "ABC", value, TIMES.wall(0.0))
     book.save(data)
 
 
@@ -207,8 +220,8 @@ def test_the_plan_of_a_day_has_all_that_it_has_to_prove() -> None:
     locked = [group for group in day.groups if group.mishap == "lock" and any(one.phone for one in group.visitors)]
     assert pulled
     assert locked
-    assert day.quiet(time_of(3 * 3600.0))
-    assert not day.quiet(time_of(0.0))
+    assert day.quiet(TIMES.wall(3 * 3600.0))
+    assert not day.quiet(TIMES.wall(0.0))
 
 
 def test_initials_are_spelled_with_few_presses() -> None:
@@ -231,7 +244,7 @@ import sys
 from pathlib import Path
 from tests.bench.open_day import clock
 day = clock.DayClock(Path(sys.argv[1]) / "clock")
-clock.install(day)
+clock.install(day, clock.Times())
 from pigaming_app.storage.day_log import now
 from pigaming_app.storage.scores import Scores, ScoreTable
 book = Scores()
@@ -252,7 +265,7 @@ print(now(), again.best(table, 1)[0].when.replace(tzinfo=None), problems)
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="signals of POSIX, virtual pads")
 def test_a_miniature_day_with_a_kill(tmp_path: Path) -> None:
     pytest.importorskip("aiohttp", reason="the extra `phones` is not installed")
-    figures = outcome_of_day(tmp_path, hours=0.06, visitors=3, seed=8)  # one group, in PiTanks
+    figures = outcome(tmp_path, hours=0.06, visitors=3, seed=8)  # one group, in PiTanks
     assert figures["problems"] == []
     assert figures["visitors"] == 3
     assert figures["report"]["crashes"] == figures["kills"] == 1

@@ -51,11 +51,11 @@ def test_a_match_of_an_event_is_noted_with_its_number_and_scores(arcade: Arcade,
     scene = MatchScene(arcade.context, chosen, after=EventMatch(run, fixture))
     arcade.open(scene)
     scene.match.tick()
-    watch.look(1.0, None)
+    watch.look(1.0, None, lambda match: [])
     scene.match.state.robots[1].score, scene.match.state.over = 3, 1
-    watch.look(2.0, None)
+    watch.look(2.0, None, lambda match: [])
     arcade.stack.scenes[-1] = EventMatch(run, fixture)(scene)
-    watch.look(3.0, None)
+    watch.look(3.0, None, lambda match: [])
     seen = ledger.read(tmp_path / "ledger")
     assert [match.settled for match in seen.matches] == [True]
     assert seen.matches[0].scores == {fixture.entrants[0]: 0.0, fixture.entrants[1]: 3.0}

@@ -137,6 +137,32 @@ def test_a_log_that_cannot_be_written_is_no_failure(tmp_path: Path, caplog: pyte
     assert len([line for line in caplog.messages if "day log" in line]) == 1
 
 
+@pytest.mark.parametrize("fits", [0, 40])
+def test_lines_wait_until_a_full_disk_has_room_again(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, fits: int
+) -> None:
+    """The kernel refuses to write more, after some bytes of the line or before any."""
+    resource = pytest.importorskip("resource", reason="limits of POSIX")
+    log, file = DayLog(tmp_path), tmp_path / FOLDER / "2026-11-23.jsonl"
+    log.add(RECORDS[0])
+    before, limits = file.stat().st_size, resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (before + fits, limits[1]))
+    try:
+        log.add(RECORDS[1])
+        log.add(RECORDS[2])
+        full = file.stat().st_size
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    log.add(RECORDS[3])
+    assert full == before
+    records, skipped = read_day(tmp_path, DAY)
+    assert (sorted(records, key=lambda one: one.at), skipped) == (
+        [replace(record, arcade=log.arcade) for record in RECORDS],
+        0,
+    )
+    assert len([line for line in caplog.messages if "day log" in line]) == 1
+
+
 def test_a_full_file_takes_no_more(tmp_path: Path) -> None:
     file = tmp_path / FOLDER / "2026-11-23.jsonl"
     file.parent.mkdir()

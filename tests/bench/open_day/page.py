@@ -32,7 +32,7 @@ def page(figures: Mapping[str, Any]) -> str:
     counts: Counter[str] = sum((Counter(day["counts"]) for day in days), Counter())
     parts = [
         f"<h1>{len(days)} open day{'s' * (len(days) > 1)}, {figures['visitors']} visitors</h1>",
-        f"<p>Played by a script in simulated time, {figures['hours']:g} hours a day, random seed {figures['seed']}.</p>",
+        f"<p>Played by a script in simulated time, {figures['hours']:g} hours a day, seed {figures['seed']}.</p>",
         f'<p class="verdict {"bad" if found else "good"}">{verdict}</p>',
         _list(found),
         "<h2>Day by day</h2>",

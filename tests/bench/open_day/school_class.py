@@ -46,11 +46,9 @@ class SchoolClass:
         self.stage.note_tokens(self.hall)
         match = next((scene for scene in self.stage.app.stack.scenes if isinstance(scene, MatchScene)), None)
         if match is not self.match:
-            playing = self.visitors(match) if match else []
-            if self.match is None and playing:
-                self.begun += 1
-                self._seat(now, playing)
-            self.match = match
+            self.match, playing = match, self.visitors(match) if match else []
+            self.begun += bool(playing)
+            self._seat(now, playing)
         for player in self.hall:
             self._wish(player)
             number, device = player.visitor.number, player.hands.device
@@ -63,7 +61,8 @@ class SchoolClass:
         assert isinstance(player.hands, PhoneHands)
         before = player.hands.handset.before
         if before >= 0:
-            self.waiting[player.visitor.number] = now, self.begun, before // PLACES + 1
+            called = PLACES if self.match is None else 0  # whose turn it is, and who has no match yet
+            self.waiting[player.visitor.number] = now, self.begun, (called + before) // PLACES + 1
 
     def _seat(self, now: float, playing: list[int]) -> None:
         for number in playing:

@@ -51,7 +51,7 @@ def plan_week(hours: float, visitors: int, seed: int) -> tuple[Day, ...]:
     rng, seconds, days = random.Random(seed), 3600.0 * hours, len(OPENINGS)
     people, late = iter(crowd(rng, visitors)), initials_at(visitors)
     events: dict[int, dict[float, tuple[int, EventWish]]] = {
-        0: {0.5: (6, EventWish(Format.KNOCKOUT, 0))},
+        0: {0.9: (6, EventWish(Format.KNOCKOUT, 0))},
         NIGHT: {0.4: (8, EventWish(Format.SWISS, 2, late))},
         LAST_DAY: {0.0: (8, EventWish(Format.SWISS, 0, shared=True))},
     }
