@@ -24,18 +24,21 @@ STEERS = re.compile(r"go|turn|^\S+$")  # steps that steer, or a brain
 PRESSED = 0.25  # deflection from which a steering key is lit
 WAY = 22  # px, the way of a stick's knob
 APART = 24  # px between the steering keys and the others
+SIZES = (BODY, 32, 28)  # px, of the labels of the others: the first that fits
 
 
-def draw_keys(screen: pygame.Surface, context: Context, script: str, action: Action, middle: tuple[int, int]) -> None:
-    """Draw the keys of the device used last that a script needs, round a point, by what is pressed."""
-    controls, device, (x, y) = context.controls, context.controls.last, middle
+def draw_keys(screen: pygame.Surface, context: Context, script: str, action: Action, box: pygame.Rect) -> None:
+    """Draw the keys of the device used last that a script needs, in the middle of a box, by what is pressed."""
+    controls, device, (x, y) = context.controls, context.controls.last, box.center
     turbo = Button.LEAVE_SEAT if device.kind == "keys" else Button.BACK
     wanted = (("fire", Button.FIRE, action.fire), ("turbo", turbo, action.turbo))
     labels = [(controls.label(device, key), bool(on)) for word, key, on in wanted if word in script]
     shown = [(context.words.key_name(label), on) for label, on in labels if label]
     steers, moves = bool(STEERS.search(script)), controls.moves(device)
     wide = steers * (APART + (3 * PITCH if moves else 2 * RADIUS))
-    left = x - (wide + sum(APART + button_width(label) for label, _ in shown) - APART) / 2
+    widths = {size: wide + sum(APART + button_width(label, size) for label, _ in shown) - APART for size in SIZES}
+    size = next((size for size in SIZES if widths[size] <= box.w), SIZES[-1])
+    left = x - widths[size] / 2
     if steers and moves:
         pressed = (action.linear, -action.angular, -action.linear, action.angular)
         for sign, (column, row), share in zip(steering_signs(moves), PLACES, pressed, strict=True):
@@ -46,8 +49,8 @@ def draw_keys(screen: pygame.Surface, context: Context, script: str, action: Act
         knob().draw(screen, left + RADIUS + WAY * action.angular, y - WAY * action.linear)
     left += wide
     for label, on in shown:
-        key_cap(label, on).draw(screen, left, y)
-        left += button_width(label) + APART
+        key_cap(label, on, size).draw(screen, left, y)
+        left += button_width(label, size) + APART
 
 
 @cached
@@ -61,12 +64,13 @@ def steering_key(sign: str, on: bool) -> LitImage:
 
 
 @cached
-def key_cap(label: str, on: bool) -> LitImage:
+def key_cap(label: str, on: bool, size: int) -> LitImage:
     """Another key, with its left edge at (0, 0)."""
-    layer, wide = Layer(0, -30, button_width(label), 60), button_width(label)
+    wide = button_width(label, size)
+    layer = Layer(0, -30, wide, 60)
     if on:
         layer.glow.fill(cut_box(4, -24, wide - 8, 48, 24 if wide == 60 else 10), dim(FOCUS, 0.35))
-    button(layer.canvas, 0, 0, label, _color(on), BODY)
+    button(layer.canvas, 0, 0, label, _color(on), size)
     return layer.render()
 
 

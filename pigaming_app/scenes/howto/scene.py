@@ -89,7 +89,7 @@ class HowTo:
         black_out(screen, *boxes)
         for i, (box, clip) in enumerate(zip(boxes, self.clips, strict=False)):
             clip.draw(screen, pygame.Rect(box.x + 4, TOP + 4, box.w - 8, PICTURE))
-            draw_keys(screen, self.context, clip.script, clip.action, (box.centerx, KEYS_Y))
+            draw_keys(screen, self.context, clip.script, clip.action, pygame.Rect(box.x + 12, KEYS_Y, box.w - 24, 0))
             pygame.draw.circle(screen, kit.BLACK, (box.centerx, TOP), BADGE)
             frame(i + 1, box.w).draw(screen, *box.topleft)
             caption(words(f"howto.{clip.name}"), box.w - 48).draw(screen, box.centerx, CAPTION_Y)

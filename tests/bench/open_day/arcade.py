@@ -32,7 +32,7 @@ def main(folder: Path) -> int:
     from pigaming_app.scenes.app import App
     from pigaming_app.scenes.events.next_page import NextMatch
     from pigaming_app.scenes.launch import Options
-    from pigaming_app.scenes.phones.host import phone_host
+    from pigaming_app.scenes.phones.feature import PhoneService
     from pigaming_app.scenes.play.scene import MatchScene
     from pigaming_app.scenes.results.awards.moment import AwardsMoment
     from pigaming_app.scenes.results.initials import Initials
@@ -47,6 +47,7 @@ def main(folder: Path) -> int:
     from tests.bench.open_day.visit import Visit
     from tests.bench.open_day.watch import Watch
     from tests.bench.open_day.week import days_of
+    from tests.scenes.arcade import service_of
 
     day = days_of(**wishes["days"])[wishes["day"]]
     day = day.second if wishes["second"] and day.second else day
@@ -98,7 +99,8 @@ def main(folder: Path) -> int:
         changed_settings=phones,  # in each run, as a supervisor starts the same command again
     )
     with opened(options) as app:
-        app.context.shared(phone_host).roster.clock = lambda: clock.seconds
+        link = service_of(app, PhoneService).link
+        link.host.roster.clock = link._clock = lambda: clock.seconds
         draw_rarely(app)
         preload(app.context.preloader)
         file = ledgers.LedgerFile(folder / "ledger")

@@ -12,11 +12,12 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.howto import scene as howto
 from pigaming_app.scenes.howto.clip import Cutout, LessonClip, lesson_match
 from pigaming_app.scenes.howto.feature import show
+from pigaming_app.scenes.howto.keys import draw_keys
 from pigaming_app.scenes.howto.scene import HowTo, taught
 from pigaming_app.scenes.views.game_screens import LESSONS_PER_PAGE
 from pigaming_app.scenes.views.lesson import Actor, Lesson
 from pigaming_app.scenes.views.registry import SCREENS
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import HZ, Action
 from pigaming_app.storage.settings import Choice
 from pigaming_app.ui.draw import BODY, FOCUS, TITLE, button_width, text_width
 from pigaming_app.ui.draw.layers import LEFT, span
@@ -184,6 +185,21 @@ def test_keys_are_lit_while_they_are_pressed(arcade: Arcade, controls: Controls,
     while not scene.clips[1].action.fire:
         scene.update(0.02)
     assert lit() > before + 200
+
+
+@pytest.mark.parametrize("device", [Device("keys", 0), Device("keys", 1), Device("pad", 0)])
+def test_keys_of_every_lesson_stay_in_its_frame(controls: Controls, device: Device) -> None:
+    """In all languages: what is drawn, as on the page, is narrower than the frame."""
+    controls.last, room = device, pygame.Rect(100, 200, span(0, 3)[1] - 24, 0)
+    scripts = {one.actors[0].does for game in taught() for one in SCREENS[game].lessons.values()}
+    for language in LANGUAGES:
+        context = Arcade(controls, language).context
+        for script in scripts:
+            screen = pygame.Surface((1920, 400))
+            draw_keys(screen, context, script, Action(), room)
+            drawn = pygame.mask.from_threshold(screen, (255, 255, 255), (200, 200, 200)).get_bounding_rects()
+            for rect in drawn:
+                assert room.left - 4 <= rect.left < rect.right <= room.right + 4, (language, script)
 
 
 CAPTION = span(0, 3)[1] - 48  # px for a caption
