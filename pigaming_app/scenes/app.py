@@ -269,7 +269,7 @@ class App:
                 stack.apply(self.guard.handle(stack.scenes, press))
         if stack.scenes:
             budget.behind = budget.behind or stack.scenes[-1:] != before  # draw a new scene before prewarming
-            stack.apply(self.guard.checked(stack.top.update(seconds), None))
+            stack.apply(self.guard.advance(stack.scenes, seconds))
         self.guard.roles.update(seconds, stack.scenes)
         for service in self.services:
             service.update(seconds, stack)

@@ -33,14 +33,19 @@ class Guard:
                 return self._ask(None, scenes[-1])
         return self.checked(scenes[-1].handle(event), event.device)
 
-    def checked(self, operation: StackOperation, device: Device | None) -> StackOperation:
-        """A step of a scene that a device has asked for, or the passing of time."""
+    def advance(self, scenes: Sequence[Scene], seconds: float) -> StackOperation:
+        """What follows from the passing of time on the scene on top. Nobody knows who waits at a visitors' scene."""
+        at_work = self.roles.in_session and right_of(scenes) is not Right.PLAY
+        operation = scenes[-1].update(seconds)
         right = _needed(operation)
-        if right is None or (device and self.roles.may(device, right)):
+        may = right is None or (LOWEST[right] < Role.OWNER and (at_work or not self.roles.guarded))
+        return operation if may or not self.context.kiosk else self._ask(operation)
+
+    def checked(self, operation: StackOperation, device: Device) -> StackOperation:
+        """A step that a device has asked for."""
+        right = _needed(operation)
+        if right is None or self.roles.may(device, right):
             return operation
-        if device is None:
-            may = LOWEST[right] < Role.OWNER and (self.roles.in_session or not self.roles.guarded)
-            return operation if may or not self.context.kiosk else self._ask(operation)
         return self._refuse(device) if device.kind == "phone" else self._ask(operation)
 
     # ---- inside

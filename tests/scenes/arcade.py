@@ -111,7 +111,7 @@ class Arcade:
         controls = self.context.controls
         for event in [*controls.presses(pygame.event.get()), *controls.repeats(seconds)]:
             self._handle(event)
-        self.stack.apply(Guard(self.context).checked(self.stack.top.update(seconds), None))
+        self.stack.apply(Guard(self.context).advance(self.stack.scenes, seconds))
         if draw:
             self.stack.top.draw(self.screen)
 

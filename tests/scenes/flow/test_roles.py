@@ -321,6 +321,11 @@ def test_the_hidden_combination_and_f10_lead_to_the_pin(
     assert isinstance(arcade.stack.top, OptionsPage)
     arcade.stack.top.leave()
     arcade.stack.scenes[1:] = []
+    with monkeypatch.context() as patch:
+        patch.setattr(arcade.stack.scenes[0].kiosk_unlock, "_holds", lambda device: True)  # type: ignore[attr-defined]
+        frames(arcade, round(10 * UNLOCK) + 2)
+    assert isinstance(arcade.stack.top, PinPage), "whoever holds it after the operator has left needs the PIN, too"
+    arcade.stack.scenes[1:] = []
     frames(arcade, 10 * round(BREAK) + 5)
     pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_F10, unicode="", scancode=67, mod=0))
     frames(arcade, 15)
