@@ -95,7 +95,8 @@ class DayLog:
         """Append a record to the file of its day, after those that could not be written before."""
         if self.folder is None:
             return
-        self._unsaved.append((self.folder / f"{record.at:%Y-%m-%d}.jsonl", to_line(replace(record, arcade=self.arcade))))
+        file = self.folder / f"{record.at:%Y-%m-%d}.jsonl"
+        self._unsaved.append((file, to_line(replace(record, arcade=self.arcade))))
         for _ in range(len(self._unsaved)):
             path, line = self._unsaved.popleft()
             try:
