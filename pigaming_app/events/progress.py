@@ -42,11 +42,12 @@ class Progress:
     spec: EventSpec
     entrants: tuple[Entrant, ...]  # by their seeding, late ones last, with the brains of now
     late: frozenset[str] = frozenset()
-    withdrawn: frozenset[str] = frozenset()
+    left: Mapping[str, int] = field(default_factory=dict)  # who has withdrawn, and the round that was open then
     rounds: tuple[Round, ...] = ()
     outcomes: Mapping[int, Result] = field(default_factory=dict)  # by fixture, walkovers included
     played: Mapping[int, tuple[Result, ...]] = field(default_factory=dict)  # by fixture: the match, then extra ones
     postponed: Mapping[int, int] = field(default_factory=dict)  # times, by fixture
+    exchanged: tuple[tuple[int, str, str], ...] = ()  # round, and whose places in the seeding: in a winners' bracket
     called: Mapping[int, str] = field(default_factory=dict)  # arcade, by fixture
     pause: str | None = None  # note of a break; None: play goes on
     closed: int = 0  # periods of a format on call
@@ -77,7 +78,11 @@ class Progress:
                 self._present(other)
                 seeding, rounds = exchanges.swapped(self.as_field(), self.played, name, other)
                 by_name = {one.name: one for one in self.entrants}
-                return replace(self, entrants=tuple(by_name[one] for one in seeding), rounds=rounds)
+                ordered, exchanged = tuple(by_name[one] for one in seeding), self.exchanged
+                if ordered != self.entrants:
+                    number = next(now.number for now, before in zip(rounds, self.rounds, strict=True) if now != before)
+                    exchanged = (*exchanged, (number, name, other))
+                return replace(self, entrants=ordered, rounds=rounds, exchanged=exchanged)
             case Reseated(number, seats):
                 rounds = exchanges.seated(self.rounds, self.played, self._open_fixture(number), seats)
                 return replace(self, rounds=rounds)
@@ -100,6 +105,11 @@ class Progress:
     def kind(self) -> FormatKind:
         """The format."""
         return KINDS[self.spec.format]
+
+    @property
+    def withdrawn(self) -> frozenset[str]:
+        """Names of those who have withdrawn."""
+        return frozenset(self.left)
 
     @property
     def running(self) -> bool:
@@ -132,7 +142,7 @@ class Progress:
         """What a draw may look at."""
         names = tuple(entrant.name for entrant in self.entrants)
         return EntrantField(
-            self.spec, names, self.late, self.withdrawn, self.rounds, self.outcomes, self.closed, self.joined
+            self.spec, names, self.late, self.withdrawn, self.rounds, self.outcomes, self.closed, self.joined, self.left
         )
 
     def drawn(self) -> "Progress":
@@ -257,12 +267,22 @@ class Progress:
             for one in self.fixtures:
                 if one.round > fixture.round and self._played(one) and self.kind.wins(self.spec, one):
                     raise Refused("decided", match=number, later=one.number)
+            progress = progress._without_exchanges(fixture.round)
         return progress._without_unplayed_rounds().drawn() if self.kind.follows_results else progress
 
     def through(self, fixture: Fixture) -> frozenset[str]:
         """Who goes on from a match; nobody while it is not decided, or if it decides nothing."""
         outcome, wins = self.outcomes.get(fixture.number), self.kind.wins(self.spec, fixture)
         return through(outcome, wins) if outcome and wins else frozenset()
+
+    def _without_exchanges(self, number: int) -> "Progress":
+        """With the seeding as it was before exchanges behind a round: others than these two may have won it now."""
+        entrants = list(self.entrants)
+        for _, name, other in (one for one in reversed(self.exchanged) if one[0] > number):
+            i, j = (next(i for i, one in enumerate(entrants) if one.name == who) for who in (name, other))
+            entrants[i], entrants[j] = entrants[j], entrants[i]
+        kept = tuple(one for one in self.exchanged if one[0] <= number)
+        return replace(self, entrants=tuple(entrants), exchanged=kept)
 
     def _qualified(self, fixture: Fixture) -> frozenset[str]:
         """Who goes on by a match, or by the table that it counts in."""
@@ -289,7 +309,8 @@ class Progress:
 
     def _without(self, name: str) -> "Progress":
         self._present(name)
-        progress = replace(self, withdrawn=self.withdrawn | {name})
+        open_rounds = (one.round for one in self.fixtures if one.number not in self.outcomes)
+        progress = replace(self, left={**self.left, name: min(open_rounds, default=len(self.rounds) + 1)})
         return (progress._without_unplayed_rounds() if self.kind.follows_withdrawals else progress).drawn()
 
     def _without_unplayed_rounds(self) -> "Progress":

@@ -21,6 +21,7 @@ class EntrantField:
     outcomes: Mapping[int, Result]
     closed: int = 0  # periods of a format on call, see `OnCall`
     joined: Mapping[str, int] = field(default_factory=dict)  # periods that were closed before somebody entered late
+    left: Mapping[str, int] = field(default_factory=dict)  # round that was open as somebody withdrew
 
     @property
     def complete(self) -> bool:

@@ -15,13 +15,14 @@ A late entrant has missed one round, and so begins in the losers' bracket.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import zip_longest
 
 from pigaming_app.events.formats import tie_breaks
 from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, MatchUp
 from pigaming_app.events.formats.grouping import mixed, neighbours, serpentine
 from pigaming_app.events.formats.sudden_death import through
-from pigaming_app.events.spec import Advance, EventSpec, Fixture, Standing
+from pigaming_app.events.spec import WALKOVER, Advance, EventSpec, Fixture, Standing
 
 WINNERS, LOSERS, FINAL = "winners", "losers", "final"
 OUT = 2  # defeats
@@ -121,6 +122,7 @@ def _losers(field: EntrantField, names: Sequence[str]) -> tuple[list[tuple[str, 
 def table(field: EntrantField) -> tuple[Standing, ...]:
     """Who is still in, the unbeaten first, then who was beaten for the second time last."""
     lost = defeats(field)
+    left = {name: number for name, number in field.left.items() if _still_in(field, name)}
     last = dict.fromkeys(field.entrants, 0)  # round of the last match
     ended = dict.fromkeys(field.entrants, 0.0)  # place in it
     for drawn in field.rounds:
@@ -133,12 +135,20 @@ def table(field: EntrantField) -> tuple[Standing, ...]:
                     ahead += len(place)
 
     def key(name: str) -> tuple[float, ...]:
-        """Higher is better."""
-        if lost[name] < OUT and name not in field.withdrawn:
+        """Higher is better. Whoever withdraws is out in the round that was open, as the last of a full match."""
+        if name in left:
+            return (0.0, left[name], 1.0 - field.spec.seats)
+        if lost[name] < OUT:
             return (2.0 - lost[name], 0.0, 0.0)
         return (0.0, last[name], -ended[name])
 
     return tie_breaks.ranked(field, field.entrants, key)
+
+
+def _still_in(field: EntrantField, name: str) -> bool:
+    """True if somebody has not lost two matches at the robots, without walkovers."""
+    kept = {number: one for number, one in field.outcomes.items() if one.note != WALKOVER}
+    return defeats(replace(field, outcomes=kept))[name] < OUT
 
 
 KIND = FormatKind(

@@ -11,13 +11,15 @@ design would need.
 """
 
 from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
+from dataclasses import replace
 from functools import lru_cache
 from random import Random
 
 from pigaming_app.events.formats import tie_breaks
 from pigaming_app.events.formats.field import Draw, EntrantField, FormatKind, MatchUp, meetings
 from pigaming_app.events.formats.grouping import mixed, serpentine, sizes
-from pigaming_app.events.spec import WALKOVER, EventSpec, Fixture, Standing
+from pigaming_app.events.spec import WALKOVER, EventSpec, Fixture, Result, Standing
 
 MOST_MATCHES = 4096  # of two
 CYCLES = 1  # by default
@@ -62,12 +64,13 @@ def table(field: EntrantField) -> tuple[Standing, ...]:
 
 
 def table_among(field: EntrantField, names: Sequence[str], fixtures: Sequence[Fixture]) -> tuple[Standing, ...]:
-    """The table of some entrants by their matches. Of an entrant who withdraws before half of the own ones are played,
-    none counts (FIDE Handbook C.05, General regulations for competitions).
+    """The table of some entrants by their matches. An entrant who withdraws before half of the own ones are played is
+    taken out of all of them (FIDE Handbook C.05, General regulations for competitions).
     """
     early = {name for name in names if name in field.withdrawn and _left_early(field, name, fixtures)}
     outcomes = [field.outcomes[one.number] for one in fixtures if one.number in field.outcomes]
-    counting = [one for one in outcomes if not any(name in early for place in one.places for name in place)]
+    counting = [_without(one, early) for one in outcomes]
+    counting = [one for one in counting if sum(map(len, one.places)) > 1]
     return tie_breaks.table_of(field, names, tie_breaks.counted(field, counting), TIE_BREAKS)
 
 
@@ -119,10 +122,16 @@ def _groups(names: tuple[str, ...], seats: int, cycles: int) -> list[Draw]:
     return draws
 
 
+def _without(outcome: Result, names: AbstractSet[str]) -> Result:
+    places = (tuple(name for name in place if name not in names) for place in outcome.places)
+    return replace(outcome, places=tuple(filter(None, places)))
+
+
 def _left_early(field: EntrantField, name: str, fixtures: Sequence[Fixture]) -> bool:
     own = [one.number for one in fixtures if name in one.entrants]
     played = sum(number in field.outcomes and field.outcomes[number].note != WALKOVER for number in own)
-    return 2 * played < len(own)
+    several = field.spec.seats > 2  # all play in every round, and matches are drawn on without whoever has left
+    return 2 * played < (len(field.rounds) - (name in field.late) if several else len(own))
 
 
 def _check(spec: EventSpec) -> None:

@@ -4,8 +4,7 @@ Two things are simpler: a round without an opponent counts as one against somebo
 and the unplayed rounds of opponents are not adjusted.
 
 Every function takes the table of all matches and the entrants who are still level, and returns a value of each of them:
-more is better. A match of three or four counts as one of two against the mean of the opponents; head to head, as one
-against each of them.
+more is better. A match of three or four counts as one of two against each of the opponents, of whom the mean is taken.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -30,7 +29,10 @@ class CountedMatch:
 
 @dataclass(frozen=True)
 class Table:
-    """All matches that count, and the sum of the points of everybody, with those of byes and walkovers."""
+    """All matches that count, and the sum of the points of everybody, with those of byes and walkovers.
+
+    Nothing here is rounded: sixths that were would tell those apart who are level.
+    """
 
     points: Mapping[str, float]
     games: Sequence[CountedMatch]
@@ -51,13 +53,13 @@ def table_of(
         finer = []
         for group in groups:
             for name, value in tie_break(table, group).items():
-                values[name][key] = value
+                values[name][key] = exact(value)
             finer += _refined(tie_break, table, group)
         groups = finer
     rows: list[Standing] = []
     for group in groups:
         place = len(rows) + 1
-        rows += [row_of(field, place, name, table.points[name], values[name]) for name in group]
+        rows += [row_of(field, place, name, exact(table.points[name]), values[name]) for name in group]
     return tuple(rows)
 
 
@@ -69,7 +71,7 @@ def counted(
 ) -> Table:
     """These results as they count. `bye`: points of a bye; None: a bye is nothing, and a walkover counts as played."""
     total, unplayed = dict.fromkeys(field.entrants, 0.0), dict.fromkeys(field.entrants, 0.0)
-    matches, met = [], dict.fromkeys(field.entrants, 0)
+    matches, met = [], set()
     for outcome in outcomes:
         gained, walkover = gained_by(outcome), outcome.note == WALKOVER
         for name, value in gained.items():
@@ -80,14 +82,16 @@ def counted(
             continue
         first = outcome.places[0][0] if len(outcome.places[0]) == 1 and not walkover else ""
         matches.append(CountedMatch(gained, first))
-        for name in gained:
-            met[name] += 1
+        met |= {(outcome.fixture, name) for name in gained}
     complete = [drawn for drawn in field.rounds if all(one.number in field.outcomes for one in drawn.fixtures)]
     for name in (name for drawn in complete if bye is not None for name in drawn.byes):
         total[name] += bye or 0.0
         unplayed[name] += bye or 0.0
-    missed = {name: max(0, len(complete) - met[name]) for name in field.entrants}
-    return Table({name: exact(value) for name, value in total.items()}, matches, missed, unplayed)
+    missed = {
+        name: sum(all((one.number, name) not in met for one in drawn.fixtures) for drawn in complete)
+        for name in field.entrants
+    }
+    return Table(total, matches, missed, unplayed)
 
 
 def ranked(
@@ -123,8 +127,7 @@ def head_to_head(table: Table, level: Sequence[str]) -> Values:
     results: dict[tuple[str, str], list[float]] = {}
     for game in table.games:
         for pair in permutations([name for name in level if name in game.points], 2):
-            own, other = (game.points[name] for name in pair)
-            results.setdefault(pair, []).append(0.5 + 0.5 * ((own > other) - (own < other)))
+            results.setdefault(pair, []).append(_against(game, *pair))
     means = {pair: sum(points) / len(points) for pair, points in results.items()}
     points = {name: exact(sum(means.get((name, other), 0.0) for other in level)) for name in level}
     missing = {name: sum((name, other) not in means for other in level if other != name) for name in level}
@@ -148,7 +151,7 @@ def wins(table: Table, level: Sequence[str]) -> Values:
 def buchholz(table: Table, level: Sequence[str]) -> Values:
     """Sum of the opponents' points; a round without an opponent is one against the own points."""
     return {
-        name: sum(_opponents(table, game, name) for game in table.games if name in game.points)
+        name: sum(_mean_of_others(game, name, table.points.__getitem__) for game in table.games if name in game.points)
         + table.missed[name] * table.points[name]
         for name in level
     }
@@ -156,8 +159,12 @@ def buchholz(table: Table, level: Sequence[str]) -> Values:
 
 def sonneborn_berger(table: Table, level: Sequence[str]) -> Values:
     """Sum of the opponents' points, each times the own points against it."""
+
+    def value(game: CountedMatch, name: str) -> float:
+        return _mean_of_others(game, name, lambda other: _against(game, name, other) * table.points[other])
+
     return {
-        name: sum(game.points[name] * _opponents(table, game, name) for game in table.games if name in game.points)
+        name: sum(value(game, name) for game in table.games if name in game.points)
         + table.unplayed[name] * table.points[name]
         for name in level
     }
@@ -192,7 +199,12 @@ def _place(game: CountedMatch, name: str) -> int:
     return 1 + sum(points > game.points[name] for points in game.points.values())
 
 
-def _opponents(table: Table, game: CountedMatch, name: str) -> float:
-    """Mean of the opponents' points."""
-    others = [table.points[other] for other in game.points if other != name]
+def _against(game: CountedMatch, name: str, other: str) -> float:
+    """Points of one against another in a match; none if it was nobody's, as both were away."""
+    own, others = game.points[name], game.points[other]
+    return 0.5 + 0.5 * ((own > others) - (own < others)) if own or others else 0.0
+
+
+def _mean_of_others(game: CountedMatch, name: str, value: Callable[[str], float]) -> float:
+    others = [value(other) for other in game.points if other != name]
     return sum(others) / len(others) if others else 0.0

@@ -9,7 +9,7 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import parse, to_text
 from pigaming_app.events.formats.knockout import FINAL
 from pigaming_app.events.journal import Paused, Reseated, Resumed, Summoned, Swapped
-from pigaming_app.events.spec import Format
+from pigaming_app.events.spec import Format, Result
 from tests.events.examples import best_seed_wins, by_chance, new_event, pairs_of, played
 
 
@@ -154,3 +154,10 @@ def test_a_call_of_a_match_that_is_drawn_anew_is_gone():
     event: Event = played(new_event(Format.SWISS, 4), rounds=1).after(Summoned(3, "left"))
     assert event.calls == {3: "left"}
     assert event.withdraw("P4").calls == {}
+
+
+def test_a_correction_of_who_has_come_that_far_forgets_an_exchange_in_the_bracket():
+    """P1 and P2 have exchanged places in round two; then P8 has beaten P1, and takes their place against P4."""
+    event = played(new_event(Format.KNOCKOUT, 8), rounds=1).after(Swapped("P1", "P2"))
+    event = event.correct(Result(1, (("P8",), ("P1",)), note="the judge"))
+    assert [{*one.entrants} for one in event.open if one.stage == "winners"] == [{"P4", "P8"}, {"P2", "P3"}]

@@ -172,9 +172,8 @@ def group_order(event: Event, names: list[str], letter: str) -> list[list[str]]:
             met = [share for who, share, _ in gains(one, {other})]
             back = [share for who, share, _ in gains(other, {one})]
             if met:
-                score = [0.5 + 0.5 * ((x > y) - (x < y)) for x, y in zip(met, back, strict=True)]
-                mean[one, other] = sum(score) / len(score)
-                mean[other, one] = 1.0 - mean[one, other]
+                mean[one, other] = sum(met) / len(met)
+                mean[other, one] = sum(back) / len(back)
         total = {name: sum(mean.get((name, other), 0.0) for other in group) for name in group}
         missing = {name: sum(other != name and (name, other) not in mean for other in group) for name in group}
         if not any(missing.values()):

@@ -111,3 +111,18 @@ def test_the_opponents_of_who_withdraws_go_on():
     assert event.outcomes[2].note == "walkover"
     assert stages(event, 2) == [("w", 1, 3)]
     assert played(event).over
+
+
+def test_whoever_leaves_is_behind_all_who_are_there_and_ahead_of_who_was_out_before():
+    """Of eight, P5 to P8 are out after round three; P3 leaves with one life, in round four."""
+    event = played(new_event(Format.KNOCKOUT, 8), rounds=3).withdraw("P3")
+    assert [(row.place, row.entrant) for row in event.standings[:5]] == [
+        (1, "P1"), (1, "P2"), (3, "P4"), (4, "P3"), (5, "P5")
+    ]  # fmt: skip
+
+
+def test_who_rests_and_leaves_is_ahead_of_who_lost_in_that_round():
+    """Of five, P4 rests in round three, in which P5 is out, and leaves then."""
+    event = played(new_event(Format.KNOCKOUT, 5), rounds=3)
+    assert event.byes[3] == ("P4",)
+    assert [row.entrant for row in event.withdraw("P4").standings[-2:]] == ["P4", "P5"]

@@ -2,6 +2,7 @@
 
 import pytest
 
+from pigaming_app.events.event import Event
 from pigaming_app.events.formats.tie_breaks import CountedMatch, Table, head_to_head
 from pigaming_app.events.spec import Entrant, Format, Result
 from tests.events.examples import best_seed_wins, new_event, played, ranked
@@ -131,3 +132,44 @@ def test_matches_of_four_count_by_the_share_of_beaten_opponents(form):
         "P2": 1.0, "P1": 0.5, "P4": 0.5, "P3": 0.0
     }  # fmt: skip
     assert Entrant("P1") in event.entrants
+
+
+def of_several(event: Event, **places: str) -> Event:
+    """Results of matches by their number (m1 …): names, best first, level ones joined by +."""
+    for key, order in places.items():
+        event = event.record(Result(int(key[1:]), tuple(tuple(place.split("+")) for place in order.split())))
+    return event
+
+
+def test_sixths_do_not_tell_apart_who_is_level():
+    """Buchholz of the third of each match: (1 + 2/3 + 0) / 3 and (5/6 + 5/6 + 0) / 3 are the same."""
+    event = of_several(new_event(Format.SWISS, 8, seats=4, rounds=1), m1="P1 P2 P3 P4", m2="P5+P6 P7 P8")
+    assert {row.entrant: row.place for row in event.standings}["P3"] == 5
+    assert {row.entrant: row.place for row in event.standings}["P7"] == 5
+
+
+def test_a_bye_counts_in_the_buchholz_while_the_next_round_is_played():
+    """P5 rests in round one (1 point), and has met nobody of more points than P5 since."""
+    event = played(new_event(Format.SWISS, 5, rounds=2), rounds=1)
+    match = next(one for one in event.open if "P5" in one.entrants)
+    (other,) = {*match.entrants} - {"P5"}
+    event = event.record(ranked(match, "P5", other))
+    points = {row.entrant: row.points for row in event.standings}
+    assert {row.entrant: row.tie_breaks["buchholz"] for row in event.standings}["P5"] == points["P5"] + points[other]
+
+
+def test_sonneborn_berger_of_four_counts_who_was_beaten():
+    """P3 has beaten P4 only, who has no points: nothing."""
+    event = of_several(new_event(Format.SWISS, 4, seats=4, rounds=1), m1="P1 P2 P3 P4")
+    value = {row.entrant: row.tie_breaks["sonneborn_berger"] for row in event.standings}
+    assert value == pytest.approx({"P1": 1 / 3, "P2": 1 / 9, "P3": 0.0, "P4": 0.0}, abs=1e-6)
+
+
+def test_who_leaves_early_takes_no_results_of_others_along():
+    """Three in a match, P3 has played one of six: between P1 and P2 it still counts."""
+    event = new_event(Format.ROUND_ROBIN, 7, seats=3)
+    first = event.open[0]
+    a, b, c = first.entrants
+    event = event.record(ranked(first, c, a, b)).withdraw(c)
+    assert {row.entrant: row.points for row in event.standings}[a] == 1.0
+    assert {row.entrant: row.points for row in event.standings}[c] == 0.0
