@@ -124,6 +124,8 @@ def entrants_of_text(text: str, check: Check = str) -> EntrantList:
             raise ListError(number, ", ".join(filter(None, cells)), str(error), kind) from None
         if row:
             found.append(row)
+        if len(found) > MOST:
+            break  # it is refused below
     names = _told_apart(found)
     entrants: dict[str, Entrant] = {}
     for row, name in zip(found, names, strict=True):

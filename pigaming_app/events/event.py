@@ -19,6 +19,7 @@ from pigaming_app.events.journal import (
 )
 from pigaming_app.events.progress import Progress
 from pigaming_app.events.spec import Entrant, EventSpec, Fixture, Format, Result, Standing, check_spec
+from pigaming_app.storage.schema import to_plain, typed
 
 
 @dataclass(frozen=True)
@@ -176,7 +177,8 @@ class Event:
         return event
 
     def after(self, entry: Entry) -> "Event":
-        """With one more entry."""
+        """With one more entry, which its file can hold."""
+        typed(to_plain(entry), type(entry))
         event = Event(self.spec, (*self.journal, entry))
         event.__dict__["progress"] = self.progress.after(entry)  # the cached value: no replay from the beginning
         return event
@@ -184,6 +186,7 @@ class Event:
 
 def check_event(spec: EventSpec) -> None:
     """Raises ValueError, with one sentence, for a spec that cannot be played."""
+    typed(to_plain(spec), EventSpec)
     check_spec(spec)
     kind = KINDS[spec.format]
     if spec.seats not in kind.seats:

@@ -9,7 +9,7 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.journal import Corrected
 from pigaming_app.events.spec import Standing
 
-FORMULAS = ("=", "+", "-", "@", "\t", "\r")  # beginnings that a spreadsheet would calculate
+FORMULAS = ("=", "+", "-", "@", "＝", "＋", "－", "＠", "\t", "\r")  # beginnings that a spreadsheet would calculate
 
 
 def plain(event: Event) -> dict[str, Any]:

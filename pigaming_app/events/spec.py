@@ -6,7 +6,7 @@ from datetime import date
 from enum import StrEnum
 
 from pigaming_app.events.refusals import Refused
-from pigaming_app.storage.schema import Finite, Line
+from pigaming_app.storage.schema import Finite, Line, is_line
 
 FEWEST, MOST = 3, 64  # entrants
 SEATS = (2, 3, 4)  # entrants of a match
@@ -14,6 +14,7 @@ MAX_ROUNDS = 64
 MAX_NAME = 24  # characters of an entrant or a team
 MAX_TITLE = 60  # characters
 MAX_SEED = 10**12
+MAX_MINUTES = 3600.0  # or laps, of a match
 WEEK = "week"  # stage of the matches of a ladder
 WALKOVER = "walkover"  # note of an outcome without a match: the opponent has withdrawn
 DEFAULT_AI = "level3"  # takes the seat of an entrant without a brain, where nobody can play
@@ -147,7 +148,7 @@ class NameRefused(Refused):
 
 def check_name(name: str, refusal: str = "bad_name") -> None:
     """Raises NameRefused, with this key, unless this can be the name of an entrant, a team or an arcade."""
-    if not 0 < len(name) <= MAX_NAME or not name.isprintable() or name != name.strip():
+    if not 0 < len(name) <= MAX_NAME or not is_line(name) or name != name.strip():
         raise NameRefused(refusal, name=repr(name[:40]), most=MAX_NAME)
 
 
@@ -169,11 +170,13 @@ def check_spec(spec: EventSpec) -> None:
         raise ValueError(f"at most {MAX_ROUNDS} arenas of a game take turns")
     if not 0 <= spec.rounds <= MAX_ROUNDS:
         raise ValueError(f"an event has at most {MAX_ROUNDS} rounds, not {spec.rounds}")
+    if not all(0.0 <= minutes <= MAX_MINUTES for minutes in spec.minutes.values()):
+        raise ValueError(f"a match has at most {MAX_MINUTES:.0f} minutes")
     if not 1 <= spec.reach < MOST:
         raise ValueError(f"a challenge goes 1 to {MOST - 1} places up, not {spec.reach}")
     if spec.start:
         date.fromisoformat(spec.start)
     if not 0 <= spec.seed <= MAX_SEED:
         raise ValueError(f"a seed is a number from 0 to {MAX_SEED}, not {spec.seed}")
-    if not 0 < len(spec.title) <= MAX_TITLE or not spec.title.isprintable():
+    if not 0 < len(spec.title) <= MAX_TITLE or not is_line(spec.title):
         raise ValueError(f"a title has 1 to {MAX_TITLE} printable characters")

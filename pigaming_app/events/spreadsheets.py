@@ -18,6 +18,7 @@ from pigaming_app.storage.parsing import ParseError
 ZIP = b"PK\x03\x04"
 MOST_BYTES = 20_000_000  # of a part, unpacked
 MOST_ROWS, MOST_CELLS = 1000, 100  # that are read
+MOST_LETTERS = 1_000_000  # of all cells; one text can stand in many of them
 _DECLARED = re.compile(rb"<!(DOCTYPE|ENTITY)", re.IGNORECASE)
 _COLUMN = re.compile(r"[A-Z]{1,3}")
 
@@ -62,7 +63,7 @@ def _attribute(element: Element, name: str) -> str:
 
 def _of_excel(file: ZipFile, names: set[str]) -> Iterator[list[str]]:
     shared = [
-        "".join(text.text or "" for text in _named(item, "t"))
+        _excel_text(item)
         for item in (_named(_part(file, "xl/sharedStrings.xml"), "si") if "xl/sharedStrings.xml" in names else ())
     ]
     for row in _named(_part(file, _first_sheet(file, names)), "row"):
@@ -104,11 +105,20 @@ def _column(reference: str, following: int) -> int:
 def _excel_cell(cell: Element, shared: list[str]) -> str:
     kind = _attribute(cell, "t")
     if kind == "inlineStr":
-        return "".join(text.text or "" for text in _named(cell, "t"))
+        return "".join(_excel_text(one) for one in cell if _tag(one) == "is")
     value = next((one.text or "" for one in cell if _tag(one) == "v"), "")
+    if kind == "e" or (not value and any(_tag(one) == "f" for one in cell)):
+        what = f"the error {value}" if kind == "e" else "a formula without a value"
+        raise ParseError(f"cell {_attribute(cell, 'r')} of the spreadsheet has {what}")
     if kind != "s":
         return value
     return shared[int(value[:9])] if value[:9].isdecimal() and int(value[:9]) < len(shared) else ""
+
+
+def _excel_text(element: Element) -> str:
+    """The text of all runs, without the readings (furigana) above it."""
+    runs = (part if _tag(part) == "t" else part.find("{*}t") for part in element if _tag(part) in ("t", "r"))
+    return "".join(text.text or "" for text in runs if text is not None)
 
 
 def _of_opendocument(content: Element) -> Iterator[list[str]]:
@@ -133,8 +143,11 @@ def _times(element: Element, attribute: str, most: int) -> int:
 def _text(rows: Iterator[list[str]]) -> str:
     text = StringIO()
     writer = csv.writer(text, "excel-tab", lineterminator="\n")
-    filled = 0
+    filled = letters = 0
     for row in rows:
+        letters += sum(map(len, row))
+        if letters > MOST_LETTERS:
+            raise ParseError("the spreadsheet is too large")
         filled += any(row)
         if filled > MOST_ROWS:
             raise ParseError(f"the spreadsheet has more than {MOST_ROWS} rows")

@@ -21,6 +21,7 @@ from pigaming_app.storage.parsing import ParseError, one_line, parse_json, parse
 T = TypeVar("T")
 _UNPRINTABLE = r"\x00-\x1f\x7f-\xa0\xad\u061c\u200b-\u200f\u2028-\u202f\u205f-\u206f\ud800-\uf8ff\ufeff\ufff0-\uffff"
 _PRINTABLE = rf"^[^{_UNPRINTABLE}]*\Z"
+_LINE = re.compile(_PRINTABLE)
 PRINTABLE = Meta(pattern=_PRINTABLE)
 Line = Annotated[str, PRINTABLE, Meta(max_length=400)]
 Finite = Annotated[float, Meta(ge=-1e300, le=1e300)]
@@ -46,6 +47,11 @@ def between(low: float, high: float) -> Meta:
 def one_of(*words: str) -> Meta:
     """The limits of a text that is one of these words."""
     return Meta(pattern=rf"^({'|'.join(words)})\Z")
+
+
+def is_line(text: str) -> bool:
+    """True if a file may hold this text as a `Line`, its length aside."""
+    return text.isprintable() and _LINE.match(text) is not None
 
 
 def from_json(text: str | bytes, kind: type[T], form: int | None = None) -> T:
