@@ -16,8 +16,9 @@ from zipfile import BadZipFile, ZipFile
 from pigaming_app.storage.parsing import ParseError
 
 ZIP = b"PK\x03\x04"
-MOST_BYTES = 20_000_000  # of a part, unpacked
+MOST_BYTES = 8_000_000  # of a part, unpacked
 MOST_ROWS, MOST_CELLS = 1000, 100  # that are read
+MOST_EMPTY = 100_000  # rows with nothing in them
 MOST_LETTERS = 1_000_000  # of all cells; one text can stand in many of them
 _DECLARED = re.compile(rb"<!(DOCTYPE|ENTITY)", re.IGNORECASE)
 _COLUMN = re.compile(r"[A-Z]{1,3}")
@@ -144,9 +145,9 @@ def _text(rows: Iterator[list[str]]) -> str:
     text = StringIO()
     writer = csv.writer(text, "excel-tab", lineterminator="\n")
     filled = letters = 0
-    for row in rows:
+    for number, row in enumerate(rows):
         letters += sum(map(len, row))
-        if letters > MOST_LETTERS:
+        if letters > MOST_LETTERS or number > filled + MOST_EMPTY:
             raise ParseError("the spreadsheet is too large")
         filled += any(row)
         if filled > MOST_ROWS:
