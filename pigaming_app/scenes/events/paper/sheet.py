@@ -15,6 +15,7 @@ from time import perf_counter
 
 import pygame
 
+from pigaming_app.scenes.events.paper.letters import system_font
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic
 from pigaming_app.ui.draw import Color
 from pigaming_app.ui.draw.text import fit_text
@@ -49,10 +50,13 @@ class PaperSheet:
         self, line: str, size: int, at: tuple[float, float], color: Color, align: str = "l", room: float = W
     ) -> None:
         """A line with its middle at y, in smaller type or shortened if it needs more than `room` px; see `text`."""
-        line, size = fit_text(line, size, room, "head", min(size, SMALLEST))
-        image = line_image(line, "head", size, color)
+        if letters := system_font(line, size, room):
+            image, base = letters.render(line, True, color), letters.get_ascent()
+        else:
+            line, size = fit_text(line, size, room, "head", min(size, SMALLEST))
+            image, base = line_image(line, "head", size, color), baseline(line, "head", size)
         x = at[0] - image.get_width() * {"l": 0.0, "c": 0.5, "r": 1.0}[align]
-        self.picture.blit(image, (round(x), round(at[1] + 0.35 * size - baseline(line, "head", size))))
+        self.picture.blit(image, (round(x), round(at[1] + 0.35 * size - base)))
         self.lines.append((line, x, at[1] + 0.35 * size, size))
 
 
