@@ -22,6 +22,7 @@ from pigaming_app.events.journal import (
 )
 from pigaming_app.events.refusals import Refused
 from pigaming_app.events.spec import DEFAULT_AI, SEATS, Entrant, Fixture
+from pigaming_app.storage.schema import is_line
 
 Action = Callable[[Event], Entry]
 
@@ -105,7 +106,7 @@ def index(text: str) -> int:
 
 def plain(text: str) -> str:
     """A text on one line, without spaces around it."""
-    return "".join(char for char in " ".join(text.split()) if char.isprintable())
+    return "".join(char for char in " ".join(text.split()) if is_line(char))
 
 
 def _scores(fixture: Fixture, form: Mapping[str, str]) -> dict[str, float]:
