@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from pigaming_app import ROOT
+from pigaming_app.events.spec import Format, Result
 from pigaming_app.scenes.kiosk.day_report import report_of
 from pigaming_app.storage.day_log import DayLog, PlayedMatch, ProgramEvent
 from pigaming_app.storage.scores import LENGTH, LETTERS, Scores, ScoreTable
@@ -42,7 +43,7 @@ def _time_zone(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 def over(name: str, at: float, **more: Any) -> dict[str, Any]:
     """A line of a match that was seen at its end."""
     seen = {"game": "pitanks", "began": TIMES.wall(at).isoformat(), "seconds": 60.0, "people": 2, "ais": 1}
-    event = {"event": "", "fixture": 0, "scores": {}}
+    event = {"event": "", "fixture": 0, "extra": 0, "scores": {}}
     return {"what": "over", "match": name, "group": 0, "visitors": [1, 2], **seen, **event, **more}
 
 
@@ -142,6 +143,18 @@ def test_each_match_of_an_event_has_the_one_result_that_was_seen() -> None:
     assert list(audit.journal_agrees(event, seen_of("e", [1, 2], last_settled=False).matches)) == []
     other = ledger.digest(settled("1.1", 0, event="e", fixture=1, scores={one.entrants[0]: 3.0}))
     assert "is not what was seen" in next(audit.journal_agrees(begun, other.matches))
+
+
+def test_a_tie_and_the_extra_match_after_it_are_two_results() -> None:
+    event = an_event(form=Format.KNOCKOUT, count=4)
+    one, lines = event.open[0], list[dict[str, Any]]()
+    first, second = one.entrants
+    for extra, scores in enumerate(({first: 1.0, second: 1.0}, {first: 2.0, second: 0.0})):
+        places = ((first, second),) if not extra else ((first,), (second,))
+        event = event.record(Result(one.number, places, scores, extra=extra))
+        lines += settled(f"1.{extra}", 100 * extra, event="e", fixture=one.number, extra=extra, scores=scores)
+    assert list(audit.journal_agrees(event, ledger.digest(iter(lines)).matches)) == []
+    assert list(audit.journal_agrees(event, ledger.digest(iter(lines[:3])).matches)) != []
 
 
 def test_matches_of_ais_may_be_played_in_the_background() -> None:

@@ -114,25 +114,29 @@ def results_of_events(ledger: Ledger, data: Path) -> Iterator[str]:
 def journal_agrees(event: Event, seen: Sequence[SeenMatch]) -> Iterator[str]:
     """The results in the journal against those on the screen. Matches of AIs alone may be played in the background."""
     results = [entry.outcome for entry in event.journal if isinstance(entry, Recorded)]
-    for number, count in Counter(outcome.fixture for outcome in results).items():
+    for key, count in Counter((outcome.fixture, outcome.extra) for outcome in results).items():
         if count > 1:
-            yield f"match {number}: {count} results"
-    by_number = {outcome.fixture: outcome for outcome in results}
-    for number in {match.fixture for match in seen}:
-        here = [match for match in seen if match.fixture == number]
+            yield f"match {_named(*key)}: {count} results"
+    by_key = {(outcome.fixture, outcome.extra): outcome for outcome in results}
+    for key in {match.fixture_key for match in seen}:
+        here = [match for match in seen if match.fixture_key == key]
         settled = [match for match in here if match.settled]
         if len(settled) > 1:
-            yield f"match {number}: was on the screen {len(settled)} times"
-        if number not in by_number:
+            yield f"match {_named(*key)}: was on the screen {len(settled)} times"
+        if key not in by_key:
             if settled:
-                yield f"match {number}: its result is lost"
-        elif dict(by_number[number].scores) not in [dict(match.scores) for match in settled or here]:
-            yield f"match {number}: {dict(by_number[number].scores)} is not what was seen"
+                yield f"match {_named(*key)}: its result is lost"
+        elif dict(by_key[key].scores) not in [dict(match.scores) for match in settled or here]:
+            yield f"match {_named(*key)}: {dict(by_key[key].scores)} is not what was seen"
     ais = {entrant.name for entrant in event.entrants if entrant.brain}
-    for number, outcome in by_number.items():
+    for key, outcome in by_key.items():
         people = {name for place in outcome.places for name in place} - ais
-        if people and not outcome.note and number not in {match.fixture for match in seen}:
-            yield f"match {number}: a result that nobody has seen"
+        if people and not outcome.note and key not in {match.fixture_key for match in seen}:
+            yield f"match {_named(*key)}: a result that nobody has seen"
+
+
+def _named(number: int, extra: int) -> str:
+    return f"{number}, extra match {extra}" if extra else str(number)
 
 
 def scores_counted_once(ledger: Ledger, data: Path) -> Iterator[str]:

@@ -18,8 +18,8 @@ SIGNED = tuple[str, int, str]  # and initials
 
 @dataclass(frozen=True)
 class SeenMatch:
-    """A match that was played to its end. `began`: local time, ISO; `event`, `fixture` and `scores`: file, number and
-    scores by entrant of a match of an event; `settled`: the next page followed.
+    """A match that was played to its end. `began`: local time, ISO; `event`, `fixture`, `extra` and `scores`: file,
+    number, extra match after a tie, and scores by entrant of a match of an event; `settled`: the next page followed.
     """
 
     game: str
@@ -29,8 +29,14 @@ class SeenMatch:
     ais: int
     event: str = ""
     fixture: int = 0
+    extra: int = 0
     scores: Mapping[str, float] = field(default_factory=dict)
     settled: bool = False
+
+    @property
+    def fixture_key(self) -> tuple[int, int]:
+        """Which match of its event it is."""
+        return self.fixture, self.extra
 
     @property
     def key(self) -> tuple[str, str, float, int, int]:
@@ -182,4 +188,4 @@ def digest(lines: Iterator[dict[str, Any]]) -> Ledger:
     return out
 
 
-_FIELDS = ("game", "began", "seconds", "people", "ais", "event", "fixture", "scores")
+_FIELDS = ("game", "began", "seconds", "people", "ais", "event", "fixture", "extra", "scores")

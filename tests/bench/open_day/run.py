@@ -31,6 +31,8 @@ POWER_OFF = 0.5  # s
 SUPERVISOR = """
 import sys
 from pigaming_app.jobs.kiosk.start import supervise
+from pigaming_app.scenes.kiosk import safe_start
+safe_start.MINUTE = 1.5  # s: about what a minute of the day takes
 sys.exit(supervise(sys.argv[1:]))
 """
 

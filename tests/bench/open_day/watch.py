@@ -102,7 +102,7 @@ class Watch:
             running, fixture = scene.after.running, scene.after.fixture
             scores = {name: float(state.robots[seat].score) for seat, name in enumerate(fixture.entrants)}
             visitors = [one.number for one in group.visitors if one.initials in fixture.entrants] if group else []
-            event = {"event": str(running.path), "fixture": fixture.number, "scores": scores}
+            event = {"event": str(running.path), "fixture": fixture.number, "extra": fixture.extra, "scores": scores}
         earlier = scene.rounds.outcomes if scene.rounds else []
         people = len(scene.drivers.people)
         if group:
@@ -119,7 +119,7 @@ class Watch:
             ais=sum(robot.present for robot in state.robots) - people,
             group=group.number if group else -1,
             visitors=visitors,
-            **{"event": "", "fixture": 0, "scores": {}, **event},
+            **{"event": "", "fixture": 0, "extra": 0, "scores": {}, **event},
         )
 
     def _entries(self, top: object) -> None:

@@ -36,12 +36,12 @@ from tests.bench.open_day.plan import (
 CLASS = 32  # visitors of a class that comes with its phones
 CLASSES = 0.8  # share of a week's visitors that come in classes
 SUMMER_ENDS = datetime(2026, 10, 25, 1, 0, tzinfo=UTC)  # at 3:00 the clock goes back to 2:00
-OPENINGS = (  # of a week, at 10:00; the night of the third day is found from its length
+OPENINGS = (  # of a week, at 10:00, on five dates; the night of the third day is found from its length
     datetime(2026, 10, 22, 8, 0, tzinfo=UTC),
     datetime(2026, 10, 23, 8, 0, tzinfo=UTC),
     SUMMER_ENDS,
-    datetime(2026, 10, 25, 9, 0, tzinfo=UTC),
     datetime(2026, 10, 26, 9, 0, tzinfo=UTC),
+    datetime(2026, 10, 27, 9, 0, tzinfo=UTC),
 )
 SECOND_DAY, NIGHT, FOURTH_DAY, LAST_DAY = 1, 2, 3, 4  # see above
 
