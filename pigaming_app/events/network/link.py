@@ -17,7 +17,7 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.journal import Entry
 from pigaming_app.events.network import mirror
 from pigaming_app.events.network.mirror import Host
-from pigaming_app.events.network.push import LOGIN, PATH, Login, Push, first_of, mark_of
+from pigaming_app.events.network.news import LOGIN, PATH, Login, News, first_of, mark_of
 from pigaming_app.storage.parsing import one_line, parse_json
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.schema import to_json
@@ -65,7 +65,7 @@ class Exchange:
 
     def fetch(self) -> Event:
         """The event of the host. Raises Offline or Unwelcome."""
-        return self._send(Push(self.arcade))[0]
+        return self._send(News(self.arcade))[0]
 
     def run(self, path: Path) -> None:
         """Send what the copy has got, and take over what the host has. Raises Offline, Unwelcome or NotSaved."""
@@ -75,17 +75,17 @@ class Exchange:
             raise Unwelcome("it has another event now")
         sent = first_of(event_files.beyond(ours.journal, theirs.journal)[1])
         now = live.read(path, self.arcade)
-        push = Push(self.arcade, len(theirs.journal), mark_of(theirs.journal), sent, now)
-        fresh, judged = self._send(push)
+        news = News(self.arcade, len(theirs.journal), mark_of(theirs.journal), sent, now)
+        fresh, judged = self._send(news)
         if not event_files.same_event(fresh, ours):
             raise Unwelcome("it has another event now")
         if fresh != ours:
             event_files.update(path, lambda ours: _renewed(fresh, ours, sent if judged else ()))
 
-    def _send(self, push: Push) -> tuple[Event, bool]:
-        """Send a push. The event as the host has it, and false if it begins otherwise, so that nothing was taken."""
-        more = {"If-None-Match": self._mark} if self._mark and not push.entries else {}
-        status, mark, body = _ask(self.host, PATH, to_json(push), more)
+    def _send(self, news: News) -> tuple[Event, bool]:
+        """Send news. The event as the host has it, and false if it begins otherwise, so that nothing was taken."""
+        more = {"If-None-Match": self._mark} if self._mark and not news.entries else {}
+        status, mark, body = _ask(self.host, PATH, to_json(news), more)
         if status == 403:
             raise Unwelcome("it needs the PIN")
         if status not in (200, 304, 409):
@@ -104,7 +104,7 @@ def _renewed(theirs: Event, ours: Event, sent: Sequence[Entry]) -> Event:
     return event_files.merged(theirs, common, event_files.without(own, sent))
 
 
-class Link:
+class EventLink:
     """An exchange that goes on in a thread. `trouble`: why there is none just now; empty while there is."""
 
     def __init__(self, path: Path, host: Host, arcade: str) -> None:
@@ -151,10 +151,10 @@ class Link:
         return pause
 
 
-def link_of(path: Path, arcade: str) -> Link | None:
+def link_of(path: Path, arcade: str) -> EventLink | None:
     """The link of a copy, which begins at once; None for an event of this computer."""
     host = mirror.host_of(path)
-    return Link(path, host, arcade) if host and arcade else None
+    return EventLink(path, host, arcade) if host and arcade else None
 
 
 def _ask(host: Host, path: str, body: str, more: Mapping[str, str] | None = None) -> tuple[int, str, bytes]:

@@ -13,7 +13,7 @@ from pigaming_app.scenes.launch import Options
 from pigaming_app.storage.settings import folders
 
 if TYPE_CHECKING:  # the title does not wait for it
-    from pigaming_app.events.network.link import Link
+    from pigaming_app.events.network.link import EventLink
     from pigaming_app.scenes.events.desk.host import DeskHost
     from pigaming_app.scenes.events.running import RunningEvent
 
@@ -106,7 +106,7 @@ class LinkService(Service):
     def __init__(self, context: Context) -> None:
         self.context, self._left = context, 0.0
         self._path: Path | None = None
-        self._link: Link | None = None
+        self._link: EventLink | None = None
 
     def update(self, seconds: float, stack: Stack) -> None:
         self._left -= seconds

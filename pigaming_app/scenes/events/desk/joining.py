@@ -16,7 +16,7 @@ from pigaming_app.events import event_files
 from pigaming_app.events.changes import live
 from pigaming_app.events.event import Event
 from pigaming_app.events.journal import Added, Entry, Substituted
-from pigaming_app.events.network.push import LOGIN, PATH, Login, Outdated, Push, push_of, pushed
+from pigaming_app.events.network.news import LOGIN, PATH, Login, News, Outdated, news_of, with_news
 from pigaming_app.storage.pin import PinFile
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.schema import from_json, to_json
@@ -48,8 +48,8 @@ class Joining:
                 return self._log_in(from_json(request.body, Login).pin, request.peer)
             if not self._admits(request.headers.get("authorization", "").removeprefix("Bearer ")):
                 return WebReply(status=403)
-            push = push_of(request.body)
-            return self._exchanged(request, replace(push, entries=tuple(filter(_is_usable, push.entries))))
+            news = news_of(request.body)
+            return self._exchanged(request, replace(news, entries=tuple(filter(_is_usable, news.entries))))
         except ValueError:
             return WebReply(status=400)
 
@@ -67,21 +67,21 @@ class Joining:
             return False
         return float(begun) > self._clock() - LASTS
 
-    def _exchanged(self, request: WebRequest, push: Push) -> WebReply:
+    def _exchanged(self, request: WebRequest, news: News) -> WebReply:
         """Take over what an arcade has sent; the event for it, unless it has this one."""
         status = 200
         try:
-            if push.entries and pushed(self._event(), push) is not self._event():
-                event_files.update(self.path, lambda event: pushed(event, push))
+            if news.entries and with_news(self._event(), news) is not self._event():
+                event_files.update(self.path, lambda event: with_news(event, news))
         except Outdated:
             status = 409
         except (ValueError, NotSaved) as reason:
             log.warning("%s", reason)
             return WebReply(status=503)
-        if push.live:
-            live.write(self.path, push.live)
+        if news.live:
+            live.write(self.path, news.live)
         else:
-            live.remove(self.path, push.arcade)
+            live.remove(self.path, news.arcade)
         event = self._event()
         if self._text is None or self._text[0] is not event:
             self._text = event, event_files.to_text(event).encode()

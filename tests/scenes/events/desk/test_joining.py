@@ -13,9 +13,9 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import save, update
 from pigaming_app.events.journal import Postponed, Recorded, Substituted, Summoned
 from pigaming_app.events.network import mirror
-from pigaming_app.events.network.link import Exchange, Link, Offline, Unwelcome, log_in
+from pigaming_app.events.network.link import EventLink, Exchange, Offline, Unwelcome, log_in
 from pigaming_app.events.network.mirror import Host, host_at, host_of, note, path_of
-from pigaming_app.events.network.push import PATH
+from pigaming_app.events.network.news import PATH
 from pigaming_app.events.spec import Entrant, Format
 from pigaming_app.scenes.events.desk.joining import LASTS, Joining
 from pigaming_app.storage.pin import PinFile
@@ -267,7 +267,7 @@ def test_a_host_that_answers_anything_is_offline(tmp_path: Path, answer: WebRepl
 def test_without_a_host_the_copy_stays_and_the_link_goes_on_trying(path: Path, host: Host, copy: Path) -> None:
     nobody = replace(host, port=1)
     note(copy, nobody)
-    link = Link(copy, nobody, "right")
+    link = EventLink(copy, nobody, "right")
     link.stop()
     assert "cannot be reached" in link.trouble
     assert cup(copy) == cup(path)

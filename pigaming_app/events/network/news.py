@@ -20,7 +20,7 @@ BYTES = 40_000  # of the entries that are sent at once, at least one
 
 
 @dataclass(frozen=True)
-class Push:
+class News:
     """The news of an arcade. `live`: what it plays just now; None: nothing of this event."""
 
     arcade: Line
@@ -46,9 +46,9 @@ class Outdated(ValueError):
     """The journal does not begin as the arcade has it."""
 
 
-def push_of(body: bytes) -> Push:
-    """A push from the network. Raises ValueError."""
-    return from_json(body, Push)
+def news_of(body: bytes) -> News:
+    """A news from the network. Raises ValueError."""
+    return from_json(body, News)
 
 
 def mark_of(journal: Sequence[Entry]) -> str:
@@ -56,11 +56,11 @@ def mark_of(journal: Sequence[Entry]) -> str:
     return hashlib.sha256("\n".join(map(to_json, journal)).encode()).hexdigest()
 
 
-def pushed(event: Event, push: Push) -> Event:
-    """The event with what it has not got of a push, as far as that is possible. Raises Outdated."""
-    if push.after > len(event.journal) or mark_of(event.journal[: push.after]) != push.mark:
+def with_news(event: Event, news: News) -> Event:
+    """The event with what it has not got of the news, as far as that is possible. Raises Outdated."""
+    if news.after > len(event.journal) or mark_of(event.journal[: news.after]) != news.mark:
         raise Outdated("the journal does not begin like this")
-    return merged(event, push.after, push.entries)
+    return merged(event, news.after, news.entries)
 
 
 def first_of(entries: Sequence[Entry]) -> tuple[Entry, ...]:

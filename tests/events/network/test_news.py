@@ -9,7 +9,7 @@ import pytest
 from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import beyond, latest, merged, save, without
 from pigaming_app.events.journal import Added, Entry, Postponed, Recorded, Summoned, Swapped
-from pigaming_app.events.network.push import BYTES, Outdated, Push, first_of, mark_of, push_of, pushed
+from pigaming_app.events.network.news import BYTES, News, Outdated, first_of, mark_of, news_of, with_news
 from pigaming_app.events.spec import Entrant, Format, Result
 from pigaming_app.storage.schema import to_json
 from tests.events.examples import best_seed_wins, new_event
@@ -23,9 +23,9 @@ def after(event: Event, *entries: Entry) -> Event:
     return event
 
 
-def push(event: Event, *entries: Entry) -> Push:
+def told(event: Event, *entries: Entry) -> News:
     """The news of an arcade that has this event and these entries of its own."""
-    return Push("right", len(event.journal), mark_of(event.journal), entries)
+    return News("right", len(event.journal), mark_of(event.journal), entries)
 
 
 def result(event: Event, number: int) -> Recorded:
@@ -35,35 +35,35 @@ def result(event: Event, number: int) -> Recorded:
 def test_what_is_sent_again_counts_once() -> None:
     """An exchange of places that counts twice is undone, a match that is postponed twice comes a round later."""
     swiss = new_event(Format.SWISS, 4)
-    news = push(swiss, Swapped("P1", "P2"), Postponed(1), Postponed(1))
-    once = pushed(swiss, news)
+    news = told(swiss, Swapped("P1", "P2"), Postponed(1), Postponed(1))
+    once = with_news(swiss, news)
     assert once.journal == news.entries, "equal ones of one arcade are two"
     others = after(once, Recorded(best_seed_wins(once.open[0])))
-    assert pushed(others, news) == others
-    assert pushed(after(swiss, news.entries[0]), news) == once, "the rest"
+    assert with_news(others, news) == others
+    assert with_news(after(swiss, news.entries[0]), news) == once, "the rest"
 
 
 def test_of_two_results_of_one_match_the_first_counts() -> None:
     fixture = EVENT.fixtures[0]
     here, there = (Result(1, tuple((name,) for name in order)) for order in (fixture.entrants, fixture.entrants[::-1]))
     event = after(EVENT, Recorded(here))
-    assert pushed(event, push(EVENT, Recorded(there))) is event
+    assert with_news(event, told(EVENT, Recorded(there))) is event
 
 
 def test_a_claim_takes_no_match_that_is_called_elsewhere_and_its_end_no_call_of_others() -> None:
     event = after(EVENT, Summoned(1, "left"))
-    news = push(EVENT, Summoned(1, "right"), Summoned(1, None), Summoned(2, "right"))
-    assert pushed(event, news).calls == {1: "left", 2: "right"}
-    free = pushed(EVENT, push(EVENT, Summoned(1, "right"), Summoned(1, None), Summoned(1, "right")))
+    news = told(EVENT, Summoned(1, "right"), Summoned(1, None), Summoned(2, "right"))
+    assert with_news(event, news).calls == {1: "left", 2: "right"}
+    free = with_news(EVENT, told(EVENT, Summoned(1, "right"), Summoned(1, None), Summoned(1, "right")))
     assert free.calls == {1: "right"}
     assert len(free.journal) == 3
 
 
 def test_a_copy_with_another_beginning_is_outdated() -> None:
     event = after(EVENT, Postponed(1), Postponed(2))
-    for wrong in (Push("right", 3, mark_of(event.journal)), Push("right", 2, mark_of(event.journal[:1]))):
+    for wrong in (News("right", 3, mark_of(event.journal)), News("right", 2, mark_of(event.journal[:1]))):
         with pytest.raises(Outdated):
-            pushed(event, wrong)
+            with_news(event, wrong)
 
 
 @pytest.mark.parametrize(
@@ -84,9 +84,9 @@ def test_a_copy_with_another_beginning_is_outdated() -> None:
         b"\xff\xfe",
     ],
 )
-def test_anything_else_is_no_push(body: bytes) -> None:
+def test_anything_else_is_no_news(body: bytes) -> None:
     with pytest.raises(ValueError):  # noqa: PT011
-        push_of(body)
+        news_of(body)
 
 
 def test_much_news_is_sent_in_parts_of_limited_size() -> None:
@@ -100,9 +100,9 @@ def test_much_news_is_sent_in_parts_of_limited_size() -> None:
     assert sum(map(len, parts)) == 900
 
 
-def test_a_push_comes_out_as_it_went_in() -> None:
-    news = push(after(EVENT, Postponed(1)), result(EVENT, 2), Summoned(3, None), Added(Entrant("Éva", "", "Red")))
-    assert push_of(to_json(news).encode()) == news
+def test_news_comes_out_as_it_went_in() -> None:
+    news = told(after(EVENT, Postponed(1)), result(EVENT, 2), Summoned(3, None), Added(Entrant("Éva", "", "Red")))
+    assert news_of(to_json(news).encode()) == news
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -131,7 +131,7 @@ def test_copies_that_exchange_at_random_times_become_equal(seed: int) -> None:
         common, own = beyond(copy.journal, known[i].journal)
         assert common == len(known[i].journal)
         sent = first_of(own)[: random.randint(1, 5)]
-        host = pushed(host, push(known[i], *sent))
+        host = with_news(host, told(known[i], *sent))
         for entry in sent:
             if isinstance(entry, Recorded):
                 first.setdefault(entry.outcome.fixture, entry.outcome)
