@@ -178,9 +178,9 @@ class Event:
 
     def after(self, entry: Entry) -> "Event":
         """With one more entry, which its file can hold."""
-        typed(to_plain(entry), type(entry))
         event = Event(self.spec, (*self.journal, entry))
         event.__dict__["progress"] = self.progress.after(entry)  # the cached value: no replay from the beginning
+        typed(to_plain(entry), type(entry))
         return event
 
 

@@ -23,6 +23,7 @@ from tests.pages.commands import PAGES, ROOT
 
 SMALL = 0.01  # share of the work
 TRAINING = ("seeds", "verdict")  # their rows are those of robots that train for seconds
+COMPILED = ("people", "auto", "seats")  # each compiles the line-ups of all games, which takes minutes
 
 
 @pytest.fixture
@@ -53,7 +54,14 @@ def test_a_measured_block_names_a_version_and_its_command(name: str) -> None:
 
 
 @pytest.mark.usefixtures("_small")
-@pytest.mark.parametrize("name", [name for name in MEASURED if name not in TRAINING])
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=[pytest.mark.long, pytest.mark.again] if name in COMPILED else [])
+        for name in MEASURED
+        if name not in TRAINING
+    ],
+)
 def test_a_measured_block_has_the_rows_and_columns_of_its_program(name: str) -> None:
     block = MEASURED[name]
     assert outline(on_page(block.page, name)) == outline(as_markdown(block.table(SMALL)))

@@ -239,8 +239,9 @@ def test_any_path_query_and_form_is_answered(path: Path, operator: Operator) -> 
         request = WebRequest(
             random.choice(("GET", "POST")), address, form, form, operator._cookies(), peer="192.0.2.9", own=True
         )
-        seen.add(operator.desk(request).status)
-        operator.log_in()
+        seen.add(status := operator.desk(request).status)
+        if status in (303, 403):  # its session may have ended
+            operator.log_in()
     assert {200, 404, 409} <= seen <= {200, 303, 403, 404, 409}
     cup(path)
 

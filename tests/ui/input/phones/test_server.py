@@ -78,7 +78,7 @@ def test_a_phone_joins_drives_and_is_told_its_seat(controls: Controls, server: P
         await one.touch(0.0, -1.0, BITS[Button.FIRE])
         await drives(controls, 0, StickState(1.0, 0.0, True))
         controls.phones.show(0, SeatView(2, "#14e48c", True, "3", "1:05", name="Ana"))
-        tally = {"score": "3", "clock": "1:05", "place": "", "before": -1, "line": "", "name": "Ana"}
+        tally = {"score": "3", "clock": "1:05", "place": "", "before": -1, "line": "", "name": "Ana", "called": False}
         assert await one.told() == {"state": {"seat": 2, "color": "#14e48c", "playing": True, **tally}}
         controls.rumble(Device("phone", 0), 1.0, 0.5, 0.2)
         assert await one.told() == {"rumble": [1.0, 0.5, 200]}
