@@ -23,7 +23,6 @@ from pigaming_app.events.journal import (
     Swapped,
 )
 from pigaming_app.events.spec import Advance, Entrant, Fixture, Format, Result
-from tests.cases import one_in
 from tests.events.examples import by_chance, new_event
 from tests.events.formats import test_challenge, test_groups, test_tries
 from tests.events.second import grand_prix, knockout, round_robin, swiss
@@ -35,6 +34,7 @@ SECOND = {
     Format.ROUND_ROBIN: (round_robin.check, round_robin.table),
     Format.SWISS: (swiss.check, round_robin.table),
 }
+LONG = (pytest.mark.long, pytest.mark.again)
 FEW = 40  # matches, up to which everything is compared after each result
 SIZES = (3, 4, 5, 6, 7, 8, 9, 11, 16, 23)
 
@@ -203,7 +203,7 @@ def run(form: Format, seed: int) -> Event:
 
 
 @pytest.mark.parametrize("form", [*Format])
-@pytest.mark.parametrize("block", one_in(9, range(9)))
+@pytest.mark.parametrize("block", [0, *(pytest.param(block, marks=LONG[: 1 + (block > 1)]) for block in range(1, 9))])
 def test_250_random_events_agree_with_a_second_implementation(form, block, tmp_path):
     """34 of each format, two of them quick."""
     for seed in range(4 * block - 1, 4 * block + 3) if block else (1, 2):

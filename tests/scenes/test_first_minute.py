@@ -22,6 +22,7 @@ from pigaming_app.scenes.title.scene import Title
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, StickState
+from tests.cases import repeated
 from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade
 from tests.ui.input.virtual_pad import VirtualPad
@@ -114,7 +115,7 @@ def presses_until_driving(app: App, hands: Keyboard | Pad, game: str) -> int:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("device", ["keyboard", "pad"])
+@pytest.mark.parametrize("device", repeated(["keyboard", "pad"]))
 def test_at_most_three_presses_lead_from_the_title_to_driving(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, device: str
 ) -> None:

@@ -35,6 +35,7 @@ def after_last_request(shards, disaster):
 
 
 @pytest.mark.long
+@pytest.mark.again  # five minutes on two slow cores
 @pytest.mark.filterwarnings("ignore")
 def test_a_lost_worker_and_a_lost_node_change_no_bit_of_the_training():
     import ray

@@ -1,6 +1,7 @@
 """Courses: location along them, and invalid files, which are refused with key and reason."""
 
 import re
+from itertools import product
 from math import cos, hypot, pi, sin
 from random import Random
 from statistics import median
@@ -17,6 +18,7 @@ from pigaming_app.games.setup import make_setup
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import DT
+from tests.cases import repeated
 from tests.games.rails import place_on
 from tests.matches import setup_of
 
@@ -242,8 +244,7 @@ def test_other_tracks_have_the_laps_of_the_rules():
 
 @pytest.mark.long
 @pytest.mark.skipif(not can_compile(), reason="needs numba")
-@pytest.mark.parametrize("track", shipped_arenas("race"))
-@pytest.mark.parametrize("variant", list(VARIANTS))
+@pytest.mark.parametrize(("track", "variant"), repeated(product(shipped_arenas("race"), VARIANTS)))
 def test_a_child_alone_drives_a_default_race_in_60_to_90_s(track, variant):
     """Medians of its models, so that one in mud for a minute does not count."""
     goal = default_goal("race", variant, track)

@@ -182,9 +182,10 @@ def test_two_computers_one_journal_whatever_is_killed_or_cut(tmp_path: Path, see
         processes = (desk, left, right)
         for process in processes:
             stack.callback(process.kill)
-        left.start()
         proxy.share = 0.0  # the PIN is asked once
         right.start()
+        until(lambda: results(path))
+        left.start()
         proxy.share = 0.3
         there = mirror.latest(tmp_path / "there/data/joined", host_at(f"http://127.0.0.1:{proxy.port}", 0))
         assert there

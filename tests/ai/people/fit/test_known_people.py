@@ -7,6 +7,7 @@ import pytest
 
 from pigaming_app.ai.people.fit.calibration import FITTED, SHARES, calibration, plain, raw_of
 from pigaming_app.ai.people.fit.known import samples_of
+from tests.cases import repeated
 
 PEOPLE, MATCHES, SEED = 24, 16, 2026
 WITHIN = 0.15  # of a trait, or of its whole range where it is a share
@@ -19,7 +20,7 @@ AIM_OF_STICKS = "17.5 %: since guns hold five shots, fewer of them tell how well
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(("game", "driving"), FOUND)
+@pytest.mark.parametrize(("game", "driving"), repeated(FOUND))
 def test_known_people_are_found_within_15_percent(game: str, driving: str) -> None:
     known = calibration(game, driving)
     assert known
