@@ -7,6 +7,7 @@ import os
 import random
 import sys
 import threading
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from copy import deepcopy
@@ -43,6 +44,7 @@ from tests.scenes.screens import SCREENS, event, match
 BUTTONS = sorted(set(Button) - {Button.POINT, Button.CLICK, Button.FOUND, Button.LOST}, key=lambda button: button.name)
 IDLE = (sys.executable, "-c", "input()")  # in place of the compilers, which work for minutes
 MOST_MB, SETTLED = 4.0, 5  # growth; thrice as much where there are fewer rounds than SETTLED: rare code still loads
+ENDING = 15.0  # s
 MOST_CACHED_MB = RESTING / 2**20 + 8.0  # sprites on the title; 8: painted since it has released the others
 
 
@@ -58,7 +60,10 @@ class Usage:
 
 
 def usage(presses: int) -> Usage:
-    """What this process uses now."""
+    """What this process uses now, as soon as threads that are ending have ended."""
+    until = time.monotonic() + ENDING
+    while threading.active_count() > 1 and time.monotonic() < until:
+        time.sleep(0.05)
     cached = surfaces.bytes / 2**20
     surfaces.clear()
     gc.collect()
