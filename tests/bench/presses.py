@@ -162,11 +162,12 @@ def press(arcade: Arcade, chance: random.Random, title: Title) -> None:
 def growth(found: Sequence[Usage]) -> list[str]:
     """What has grown since the second round, by when all that is kept has been loaded; empty: nothing.
 
-    Memory: the least of the later rounds against the least of the earlier ones, as some of it comes and goes.
+    Threads and memory: the least of the later rounds against the least of the earlier ones, as the Lab's come and go.
     """
     kept = found[1:]
-    half = max(1, len(kept) // 2)
-    changes = {"open files": kept[-1].files - kept[0].files, "threads": kept[-1].threads - kept[0].threads}
+    half = (len(kept) + 1) // 2
+    threads = min(one.threads for one in kept[-half:]) - min(one.threads for one in kept[:half])
+    changes = {"open files": kept[-1].files - kept[0].files, "threads": threads}
     more_mb = min(one.mb for one in kept[-half:]) - min(one.mb for one in kept[:half])
     most_mb = MOST_MB if len(found) >= SETTLED else 3 * MOST_MB
     cached = max(one.cached_mb for one in found)
