@@ -7,7 +7,6 @@ import os
 import random
 import sys
 import threading
-import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from copy import deepcopy
@@ -44,7 +43,6 @@ from tests.scenes.screens import SCREENS, event, match
 BUTTONS = sorted(set(Button) - {Button.POINT, Button.CLICK, Button.FOUND, Button.LOST}, key=lambda button: button.name)
 IDLE = (sys.executable, "-c", "input()")  # in place of the compilers, which work for minutes
 MOST_MB, SETTLED = 4.0, 5  # growth; thrice as much where there are fewer rounds than SETTLED: rare code still loads
-ENDING = 15.0  # s
 MOST_CACHED_MB = RESTING / 2**20 + 8.0  # sprites on the title; 8: painted since it has released the others
 
 
@@ -60,10 +58,7 @@ class Usage:
 
 
 def usage(presses: int) -> Usage:
-    """What this process uses now, as soon as threads that are ending have ended."""
-    until = time.monotonic() + ENDING
-    while threading.active_count() > 1 and time.monotonic() < until:
-        time.sleep(0.05)
+    """What this process uses now."""
     cached = surfaces.bytes / 2**20
     surfaces.clear()
     gc.collect()
@@ -162,12 +157,11 @@ def press(arcade: Arcade, chance: random.Random, title: Title) -> None:
 def growth(found: Sequence[Usage]) -> list[str]:
     """What has grown since the second round, by when all that is kept has been loaded; empty: nothing.
 
-    Threads and memory: the least of the later rounds against the least of the earlier ones, as the Lab's come and go.
+    Memory: the least of the later rounds against the least of the earlier ones, as some of it comes and goes.
     """
     kept = found[1:]
-    half = (len(kept) + 1) // 2
-    threads = min(one.threads for one in kept[-half:]) - min(one.threads for one in kept[:half])
-    changes = {"open files": kept[-1].files - kept[0].files, "threads": threads}
+    half = max(1, len(kept) // 2)
+    changes = {"open files": kept[-1].files - kept[0].files, "threads": kept[-1].threads - kept[0].threads}
     more_mb = min(one.mb for one in kept[-half:]) - min(one.mb for one in kept[:half])
     most_mb = MOST_MB if len(found) >= SETTLED else 3 * MOST_MB
     cached = max(one.cached_mb for one in found)

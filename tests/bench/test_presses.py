@@ -21,7 +21,7 @@ def test_what_is_level_is_told_from_what_comes_and_goes() -> None:
     ("found", "verdict"),
     [
         (usages(files=1), "4 more open files"),
-        (usages(threads=1), "2 more threads"),
+        (usages(threads=1), "4 more threads"),
         (usages(mb=1.0), "MB more"),
         (usages(cached=150.0), "150 MB of sprites on the title"),
     ],

@@ -47,7 +47,7 @@ class Outdated(ValueError):
 
 
 def news_of(body: bytes) -> News:
-    """A news from the network. Raises ValueError."""
+    """News from the network. Raises ValueError."""
     return from_json(body, News)
 
 
