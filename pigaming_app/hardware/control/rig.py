@@ -291,11 +291,15 @@ class Rig:
             motion = self.tracker.delay.due(self.clock()) if self.tracker.delay is not None else None
         for view in tuple(self.viewers):
             view(frame)
-        if motion is not None:
+        if motion is None:
+            return
+        if self._thread is None:
             self._learn_delay(motion)
+        else:  # on a busy computer it takes so long that the next picture would be late
+            threading.Thread(target=self._learn_delay, args=(motion,), name="camera delay", daemon=True).start()
 
     def _learn_delay(self, motion: DriveTrace) -> None:
-        """Correct the camera's delay by the motion of a robot; correlating it takes several milliseconds."""
+        """Correct the camera's delay by the motion of a robot."""
         delay = motion.delay()
         with self._lock:
             if delay is not None and self.tracker.delay is not None:

@@ -27,7 +27,7 @@ from pigaming_app.hardware.proof.frame_feed import FrameWriter
 from pigaming_app.hardware.session.emulated import calibrated
 from pigaming_app.hardware.signals import Image
 
-FPS = 30.0  # frames/s of the camera
+FPS, DELAY = 30.0, 0.03  # frames/s of the camera; s to the program: both share the computer's time
 QUICK = 30  # interval of complete renders, frames
 RUNNING, BARELY = 0.1, 0.01  # s since a motor last ran
 MOVING = 3  # robots that must move before a fault
@@ -45,7 +45,7 @@ class OutsideArena:
 
     def __init__(self, seed: int, feed: Path, key: bytes = b"", arcade: int = 0) -> None:
         self.feed, self.key = feed, key
-        self.arena = EmulatedArena(seed, FrameTiming(FPS), MODERATE, QUICK)
+        self.arena = EmulatedArena(seed, FrameTiming(FPS, DELAY), MODERATE, QUICK)
         self.ground: GroundPlane = calibrated(self.arena)
         self.arena.project(steady_light())
         self._boards: Boards | None = None

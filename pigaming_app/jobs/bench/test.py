@@ -25,6 +25,7 @@ UNITS = tuple(f"tests/{room}" for room in (
     "test_layers.py",
 ))  # fmt: skip
 CORES = os.cpu_count() or 1
+NOTHING = 5  # exit code of pytest without a test
 # No window and no sound; bytecode is written even where the caller forbids it, because tests start many processes.
 ENVIRONMENT = {
     "SDL_VIDEODRIVER": "dummy",
@@ -63,19 +64,32 @@ def run(options: TestOptions) -> int:
     """
     if INSTALLED or FROZEN:
         raise Refusal("an installed program has no tests: run main.py test in a clone")
-    for_pytest = options.for_pytest
     tools = {} if options.long or options.feature else RUFF if options.quick else RUFF | MYPY
     marked: tuple[str, ...] = ("-m", "long" if options.long else "not long")
-    units = UNITS if options.quick and not any(map(_is_path, for_pytest)) else ()
+    units = UNITS if options.quick and not any(map(_is_path, options.for_pytest)) else ()
     if options.feature:
         marked, units = (), paths_of(options.feature)
+    for_pytest = (*marked, *options.for_pytest, *units)
     with ThreadPoolExecutor(1) as executor:
         results = executor.map(_run, tools.items())
-        workers = CORES + options.long  # long proofs often wait for another process
-        with _python(("pytest", "-n", str(workers), "--dist", "worksteal", *marked, *for_pytest, *units)) as pytest:
-            code = pytest.wait()
+        code = _long_proofs(for_pytest) if options.long else _pytest(CORES, for_pytest)
         failed = [_report(result) for result in results]
     return code or int(any(failed))
+
+
+def _long_proofs(for_pytest: Sequence[str]) -> int:
+    """Run the long proofs, those that need the whole computer (`alone`) last and one by one; the exit code."""
+    at = len(for_pytest) - for_pytest[::-1].index("-m")  # the last one counts
+    beside, alone = (
+        (*for_pytest[:at], f"({for_pytest[at]}) and {mark}", *for_pytest[at + 1 :]) for mark in ("not alone", "alone")
+    )
+    codes = {_pytest(CORES + 1, beside), _pytest(0, alone)}  # one more worker: they often wait for another process
+    return max(codes - {NOTHING} or codes)
+
+
+def _pytest(workers: int, arguments: Sequence[str]) -> int:
+    with _python(("pytest", "-n", str(workers), "--dist", "worksteal", *arguments)) as pytest:
+        return pytest.wait()
 
 
 def paths_of(name: str) -> tuple[str, ...]:

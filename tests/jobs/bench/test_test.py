@@ -45,15 +45,39 @@ def words_of(tool, started):
 
 @pytest.mark.parametrize(
     ("options", "tools", "marked"),
-    [([], EVERYTHING, "not long"), (["--quick"], {"pytest", "ruff"}, "not long"), (["--long"], {"pytest"}, "long")],
+    [
+        ([], EVERYTHING, "not long"),
+        (["--quick"], {"pytest", "ruff"}, "not long"),
+        (["--long"], {"pytest"}, "(long) and not alone"),
+        (["--long", "-m", "long and not again"], {"pytest"}, "(long and not again) and not alone"),
+    ],
 )
 def test_the_options_choose_tools_and_tests(started, options, tools, marked):
     assert main(["test", *options, "-k", "replay"]) == 0
     assert {words[0] for words in started.seen} == tools
     words = words_of("pytest", started)
-    assert words[words.index("-m") + 1] == marked
+    assert words[len(words) - words[::-1].index("-m")] == marked
     assert words[words.index("-k") + 1] == "replay"
     assert ("tests/sim" in words) == ("--quick" in options)
+
+
+def test_what_needs_the_whole_computer_comes_last_and_one_by_one(tmp_path, monkeypatch):
+    """With pytest itself: those alone fail beside another test."""
+    (tmp_path / "test_some.py").write_text(
+        "import time\nfrom pathlib import Path\nimport pytest\n"
+        "def noted(name):\n    here = Path(name)\n    here.touch()\n    time.sleep(0.5)\n"
+        "    here.unlink()\n    Path('log').open('a').write(name + '\\n')\n"
+        "@pytest.mark.long\n@pytest.mark.alone\n@pytest.mark.parametrize('i', range(2))\n"
+        "def test_alone(i):\n    assert not [*Path().glob('one*')]\n    noted(f'one alone {i}')\n"
+        "@pytest.mark.long\n@pytest.mark.parametrize('i', range(3))\ndef test_beside(i):\n"
+        "    noted(f'one beside {i}')\n"
+    )
+    (tmp_path / "pytest.ini").write_text("[pytest]\nmarkers =\n    long\n    alone\n")
+    monkeypatch.setattr(checks, "ROOT", tmp_path)
+    assert main(["test", "--long"]) == 0
+    assert [line.split()[1] for line in (tmp_path / "log").read_text().splitlines()] == ["beside"] * 3 + ["alone"] * 2
+    assert main(["test", "--long", "-k", "alone"]) == 0
+    assert main(["test", "--long", "-k", "nothing"]) == checks.NOTHING
 
 
 def test_named_files_are_tried_instead_of_all_unit_tests(started):

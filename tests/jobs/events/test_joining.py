@@ -201,6 +201,7 @@ def test_two_computers_one_journal_whatever_is_killed_or_cut(tmp_path: Path, see
                     time.sleep(random.uniform(0.0, 1.0))
                     processes[number - 1].start()
         until(lambda: len(results(path)) == 42)
+        until(lambda: proxy.broken > 5)
         proxy.share = 0.0
         until(lambda: journal(there) == journal(path))
         port = int(found[1])
@@ -217,7 +218,6 @@ def test_two_computers_one_journal_whatever_is_killed_or_cut(tmp_path: Path, see
         assert ["played", one["fixture"], one["note"], one["scores"]] in seen
     assert {one["note"].split()[0] for one in counted} == {"left", "right"}
     assert shown == reckoned(counted)
-    assert proxy.broken > 5
 
 
 @pytest.mark.long
