@@ -52,7 +52,9 @@ class PhoneLink:
     def update(self, scenes: Sequence[Scene]) -> None:
         """Switch phones on or off as set, give them their turns, and tell each what it is to show."""
         context, settings = self.context, self.context.settings
-        texts = self._texts.setdefault(context.words.language, page_texts(context.words))
+        if (language := context.words.language) not in self._texts:
+            self._texts[language] = page_texts(context.words)
+        texts = self._texts[language]
         self.host.switch(settings.phones, settings.phones_network, settings.phones_port, texts)
         phones, roster = context.controls.phones, self.host.roster
         if not self.host.on and not phones.plugged:

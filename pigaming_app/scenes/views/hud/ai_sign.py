@@ -12,8 +12,10 @@ TAB = 34  # px, type size on a card's outline
 
 def driver_tab(ink: GlowCanvas, brain: str, name: str, x: float, y: float, room: float, color: Color) -> None:
     """Who drives, on the upper line of a card, which it interrupts, within `room` px from x: the sign of an AI, and the
-    name of an entrant, or else the level of the AI. Nothing without either.
+    name of an entrant, or else the level of the AI. Nothing without either. A name that is too long gets the sign's room.
     """
+    if name and text_width(name, TAB, "hero") > room - 50:
+        brain = ""
     lead = 46 if brain else 4
     text, size = fit_text(name, TAB, room - lead - 4, "hero", TAB) if name else (level_mark(brain), TAB)
     w = text_width(text, size, "hero") + 6 if text else 0.0
