@@ -6,10 +6,12 @@ import random
 import tomllib
 import zipfile
 import zlib
+from collections.abc import Callable
 from dataclasses import asdict
 from datetime import UTC, datetime
 from functools import partial
 from io import BytesIO
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -314,7 +316,7 @@ def test_a_table_with_a_hostile_header_is_refused(tmp_path, header):
     assert not refused_or_used(lambda: load_table(tmp_path / "a.npz"), TableError)
 
 
-READERS = {
+READERS: dict[str, tuple[Callable[[Path], object], type[Exception]]] = {
     "arena.toml": (lambda path: load_arena("pitanks", str(path)), ArenaError),
     "robots.toml": (load_robots, DrivetrainError),
     "calibration.toml": (load_calibration, CalibrationError),

@@ -21,7 +21,7 @@ MAY = {
     "ai": {"sim", "storage", "games"},
     "ui": {"storage"},
     "scenes": {"sim", "storage", "ui", "games", "hardware", "ai", "events"},
-    "api": {"sim", "storage", "ui", "games", "ai", "scenes", "gym"},
+    "api": {"sim", "storage", "ui", "games", "ai", "scenes", "gym", "hardware"},
     "gym": {"links", "sim", "storage", "ui", "games", "hardware", "ai", "scenes"},
     "events": {"games", "ai", "storage"},
     "jobs": {"links", "boot", "sim", "storage", "ui", "games", "hardware", "ai", "scenes", "gym", "events"},

@@ -34,10 +34,12 @@ KINDS = (
 DEFAULT = KINDS[0]
 
 
-def robot_kind(chosen: str, board: int | None = None) -> RobotKind:
-    """The kind of a robot: as chosen in the settings; else, if that is empty or unknown, by its announced board."""
+def robot_kind(chosen: str, board: int | None = None, usual: RobotKind = DEFAULT) -> RobotKind:
+    """The kind of a robot: as chosen in the settings; else, if that is empty or unknown, by its announced board; else
+    the `usual` one of its driver.
+    """
     named = next((kind for kind in KINDS if kind.key == chosen), None)
-    return named or next((kind for kind in KINDS if board in kind.boards), DEFAULT)
+    return named or next((kind for kind in KINDS if board in kind.boards), usual)
 
 
 def robot_config(robot: int, arena: int, key: bytes) -> str:
@@ -59,6 +61,6 @@ def set_up_command(robot: int, arena: int, radio: str, kind: str = "") -> str:
     """The command that gives a robot (1 to 4) its numbers. `radio`: of the settings; `kind`: see robot_kinds."""
     if radio == "udp":
         return f"python3 main.py robots --wifi-config {robot} --out config.py"
-    if kind == "microbit":
+    if radio == "relay" or kind == "microbit":
         return f"python3 main.py robots --microbit {robot} --out robot{robot}.py"
     return f"make flash ADDRESS={robot} ARENA={arena}"

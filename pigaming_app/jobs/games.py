@@ -1,7 +1,7 @@
-"""Games from elsewhere: list them, switch them on or off.
+"""Games and drivers from elsewhere: list them, switch them on or off.
 
-A game is a package in the folder `games` of the data folder, or an installed one. It runs code of its own, so a new one
-plays only once it was switched on.
+Either is a package in the folder `games` of the data folder, or an installed one. It runs code of its own, so a new one
+is used only once it was switched on.
 """
 
 import json
@@ -47,8 +47,8 @@ def run(options: GamesOptions) -> int:
         return 0
     print(f"{', '.join(OURS)}: always there")
     for plugin in plugins:
-        left_out = plugin.fault or (is_on(plugin) and plugin.name not in playing)
-        state = f"{STATES[is_on(plugin)]}{', left out' if left_out else ''}"
+        left_out = plugin.fault or (is_on(plugin) and not plugin.drives and plugin.name not in playing)
+        state = f"{STATES[is_on(plugin)]}{', a driver' if plugin.drives else ''}{', left out' if left_out else ''}"
         print(f"{plugin.name}: {state}, in {plugin.folder}{f': {plugin.fault}' if plugin.fault else ''}")
     print(f"more: packages in {user_folder()}, or `main.py new-game NAME`")
     return 0

@@ -133,7 +133,7 @@ class Settings:
     lid_mm: Annotated[float, between(0.0, 300.0)] = 70.0  # the height of the robots' lids
     port: Short = ""  # of the radio; empty: the first one found
     baud: Annotated[int, between(1200, 921600)] = 57600
-    radio: Annotated[str, one_of("api2", "api1", "transparent", "udp", "stock")] = "api2"  # its mode
+    radio: Short = "api2"  # the name of its driver
     arena_id: Annotated[int, between(0, 16383)] = 0  # of this computer and its robots; 0: drawn on first use
     wifi_key: Annotated[str, HEX_KEY] = ""  # of this arena and its Wi-Fi robots; empty: drawn on first use
     radio_channel: Annotated[int, between(0, 26)] = 0  # of the XBees, 11 to 26; 0: follows from the arena id

@@ -34,12 +34,24 @@ MAY = {
     "control": {"radio", "tracking"},
     "tracking": {"calibration", "vision"},
     "ros": {"control", "radio", "tracking"},
+    "drivers": {"radio", "ros"},
     "commissioning": {"control", "tracking"},
     "sysid": {"calibration"},
     "scan": {"calibration", "control", "vision"},
     "emulator": {"calibration", "vision"},
-    "session": {"calibration", "control", "emulator", "radio", "ros", "scan", "tracking", "vision"},
-    "proof": {"calibration", "commissioning", "control", "emulator", "scan", "session", "tracking", "vision"},
+    "session": {"calibration", "control", "drivers", "emulator", "radio", "ros", "scan", "tracking", "vision"},
+    "proof": {
+        "calibration",
+        "commissioning",
+        "control",
+        "drivers",
+        "emulator",
+        "radio",
+        "scan",
+        "session",
+        "tracking",
+        "vision",
+    },
 }
 
 

@@ -15,10 +15,10 @@ MODULES = [api, *(importlib.import_module(f"{api.__name__}.{name}") for name in 
 
 
 FACE = {name for module in MODULES for name in module.__all__}
-HEAD = """# What a game may import
+HEAD = """# What a plug-in may import
 
-`pigaming_app.api` is version {version} of the face towards games from elsewhere: {names} names. A package names
-the version that it was written for, `API = 1` in its `__init__.py`; another one is refused in one line.
+`pigaming_app.api` is version {version} of the face towards games and drivers from elsewhere: {names} names.
+A package names the version that it was written for, `API = 1` in its `__init__.py`; another one is refused in one line.
 [add-a-game.md](add-a-game.md) shows how they play together.
 
 `.venv/bin/python -m tests.pages.api --write` writes this page.

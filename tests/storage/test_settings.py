@@ -43,7 +43,7 @@ def test_saved_settings_are_loaded_again(tmp_path):
         ("real = 3", "real = 3: expected a list, got a whole number; [] is used"),
         ("radios = [1, 2]", "radios = [1, 2]: expected a list of length >= 4; [1, 2, 3, 4] is used"),
         ("baud = 7", "baud = 7: expected a whole number >= 1200; 57600 is used"),
-        ('radio = "morse"', "radio = 'morse': expected one of api2, api1, transparent, udp, stock; 'api2' is used"),
+        ("radio = 2", "radio = 2: expected a text, got a whole number; 'api2' is used"),
         ("mat = 1", "mat = 1: expected true or false, got a whole number; False is used"),
         ("quiet_from = 900", "quiet_from = 900: expected a text, got a whole number; '00:00' is used"),
         *(

@@ -17,7 +17,7 @@ from pigaming_app.hardware.control.motion_check import RobotMotionCheck
 from pigaming_app.hardware.control.safety import Health
 from pigaming_app.hardware.radio.link import CommandLink
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED
-from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
+from pigaming_app.hardware.robot_kinds import DEFAULT, RobotKind, robot_kind
 from pigaming_app.hardware.run_writer import Recorder
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, Clock, Image, Telemetry, WheelCommand
 from pigaming_app.hardware.tracking.motion_delay import DriveTrace, network_delay
@@ -55,7 +55,7 @@ class Rig:
     """Robot i wears marker i; `channels[i]` is the index of its radio in the packets of the link (see pairing).
 
     `mm`: mm of the mat per arena px; None: a 3pi has the radius of a simulated robot. `kinds[i]` is the key of the kind
-    of the robot on radio i; empty: as its board announces.
+    of the robot on radio i; empty: as its board announces, else the `usual` one.
     """
 
     def __init__(
@@ -68,8 +68,9 @@ class Rig:
         drift: Callable[[], float] = lambda: 0.0,
         mm: float | None = None,
         kinds: Sequence[str] = ("",) * ROBOTS,
+        usual: RobotKind = DEFAULT,
     ) -> None:
-        self._mm, self._kinds = mm, kinds
+        self._mm, self._kinds, self._usual = mm, kinds, usual
         self.camera, self.tracker, self.link, self.clock = camera, tracker, link, clock
         self.kinematics = [Kinematics(drivetrain) for drivetrain in drivetrains]
         self.motion_checks = [RobotMotionCheck(drivetrain) for drivetrain in drivetrains]
@@ -153,7 +154,7 @@ class Rig:
     def kind(self, robot: int) -> RobotKind:
         """The kind of a robot."""
         channel = self.channels[robot]
-        return robot_kind(self._kinds[channel], self.link.boards.get(channel))
+        return robot_kind(self._kinds[channel], self.link.boards.get(channel), self._usual)
 
     def margin(self, robot: int) -> float:
         """Length by which the body of a robot is wider than a simulated one to each side, px; 0 if it is not."""

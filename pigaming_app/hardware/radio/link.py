@@ -9,13 +9,16 @@ calls `pump()`, in real or simulated time.
 import atexit
 import threading
 from collections.abc import Sequence
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from pigaming_app.hardware.radio.packets import ROBOTS
 from pigaming_app.hardware.radio.protocol import LinkQuality, Misfit, RadioProtocol
 from pigaming_app.hardware.radio.serial_line import OpenPort, SerialLine, radio_message
 from pigaming_app.hardware.signals import Clock, Telemetry, WheelCommand
 from pigaming_app.storage.messages import OperatorMessage
+
+if TYPE_CHECKING:
+    from pigaming_app.hardware.radio.wifi import WifiNetwork
 
 BEAT = 0.02  # s between two transmissions
 PATIENCE = 0.1  # s without a new command after which the link sends stop
@@ -28,6 +31,7 @@ NOBODY: tuple[WheelCommand | None, ...] = (None,) * ROBOTS
 class CommandLink:
     """A link to robots: a mailbox that a thread empties until `close`, and what has come back."""
 
+    network: "WifiNetwork | None" = None  # of robots that have to be found first
     wait = 0.0  # s, recent mean from posting a command to its transmission
 
     def __init__(self, clock: Clock) -> None:

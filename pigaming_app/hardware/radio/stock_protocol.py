@@ -9,7 +9,6 @@ from collections.abc import Mapping, Sequence
 
 from pigaming_app.hardware.radio.protocol import LinkQuality, Misfit
 from pigaming_app.hardware.signals import Telemetry, WheelCommand
-from pigaming_app.storage.messages import OperatorMessage
 
 BAUD = 115200
 SIGNATURE, BATTERY = 0x81, 0xB1  # commands; the signature query also stops the motors
@@ -17,7 +16,6 @@ FORWARD, BACK = (0xC1, 0xC5), (0xC2, 0xC6)  # commands of the left motor (M1) an
 FULL = 127  # means speed 255 of 255; any other n means 2n
 ASK_EVERY = 0.2  # s between two battery queries
 PATIENCE = 0.5  # timeout of a reply, s
-NO_DEADMAN = OperatorMessage("radio_stock")
 NAME = b"3pi"  # prefix of the signature, e.g. 3pi1.1
 NAME_LENGTH, BATTERY_LENGTH = 6, 2  # bytes of the replies
 

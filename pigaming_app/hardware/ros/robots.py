@@ -99,9 +99,9 @@ class RosPoses(PoseFilters):
 class RosLink(CommandLink):
     """Commands to topics, published at once."""
 
-    def __init__(self, node: RosNode, poses: RosPoses, drivetrains: Sequence[Drivetrain]) -> None:
+    def __init__(self, poses: RosPoses) -> None:
         super().__init__(poses.clock)
-        self.node, self.poses, self.drivetrains = node, poses, drivetrains
+        self.node, self.poses, self.drivetrains = poses.node, poses, [one.drivetrain for one in poses.filters]
         self._driven: set[int] = set()  # robots that were commanded; the others belong to somebody else
 
     @property

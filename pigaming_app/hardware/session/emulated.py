@@ -1,6 +1,7 @@
 """The robot session of the emulator: a calibrated emulated arena, in real time for play, in simulated time for jobs."""
 
 from collections.abc import Callable
+from functools import partial
 from math import inf
 from typing import Any
 
@@ -11,6 +12,9 @@ from pigaming_app.hardware.calibration.ground_plane import CalibrationError, Gro
 from pigaming_app.hardware.calibration.procedure import Calibration
 from pigaming_app.hardware.calibration.solver import with_verification
 from pigaming_app.hardware.control.rig import UNMEASURED, Rig
+from pigaming_app.hardware.drivers.driver import LinkSite
+from pigaming_app.hardware.drivers.ours import UDP
+from pigaming_app.hardware.drivers.registry import DRIVERS
 from pigaming_app.hardware.emulator.arena import SHOWS_AFTER, STARTS, EmulatedArena
 from pigaming_app.hardware.emulator.camera import FrameTiming
 from pigaming_app.hardware.emulator.radio import MODERATE, RadioChannel
@@ -22,9 +26,7 @@ from pigaming_app.hardware.emulator.wifi.air import LOOPBACK, WifiChannel
 from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython
 from pigaming_app.hardware.emulator.wifi.radio import WifiRadio
 from pigaming_app.hardware.emulator.xbee import EmulatedCarrier
-from pigaming_app.hardware.radio.link import Link
-from pigaming_app.hardware.radio.wifi import WifiNetwork, WifiProtocol
-from pigaming_app.hardware.radio.xbee_protocol import XBeeProtocol
+from pigaming_app.hardware.radio.wifi import WifiNetwork
 from pigaming_app.hardware.radio.xbee_setup import Carrier
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.lighting import Lighting
@@ -128,11 +130,9 @@ class EmulatedSession(RobotSession):
             if self._things and not arena.things:
                 arena.furnish(self._things)
             self._now, self.mm, self.quality = arena.clock(), ground.mm, ground.quality
-            link = (
-                self._wifi_link(self._wifi)
-                if self._wifi
-                else Link(arena.radio.open, arena.clock, XBeeProtocol(arena.arena_id), "EMU0")
-            )
+            name, network = (UDP, partial(self._wifi_network, self._wifi)) if self._wifi else ("api2", None)
+            site = LinkSite(arena.arena_id, arena.clock, "EMU0", open_port=lambda _: arena.radio.open, network=network)
+            link = DRIVERS[name].open(site)
             camera = EmulatedCalibrationSite(self.seed, self.live, arena).open(0, kept=ground.quality.kept)
             self._rig = new_rig(camera, link, ground, arena.clock, [UNMEASURED] * ROBOTS, self._tracker)
             if self._time is not None:
@@ -225,8 +225,8 @@ class EmulatedSession(RobotSession):
         arena.project(np.zeros(DARK, np.uint8))  # until the window renders
         return arena
 
-    def _wifi_link(self, channel: WifiChannel) -> Link:
-        """A link to boards of their own. Raises RobotsUnavailable."""
+    def _wifi_network(self, channel: WifiChannel) -> WifiNetwork:
+        """The network of boards of their own. Raises RobotsUnavailable."""
         if self.network is None:
             network = WifiNetwork(self.arena.arena_id, EMULATED_KEY, self.arena.clock, 0, LOOPBACK).open()
             try:
@@ -234,7 +234,7 @@ class EmulatedSession(RobotSession):
             except NoMicroPython as error:
                 raise RobotsUnavailable(OperatorMessage("micropython", detail=error)) from error
             self.network = network
-        return Link(self.network.open, self.arena.clock, WifiProtocol(self.network), "Wi-Fi")
+        return self.network
 
     def _render(self, rig: Rig) -> None:
         """Render complete pictures while somebody looks at more than the robots."""

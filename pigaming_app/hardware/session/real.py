@@ -5,9 +5,11 @@ A missing or broken camera or radio may be plugged in later: both report their f
 
 import time
 from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING
 
-from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, new_rig
+from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, driver_of, new_rig
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.storage.settings import Settings
 
@@ -15,11 +17,12 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.ground_plane import GroundPlane
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
-    from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.radio.link import CommandLink
+    from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
+    from pigaming_app.hardware.robot_kinds import RobotKind
     from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureState
 
-STOCK, UDP = "stock", "udp"  # radio settings: a robot with factory firmware on a cable; Wi-Fi robots
 NO_PORT = "no serial port"
 
 
@@ -27,7 +30,7 @@ class RealSession(RobotSession):
     """The robots of these settings. `projection` is `Canvas.projection`; None accepts a calibration of any display."""
 
     ground: "GroundPlane | None" = None
-    _link: "Link | None" = None
+    _link: "CommandLink | None" = None
 
     def __init__(self, settings: Settings, projection: Callable[[], str | None] = lambda: None) -> None:
         self.settings, self.projection = settings, projection
@@ -43,6 +46,12 @@ class RealSession(RobotSession):
         return store.arena_id(self.settings)
 
     @property
+    def usual(self) -> "RobotKind":
+        with suppress(RobotsUnavailable):
+            return driver_of(self.settings).kind
+        return super().usual
+
+    @property
     def site(self) -> "CalibrationSite":
         from pigaming_app.hardware.calibration.site import RealCalibrationSite
 
@@ -56,12 +65,12 @@ class RealSession(RobotSession):
 
             try:
                 ground = store.load(store.calibration_file("real"), self.projection())
-                drivetrains = store.load_robots(store.robots_file(emulated=False))
+                dead_time = driver_of(self.settings).dead_time
+                drivetrains = store.load_robots(store.robots_file(emulated=False), dead_time)
                 camera = SizedCamera(Camera(self.settings.camera, kept=ground.quality.kept), ground)
                 try:
-                    rig = new_rig(
-                        camera, self._new_link(), ground, time.monotonic, drivetrains, kinds=self.settings.kinds
-                    )
+                    link, kinds = self._new_link(), self.settings.kinds
+                    rig = new_rig(camera, link, ground, time.monotonic, drivetrains, kinds=kinds, usual=self.usual)
                 except BaseException:
                     camera.close()
                     raise
@@ -75,7 +84,7 @@ class RealSession(RobotSession):
             self.mm, self.quality, self.ground, self._rig = ground.mm, ground.quality, ground, rig.start()
         return self._rig
 
-    def open_link(self) -> "Link | None":
+    def open_link(self) -> "CommandLink | None":
         if self._link is None:
             self._link = self._new_link().start()
         return self._link
@@ -99,24 +108,26 @@ class RealSession(RobotSession):
 
         return self.settings.port or next((port.device for port in ports()), NO_PORT)
 
-    def _new_link(self) -> "Link":
-        """The link of the settings, not started. A port that does not open is reported as its `fault`."""
-        from pigaming_app.hardware.radio.link import Link
+    def _new_link(self) -> "CommandLink":
+        """The link of the settings, not started. A port that does not open is reported as its `fault`.
+
+        Raises RobotsUnavailable.
+        """
+        from pigaming_app.hardware.drivers.driver import LinkSite
         from pigaming_app.hardware.radio.serial_line import serial_port
-        from pigaming_app.hardware.radio.stock_protocol import BAUD, StockProtocol
-        from pigaming_app.hardware.radio.wifi import WifiNetwork, WifiProtocol
-        from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
+
+        driver, chosen = driver_of(self.settings), self.settings
+        name = self._port_name() if driver.serial else ""
+        site = LinkSite(self.arena_id, time.monotonic, name, chosen.baud, partial(serial_port, name), self._wifi)
+        link = driver.open(site)
+        self.network = link.network
+        return link
+
+    def _wifi(self) -> "WifiNetwork":
+        from pigaming_app.hardware.radio.wifi import WifiNetwork
         from pigaming_app.hardware.session.store import wifi_key
 
-        chosen = self.settings
-        if chosen.radio == UDP:
-            self.network = WifiNetwork(self.arena_id, wifi_key(chosen), time.monotonic)
-            return Link(self.network.open, time.monotonic, WifiProtocol(self.network), f"UDP port {self.network.bound}")
-        name = self._port_name()
-        if chosen.radio == STOCK:
-            return Link(serial_port(name, BAUD), time.monotonic, StockProtocol(0), name)
-        protocol = XBeeProtocol(self.arena_id, XBeeMode(chosen.radio))
-        return Link(serial_port(name, chosen.baud), time.monotonic, protocol, name)
+        return WifiNetwork(self.arena_id, wifi_key(self.settings), time.monotonic)
 
 
 class SizedCamera:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from pigaming_app.hardware.control.safety import REMOTE
+from pigaming_app.hardware.robot_kinds import DEFAULT
 from pigaming_app.sim.world import DT, ROBOTS
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
@@ -17,9 +18,11 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.quality import CameraQuality
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
-    from pigaming_app.hardware.radio.link import Link
+    from pigaming_app.hardware.drivers.driver import Driver
+    from pigaming_app.hardware.radio.link import CommandLink
     from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
+    from pigaming_app.hardware.robot_kinds import RobotKind
     from pigaming_app.hardware.scan.expected import ExpectedLight
     from pigaming_app.hardware.signals import CameraSource, Clock
     from pigaming_app.hardware.tracking.tracker import Tracker
@@ -51,6 +54,11 @@ class RobotSession:
         return (self._rig.camera.fault or self._rig.link.fault) if self._rig else None
 
     @property
+    def usual(self) -> "RobotKind":
+        """The kind of a robot that neither the settings nor its announcement name."""
+        return DEFAULT
+
+    @property
     def site(self) -> "CalibrationSite":
         """Interface to this mat for calibration. Raises RobotsUnavailable."""
         raise NotImplementedError
@@ -74,7 +82,7 @@ class RobotSession:
         """Start camera, tracker and radio, or return the running rig. Raises RobotsUnavailable."""
         raise NotImplementedError
 
-    def open_link(self) -> "Link | None":
+    def open_link(self) -> "CommandLink | None":
         """The radio alone, for use when `open` raises; None if there is none either."""
         return None
 
@@ -110,30 +118,39 @@ class RobotSession:
 
 def new_rig(
     camera: "CameraSource",
-    link: "Link",
+    link: "CommandLink",
     ground: "GroundPlane",
     clock: "Clock",
     drivetrains: "Sequence[Drivetrain]",
     tracker: "type[Tracker] | None" = None,
     kinds: "Sequence[str]" = ("",) * ROBOTS,
+    usual: "RobotKind | None" = None,
 ) -> "Rig":
-    """A rig whose tracker also measures camera drift. `kinds`: see Rig. Raises OpenCVMissing."""
+    """A rig whose tracker also measures camera drift. `kinds`, `usual`: see Rig. Raises OpenCVMissing."""
     from pigaming_app.hardware.calibration.drift import DriftMonitor
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.tracking.tracker import Tracker
 
     drift = DriftMonitor(ground)
     follower = (tracker or Tracker)(ground, clock, drivetrains, drift)
-    return Rig(camera, follower, link, clock, drivetrains, lambda: drift.mm, ground.mm, kinds)
+    return Rig(camera, follower, link, clock, drivetrains, lambda: drift.mm, ground.mm, kinds, usual or DEFAULT)
+
+
+def driver_of(settings: "Settings") -> "Driver":
+    """The driver of the settings. Raises RobotsUnavailable if its plug-in is gone."""
+    from pigaming_app.hardware.drivers.registry import DRIVERS
+
+    if settings.radio not in DRIVERS:
+        raise RobotsUnavailable(OperatorMessage("driver_gone", name=settings.radio))
+    return DRIVERS[settings.radio]
 
 
 def settings_problem(settings: "Settings") -> OperatorMessage | None:
-    """Operator message if these settings forbid matches (factory firmware has no deadman), else None."""
-    if settings.radio != "stock":
-        return None
-    from pigaming_app.hardware.radio.stock_protocol import NO_DEADMAN
-
-    return NO_DEADMAN
+    """Operator message if these settings forbid matches (robots that do not stop by themselves), else None."""
+    try:
+        return driver_of(settings).problem
+    except RobotsUnavailable as error:
+        return error.message
 
 
 def camera_warning(session: RobotSession, rig: "Rig") -> OperatorMessage | None:

@@ -48,8 +48,10 @@ class RosSession(RobotSession):
         if self._rig is None:
             from pigaming_app.hardware.control.kinematics import Kinematics
             from pigaming_app.hardware.control.rig import UNMEASURED, Rig
+            from pigaming_app.hardware.drivers.driver import LinkSite
+            from pigaming_app.hardware.drivers.ours import ROS
             from pigaming_app.hardware.ros.node import STATE, ArenaFrame, RosNode, RosUnavailable, topic_of
-            from pigaming_app.hardware.ros.robots import RosLink, RosPoses
+            from pigaming_app.hardware.ros.robots import RosPoses
 
             try:
                 self._node = RosNode("pigaming", [*(topic_of(robot, "cmd_vel") for robot in range(ROBOTS)), STATE])
@@ -59,7 +61,8 @@ class RosSession(RobotSession):
             self._node.on_joystick(self._take_stick)
             self._node.on_keys(self._take_keys)
             poses = RosPoses(self._node, frame, time.monotonic, drivetrains)
-            rig = Rig(poses, poses, RosLink(self._node, poses, drivetrains), time.monotonic, drivetrains)
+            link = ROS.open(LinkSite(0, time.monotonic, poses=poses))
+            rig = Rig(poses, poses, link, time.monotonic, drivetrains)
             rig.kinematics = [Kinematics(drivetrain, levels=None) for drivetrain in drivetrains]
             rig.remote = True
             self.mm, self._rig = frame.mm, rig.start()

@@ -3,11 +3,15 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from pigaming_app.hardware.session.real import UDP, RealSession
+from pigaming_app.hardware.drivers.driver import Driver
+from pigaming_app.hardware.drivers.ours import UDP
+from pigaming_app.hardware.drivers.registry import DRIVERS
+from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.hardware.session.robot_session import settings_problem as settings_problem
 from pigaming_app.jobs.terminal.options import RigOptions
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
+from pigaming_app.storage.parsing import quote
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import english
 
@@ -56,6 +60,13 @@ def robots_of(options: RigOptions, radio: str | None = None) -> Iterator[RobotSe
         yield session
     finally:
         session.end()
+
+
+def require_driver(name: str, asked: str = "--radio") -> Driver:
+    """The driver of a name. Raises Refusal. `asked`: what it was given to."""
+    if name not in DRIVERS:
+        raise Refusal(f"{asked}: no driver {quote(name)}; there are {', '.join(DRIVERS)}")
+    return DRIVERS[name]
 
 
 def require_deadman(options: RigOptions) -> None:

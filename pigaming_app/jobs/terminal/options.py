@@ -266,6 +266,10 @@ class RigOptions(EmulateOption):
             raise Refusal("--things: real things are yours to put down; for emulated ones add --emulate")
         given = {name: getattr(self, name, None) for name in ("camera", "port", "baud", "radio")}
         given = {name: value for name, value in given.items() if value is not None}
+        if "radio" in given:
+            from pigaming_app.jobs.terminal.refusal import module_of
+
+            module_of("mat.sessions", "mat").require_driver(given["radio"])
         for name, value in given.items():
             try:
                 Settings().choose(name, value)
@@ -278,7 +282,10 @@ class RigOptions(EmulateOption):
 class RadioOptions(RigOptions):
     """Camera, port and radio of the robots."""
 
-    radio: str | None = option("api2, api1, transparent, udp (Wi-Fi), or stock (a robot on a cable)", metavar="MODE")
+    radio: str | None = option(
+        "api2, api1, transparent, relay (micro:bit), udp (Wi-Fi), stock (a robot on a cable), or a plug-in's driver",
+        metavar="DRIVER",
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

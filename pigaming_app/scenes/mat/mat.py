@@ -11,7 +11,8 @@ import pygame
 from pigaming_app.games.arenas import load, with_things
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
-from pigaming_app.hardware.session.real import UDP, RealSession
+from pigaming_app.hardware.drivers.ours import UDP
+from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, settings_problem
 from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.flow.context import Context

@@ -7,8 +7,9 @@ A plug-in is a package whose parts are modules of fixed names; each is optional 
     network     ENCODING: Encoding, SUBJECT       inputs and outputs of networks, and how the overlay shows them
     training    TASK: Task, TALLIES: Tallies      training by PPO and by learning libraries
     screens     SCREENS: GameScreens              views, tile, lessons
+    driver      DRIVER: Driver                    robots that the arcade drives
 
-and folders `arenas`, `text` (LANGUAGE.toml), `sounds`, `brains`.
+and folders `arenas`, `text` (LANGUAGE.toml), `sounds`, `brains`. A driver may come alone: its `__init__` has no GAME.
 """
 
 import ast
@@ -25,16 +26,16 @@ from pigaming_app.storage.plugins import user
 from pigaming_app.storage.settings import NoHome, folders
 
 API = 1  # the version of `pigaming_app.api`: names and their meanings. A plug-in names the one it was written for
-GROUP = "pigaming.games"  # of entry points, named after the games
+GROUPS = ("pigaming.games", "pigaming.drivers")  # of entry points, named after the games or drivers
 DISTRIBUTION = "pigaming-app"  # of this program
 PREFIX = "pigaming_"  # of packages beside this one, in a clone
-NAME = re.compile(r"[a-z][a-z0-9_]{0,23}")  # of a game
+NAME = re.compile(r"[a-z][a-z0-9_]{0,23}")  # of a game or a driver
 
 
 @dataclass(frozen=True)
 class Plugin:
-    """A package with a game. `name`: of the game; `own`: it belongs to this program; `fault`: why it cannot be loaded;
-    `origin`: the distribution that it was installed with.
+    """A package with a game, or with a driver alone (`drives`). `name`: of either; `own`: it belongs to this program;
+    `fault`: why it cannot be loaded; `origin`: the distribution that it was installed with.
     """
 
     name: str
@@ -43,6 +44,7 @@ class Plugin:
     own: bool = False
     fault: str = ""
     origin: str = ""
+    drives: bool = False
 
     @property
     def key(self) -> str:
@@ -56,7 +58,8 @@ def found() -> tuple[Plugin, ...]:
     for plugin in (*_beside(), *_of_user(), *_installed()):
         first = next((other for other in every if other.name == plugin.name), None)
         if first is None:
-            every.append(replace(plugin, fault=plugin.fault or _api_fault(plugin.folder)))
+            fault = plugin.fault or _api_fault(plugin.folder)
+            every.append(replace(plugin, fault=fault, drives=_is_driver(plugin.folder)))
         elif first.module != plugin.module:
             every.append(replace(plugin, fault=f"there is one in {first.folder} already"))
     return tuple(every)
@@ -103,7 +106,8 @@ def _packages(place: Path) -> list[tuple[Path, str]]:
 
 
 def _installed() -> Iterator[Plugin]:
-    for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
+    every = [entry for group in GROUPS for entry in entry_points(group=group)]
+    for entry in sorted(every, key=lambda entry: entry.name):
         if NAME.fullmatch(entry.name) and entry.dist is not None:
             folder = _folder_of(entry)
             fault = "" if folder else f"{entry.module} is no package"
@@ -124,6 +128,14 @@ def _folder_of(entry: EntryPoint) -> Path | None:
         if (folder / "__init__.py").is_file():
             return folder
     return None
+
+
+def _is_driver(folder: Path) -> bool:
+    """Whether a package has a driver and no game. Read without running any of its code."""
+    try:
+        return (folder / "driver.py").is_file() and b"GAME" not in (folder / "__init__.py").read_bytes()
+    except OSError:
+        return False
 
 
 def _api_fault(folder: Path) -> str:

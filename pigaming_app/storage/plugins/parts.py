@@ -25,8 +25,16 @@ from pigaming_app.storage.plugins.time_limit import TookTooLong, time_limit
 from pigaming_app.storage.safe_mode import is_safe
 
 T = TypeVar("T")
-RULES, SCREENS, EDITOR = "", "screens", "editor"  # parts; the rules are in `__init__`
-ABOVE = ("ai", "network", "training", "exploits", SCREENS, EDITOR)  # parts that do not determine how a match plays out
+RULES, SCREENS, EDITOR, DRIVER = "", "screens", "editor", "driver"  # parts; the rules are in `__init__`
+ABOVE = (
+    "ai",
+    "network",
+    "training",
+    "exploits",
+    SCREENS,
+    EDITOR,
+    DRIVER,
+)  # parts that do not determine how a match plays out
 
 LOADING = 20.0  # s, for one part
 
@@ -84,6 +92,8 @@ def parts(part: str, attribute: str, kind: type[T], fits: Callable[[str, T], str
     """
     found, before = dict[str, T](), {*_failed}
     for plugin in plugins():
+        if plugin.drives and part not in (DRIVER, RULES):
+            continue
         if plugin not in _failed and (value := _loaded(plugin, part, attribute)) is not None:
             if not isinstance(value, kind):
                 _leave_out(plugin, f"{attribute} is no {kind.__name__}")
@@ -102,8 +112,15 @@ class Registry(Mapping[str, T]):
     Plug-ins are loaded at the first look, since they import rooms that may themselves import the registry.
     """
 
-    def __init__(self, ours: Mapping[str, T], part: str, attribute: str, kind: type[T]) -> None:
-        self._ours, self._source = ours, (part, attribute, kind)
+    def __init__(
+        self,
+        ours: Mapping[str, T],
+        part: str,
+        attribute: str,
+        kind: type[T],
+        fits: Callable[[str, T], str] | None = None,
+    ) -> None:
+        self._ours, self._source = ours, (part, attribute, kind, fits)
 
     @cached_property
     def _all(self) -> dict[str, T]:
@@ -197,7 +214,7 @@ def _loaded(plugin: Plugin, part: str, attribute: str) -> object:
             raise
         _leave_out(plugin, f"{_place(plugin, error)}{_named(error)}")
         return None
-    if not hasattr(module, attribute) and part == RULES:
+    if not hasattr(module, attribute) and part == RULES and not plugin.drives:
         _leave_out(plugin, f"{Path(module.__file__ or name).name}: {attribute} is missing")
     return getattr(module, attribute, None)
 
@@ -208,7 +225,8 @@ def _prints_aside() -> AbstractContextManager[object]:
 
 
 def _leave_out(plugin: Plugin, reason: str) -> None:
-    sentence = one_line(f"The game {plugin.name} in {plugin.folder} is left out: {reason.rstrip('.')}.")
+    kind = "driver" if plugin.drives else "game"
+    sentence = one_line(f"The {kind} {plugin.name} in {plugin.folder} is left out: {reason.rstrip('.')}.")
     _failed[plugin] = sentence
     print(f"PiGaming: {sentence}", file=sys.stderr)
 

@@ -3,11 +3,10 @@
 Skipped without Node.js and npm.
 """
 
-import socket
-
 import pytest
 
-from pigaming_app.hardware.emulator.wifi.boards import Boards, MicrobitConfig
+from pigaming_app.hardware.emulator.wifi.boards import MicrobitConfig
+from pigaming_app.hardware.emulator.wifi.relay import MicrobitAir
 from pigaming_app.hardware.radio.link import Link
 from pigaming_app.hardware.radio.packets import PARKED, RESTARTED, drive_packet
 from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
@@ -21,45 +20,17 @@ SHARES = [(1.0, -32 / 63), (-1.0, 32 / 63)]
 STEP = 0.002  # s
 
 
-class Air:
-    """Relay (board 0), robots 1 and 2, the radio between them, and the relay's USB line, a SerialPort."""
+class Air(MicrobitAir):
+    """Two robots."""
 
     def __init__(self, robot):
-        self.boards = Boards([MicrobitConfig(0, ARENA), robot(1, ARENA), robot(2, ARENA)], paced=True)
-        self.sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(3)]
-        for end in self.sockets:
-            end.bind(("127.0.0.1", 0))
-            end.setblocking(False)
-        self.now, self.sent, self.reports = 0.0, [0, 0, 0], b""
-        self.deaf = False  # True: nothing gets through the air
-        self.aired = []  # messages of the relay
+        super().__init__(2, ARENA, kind=robot)
 
     def run(self, seconds, link=None):
         for _ in range(round(seconds / STEP)):
-            self.now += STEP
             if link:
                 link.pump()
-            self.boards.advance(self.now, self.sent)
-            for board, end in enumerate(self.sockets):
-                self._carry(board, end)
-
-    def _carry(self, board, end):
-        try:
-            while True:
-                line, data = end.recv(512).split(b":", 1)
-                if line == b"usb":
-                    self.reports += data
-                    continue
-                if board == 0:
-                    self.aired.append(data)
-                for other in {0, 1, 2} - {board} if not self.deaf else ():
-                    self.put(other, data)
-        except BlockingIOError:
-            pass
-
-    def put(self, board, data, line=b"radio"):
-        self.sockets[board].sendto(line + b":" + data, ("127.0.0.1", self.boards.ports[board]))
-        self.sent[board] += 1
+            self.advance(STEP)
 
     def moves(self, packet):
         """True if a message by radio sets robot 1 in motion; it stands again after."""
@@ -69,22 +40,6 @@ class Air:
         moving = any(self.boards.motors(1))
         self.run(0.22)
         return moving
-
-    # ---- SerialPort
-
-    @property
-    def in_waiting(self):
-        return len(self.reports)
-
-    def read(self, size=1):
-        data, self.reports = self.reports[:size], self.reports[size:]
-        return data
-
-    def write(self, data):
-        self.put(0, data, b"usb")
-
-    def close(self):
-        pass
 
 
 class WithDivider(MicrobitConfig):
@@ -99,15 +54,13 @@ class WithDivider(MicrobitConfig):
 def air(request):
     air = Air(getattr(request, "param", MicrobitConfig))
     yield air
-    air.boards.close()
-    for end in air.sockets:
-        end.close()
+    air.end()
 
 
 @pytest.fixture
 def link(air):
     air.run(0.1)
-    return Link(lambda: air, lambda: air.now, XBeeProtocol(ARENA, XBeeMode.TRANSPARENT))
+    return Link(air.open, air.clock, XBeeProtocol(ARENA, XBeeMode.TRANSPARENT))
 
 
 def drive(air, link, seconds):
@@ -126,12 +79,12 @@ def test_the_arcade_drives_robots_through_the_relay_and_the_deadman_stops_them(a
         assert link.telemetry[robot].battery == 0.0, "no divider"
         assert link.quality(robot).echo <= 0.05
     assert link.fault is None
-    air.deaf, began = True, air.now
+    air.dead, began = True, air.now
     drive(air, link, 0.4)
     for robot in (0, 1):
         assert air.boards.motors(robot + 1) == (0.0, 0.0)
         assert air.boards.powered_until[robot + 1] - began <= 0.25
-    air.deaf = False
+    air.dead = False
     drive(air, link, 0.1)
     assert any(air.boards.motors(1))
     began = air.now

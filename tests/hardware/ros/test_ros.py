@@ -183,7 +183,7 @@ def joined(clock):
     """A network that only remembers, and the poses and the link of the robots in it."""
     node: Any = Node()
     poses = RosPoses(node, ArenaFrame.of_width(2112.0), clock, TRAINS)
-    return node, poses, RosLink(node, poses, TRAINS)
+    return node, poses, RosLink(poses)
 
 
 def remote_plant(robots):

@@ -1,4 +1,7 @@
-"""Status of robots, radios and cameras; on request pairing (each robot spins in turn), latency, set-up of radios."""
+"""Status of robots, radios and cameras; on request pairing (each robot spins in turn), latency, set-up of radios.
+
+`robots check DRIVER` tries every promise of a driver on its emulated robots.
+"""
 
 import json
 import time
@@ -8,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
 from pigaming_app.hardware.robot_kinds import set_up_command
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, camera_warning
-from pigaming_app.jobs.mat.robots import radio_setup, wifi_setup
+from pigaming_app.jobs.mat.robots import conformance, radio_setup, wifi_setup
 from pigaming_app.jobs.mat.sessions import robots_of
-from pigaming_app.jobs.terminal.options import flag
+from pigaming_app.jobs.terminal.options import argument, flag
 from pigaming_app.jobs.terminal.refusal import Refusal, require, sentence
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings, folders
@@ -55,12 +58,17 @@ STATUS = {
 class RobotsOptions(wifi_setup.WifiSetupOptions, radio_setup.RadioSetupOptions):
     """What to do with the robots."""
 
+    check: tuple[str, ...] = argument(
+        "the promises of a driver, such as udp, tried on emulated robots", default=(), nargs="*", metavar="check DRIVER"
+    )
     pair: bool = flag("spin each robot in turn to find its marker")
     latency: bool = flag("wiggle each robot to measure the end-to-end latency")
 
 
 def run(options: RobotsOptions) -> int:
     """Print the status. Raises Refusal."""
+    if options.check:
+        return conformance.check(options, options.check)
     options.mat_settings()
     settings = radio_setup.save_arena(options)
     if wifi_setup.supply_file(options, settings):

@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import pygame
 
+from pigaming_app.hardware.drivers.ours import OURS
+from pigaming_app.hardware.drivers.registry import DRIVERS
 from pigaming_app.hardware.radio.serial_line import ports
 from pigaming_app.hardware.session.robot_session import camera_warning
 from pigaming_app.hardware.vision.discovery import cameras
@@ -27,7 +29,6 @@ from pigaming_app.ui.widgets.labels import blit_sprite, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
-RADIOS = ("api2", "api1", "transparent", "udp", "stock")
 ACTIONS = ("pair", "latency")
 ROWS = ("mat", "camera", "port", "baud", "radio", *ACTIONS)
 REMEDIES = {"foreign": "elsewhere", "key": "copy"}  # text of the remedy by the reason of a misfit; else "flash"
@@ -234,7 +235,8 @@ class FleetPage(SettingsPage):
     def _choices(self, name: str) -> tuple[dict[object, str], object]:
         """Options of a row, by stored value, and the current value."""
         words, settings = self.context.words, self.context.settings
-        if settings.radio == "udp" and name in ("port", "baud"):
+        driver = DRIVERS.get(settings.radio)
+        if driver is not None and not driver.serial and name in ("port", "baud"):
             return {getattr(settings, name): words("fleet.no_line")}, getattr(settings, name)
         if name == "camera":
             known: dict[object, str] = {camera.number: f"{camera.number}: {camera.name}" for camera in cameras()}
@@ -245,7 +247,10 @@ class FleetPage(SettingsPage):
             return {"": first, settings.port or "": settings.port or first, **there}, settings.port
         if name == "baud":
             return {baud: str(baud) for baud in sorted({*BAUDS, settings.baud})}, settings.baud
-        return {radio: words(f"fleet.{radio}") for radio in RADIOS}, settings.radio
+        offered: dict[object, str] = {} if settings.radio in DRIVERS else {settings.radio: settings.radio}
+        for own, one in DRIVERS.items():
+            offered[own] = words(f"fleet.{own}") if own in OURS else one.title or own
+        return offered, settings.radio
 
     def apply(self, name: str, chosen: int) -> None:
         """Change a setting; all devices are opened again soon."""

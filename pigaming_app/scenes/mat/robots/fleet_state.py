@@ -145,7 +145,8 @@ class FleetState:
         """Status of a robot."""
         report = self.link.telemetry.get(robot) if self.heard(robot) else None
         share = self.link.quality(robot).share if report else 0.0
-        kind = robot_kind(self.settings.kinds[robot], self.link.boards.get(robot) if self.link is not None else None)
+        board = self.link.boards.get(robot) if self.link is not None else None
+        kind = robot_kind(self.settings.kinds[robot], board, self.session.usual)
         misfit = self.link.misfit(robot) if self.link is not None else None
         battery, latency = report.battery if report else None, self.latencies.get(robot)
         flags = report.flags if report else 0

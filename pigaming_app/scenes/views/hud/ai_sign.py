@@ -12,7 +12,7 @@ TAB = 34  # px, type size on a card's outline
 
 def driver_tab(ink: GlowCanvas, brain: str, name: str, x: float, y: float, room: float, color: Color) -> None:
     """Who drives, on the upper line of a card, which it interrupts, within `room` px from x: the sign of an AI, and the
-    name of an entrant, or else the level of the AI. Nothing without either. A name that is too long gets the sign's room.
+    name of an entrant, or else the level of the AI. Nothing without either. A long name takes the room of the sign.
     """
     if name and text_width(name, TAB, "hero") > room - 50:
         brain = ""

@@ -292,7 +292,7 @@ def test_its_cost_is_measured_over_all_of_its_pages(home: Path, monkeypatch: pyt
         return spent
 
     monkeypatch.setattr(second_screen, "frame", frame)
-    for name, value in (("WARM", 60), ("BLOCK", 40), ("BLOCKS", 6)):
+    for name, value in (("FPS", 10), ("WARM", 60), ("BLOCK", 40), ("BLOCKS", 6)):  # FPS: a slow machine paints in time
         monkeypatch.setattr(second_screen, name, value)
     ratios = second_screen.compare()
     assert ratios.keys() == {"median", "p99"}

@@ -1,0 +1,72 @@
+"""The face of drivers: facts about robots and their radio that a driver declares, and the link that it opens.
+
+Wheel speeds go in through a CommandLink, 50 times a second; telemetry and faults come out of it. `robots check` tests
+what is declared here.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from pigaming_app.hardware.robot_kinds import DEFAULT, RobotKind
+from pigaming_app.storage.messages import OperatorMessage
+
+if TYPE_CHECKING:
+    from pigaming_app.hardware.drivers.stand import Stand
+    from pigaming_app.hardware.radio.link import CommandLink
+    from pigaming_app.hardware.radio.serial_line import OpenPort
+    from pigaming_app.hardware.radio.wifi import WifiNetwork
+    from pigaming_app.hardware.ros.robots import RosPoses
+    from pigaming_app.hardware.signals import Clock
+
+LONGEST_SILENCE = 0.3  # s without a command after which the motors of a match's robots must be off
+
+
+@dataclass(frozen=True)
+class LinkSite:
+    """Where a driver opens its link: the user's settings, or the emulated arena.
+
+    `open_port(baud)` is the serial port `port`, at `baud` unless the driver has a rate of its own; `network` makes that
+    of our Wi-Fi robots; `poses` are those of a ROS network.
+    """
+
+    arena: int
+    clock: "Clock"
+    port: str = ""
+    baud: int = 57600
+    open_port: "Callable[[int], OpenPort] | None" = None
+    network: "Callable[[], WifiNetwork] | None" = None
+    poses: "RosPoses | None" = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Driver:
+    """A driver. `open(site)` returns its link, not started; one that does not come up reports its `fault`.
+
+    `silence`: s without a command after which its robots switch their motors off by themselves; None: never.
+    `stopped_by`: what does so, in a few English words. `dead_time`: s from sending a command to the motors' response,
+    until it has been measured. `serial`: port and baud rate of the settings count. `kind`: size and battery limits of a
+    robot that neither the settings nor its announcement name. `title`: a proper name for the settings; those of the
+    arcade have texts. `stand(seed)`: its emulated robots, for `robots check`; those of the arcade: `proof.stands`.
+    """
+
+    name: str
+    open: "Callable[[LinkSite], CommandLink]"
+    silence: float | None
+    stopped_by: str
+    dead_time: float = 0.03
+    serial: bool = True
+    kind: RobotKind = DEFAULT
+    title: str = ""
+    stand: "Callable[[int], Stand] | None" = None
+
+    @property
+    def problem(self) -> OperatorMessage | None:
+        """Why its robots cannot play matches, or None."""
+        name = self.title or self.name
+        if self.silence is None:
+            return OperatorMessage("driver_endless", name=name)
+        if not 0.0 < self.silence <= LONGEST_SILENCE:
+            own, most = f"{1000 * self.silence:.0f}", f"{1000 * LONGEST_SILENCE:.0f}"
+            return OperatorMessage("driver_late", name=name, own=own, most=most)
+        return None

@@ -1,0 +1,170 @@
+"""A conformance run finds each broken promise in robots with a fault; the arcade's own drivers keep them all."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from examples.lines.driver import DRIVER, Emulated
+from pigaming_app.hardware.drivers.driver import LONGEST_SILENCE, Driver
+from pigaming_app.hardware.drivers.ours import OURS
+from pigaming_app.hardware.proof.conformance import Conformance
+from pigaming_app.hardware.proof.stands import stand_of
+from pigaming_app.hardware.signals import WheelCommand
+
+
+class Endless(Emulated):
+    """Robots without a deadman."""
+
+    def advance(self, seconds: float) -> None:
+        self._driven = [self._now] * self.robots
+        super().advance(seconds)
+
+
+class Sluggish(Emulated):
+    """A deadman of 350 ms."""
+
+    def advance(self, seconds: float) -> None:
+        self._driven = [max(time, min(self._now - 0.05, time + 0.15)) for time in self._driven]
+        super().advance(seconds)
+
+
+class Slow(Emulated):
+    """Lines under way for 80 ms."""
+
+    def write(self, data: bytes) -> int:
+        self._lines.extend((self._now + 0.08, line) for line in data.split(b"\n") if line)
+        return len(data)
+
+
+class Weak(Emulated):
+    """A wheel of half the speed."""
+
+    def speeds(self, robot: int) -> WheelCommand:
+        left, right = super().speeds(robot)
+        return WheelCommand(0.5 * left if robot == 2 else left, right)
+
+
+class Reversed(Emulated):
+    """Wheels that turn the other way."""
+
+    def speeds(self, robot: int) -> WheelCommand:
+        left, right = super().speeds(robot)
+        return WheelCommand(-left, -right)
+
+
+class Mute(Emulated):
+    """A robot that never reports."""
+
+    def advance(self, seconds: float) -> None:
+        self._due[3] = float("inf")
+        super().advance(seconds)
+
+
+class Nervous(Emulated):
+    """A deadman of 25 ms: a lost line stops the robot."""
+
+    def advance(self, seconds: float) -> None:
+        super().advance(seconds)
+        for robot in range(self.robots):
+            if self._now - self._driven[robot] >= 0.025:
+                self._shares[robot] = WheelCommand(0.0, 0.0)
+
+
+class Restless(Emulated):
+    """A robot that drives on after its restart."""
+
+    def switch(self, robot: int, on: bool) -> None:
+        super().switch(robot, on)
+        if on:
+            self._driven[robot], self._shares[robot] = self._now, WheelCommand(0.6, 0.6)
+
+
+class Lost(Emulated):
+    """A robot that obeys nobody after its restart."""
+
+    def switch(self, robot: int, on: bool) -> None:
+        self._on[robot] = False
+
+
+class Open(Emulated):
+    """Robots that obey everybody."""
+
+    def interfere(self, wheels: WheelCommand) -> bool:
+        self._lines.extend((self._now, b"%d 600 -600" % robot) for robot in range(1, 5))
+        return True
+
+
+class Jammed(Emulated):
+    """Another arcade stops the robots."""
+
+    def interfere(self, wheels: WheelCommand) -> bool:
+        self._lines.extend((self._now, b"%d 0 0" % robot) for robot in range(1, 5))
+        return True
+
+
+def broken(driver: Driver, stand: Callable[[int], Emulated]) -> set[str]:
+    found = [*Conformance(driver, stand(1)).run()]
+    return {finding.promise for finding in found if finding.holds is False}
+
+
+def test_the_example_keeps_its_promises() -> None:
+    found = [*Conformance(DRIVER, Emulated(1)).run()]
+    assert {finding.promise: finding.holds for finding in found} == {
+        **dict.fromkeys([finding.promise for finding in found], True),
+        "two arcades": None,
+    }
+    assert len(found) == 9
+
+
+@pytest.mark.parametrize(
+    ("stand", "promises"),
+    [
+        (Endless, {"silence"}),
+        (Sluggish, {"silence"}),
+        (Slow, {"dead time", "stop", "silence"}),  # 280 ms, not the declared 220
+        (Weak, {"steps"}),
+        (Reversed, {"steps"}),
+        (Mute, {"reports"}),
+        (Nervous, {"loss of 30 %"}),
+        (Restless, {"restart"}),
+        (Lost, {"restart"}),
+        (Open, {"two arcades"}),
+        (Jammed, {"two arcades"}),
+    ],
+)
+def test_each_fault_breaks_its_promise_and_no_other(stand: Callable[[int], Emulated], promises: set[str]) -> None:
+    assert broken(DRIVER, stand) == promises
+
+
+def test_what_does_not_stop_by_itself_in_time_plays_no_match() -> None:
+    assert DRIVER.problem is None
+    assert replace(DRIVER, silence=LONGEST_SILENCE).problem is None
+    for late in (None, LONGEST_SILENCE + 0.001, float("inf"), float("nan"), 0.0, -1.0):
+        assert replace(DRIVER, silence=late).problem is not None
+    assert {name for name, driver in OURS.items() if driver.problem} == {"stock"}
+
+
+@pytest.mark.parametrize(
+    "name", ["api2", *(pytest.param(one, marks=pytest.mark.long) for one in ("api1", "transparent"))]
+)
+def test_xbees_keep_every_promise(name: str) -> None:
+    require_all(name)
+
+
+@pytest.mark.long
+@pytest.mark.usefixtures("micropython")
+@pytest.mark.parametrize("name", ["relay", "udp"])
+def test_boards_keep_every_promise(name: str) -> None:
+    require_all(name)
+
+
+def require_all(name: str) -> None:
+    stand = stand_of(OURS[name], 2)
+    assert stand is not None
+    try:
+        found = [*Conformance(OURS[name], stand).run()]
+    finally:
+        stand.close()
+    assert [finding for finding in found if not finding.holds] == []
+    assert len(found) == 9

@@ -1,0 +1,79 @@
+"""A driver as a plug-in: found, switched on, on offer beside the arcade's own, checked, and left out with one line."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from pigaming_app.storage.plugins import found
+from pigaming_app.storage.plugins.consent import switch
+from pigaming_app.storage.plugins.found import user_folder
+from pigaming_app.storage.settings import Settings, folders
+from tests.plugins.packages import changed
+from tests.processes import ROOT, program
+
+
+@pytest.fixture
+def lines(home: Path) -> Path:
+    """The example driver, switched on."""
+    folder = user_folder() / "lines"
+    shutil.copytree(ROOT / "examples" / "lines", folder, ignore=shutil.ignore_patterns("__pycache__"))
+    switch("lines", True)
+    return folder
+
+
+def test_a_driver_is_found_and_is_no_game(lines: Path) -> None:
+    plugins = {plugin.name: plugin for plugin in found.found()}
+    assert plugins["lines"].drives
+    assert not plugins["football"].drives
+    ended = program("play", "lines", "--headless")
+    assert ended.returncode == 2
+    assert "there are pitanks" in ended.stderr
+    assert "lines: on, a driver, in" in program("games").stdout
+
+
+def test_its_promises_are_checked(lines: Path) -> None:
+    ended = program("robots", "check", "lines", "--json")
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert json.loads(ended.stdout)["for_matches"] is True
+
+
+def test_it_is_a_radio_mode(lines: Path) -> None:
+    ended = program("robots", "--radio", "lines", "--port", "/dev/nowhere", "--json")
+    assert "/dev/nowhere" in json.loads(ended.stdout)["radio"]
+
+
+@pytest.mark.parametrize("silence", ["None", "0.31"])
+def test_robots_that_stop_too_late_play_no_match(lines: Path, silence: str) -> None:
+    changed(lines / "driver.py", "silence=SILENCE", f"silence={silence}")
+    ended = program("play", "pitanks", "--real", "1", "--radio", "lines")
+    assert ended.returncode == 2
+    assert ended.stderr.startswith("PiGaming: --radio: Robots of Lines of text ")
+    ended = program("robots", "check", "lines")
+    assert ended.returncode == 1
+    assert "Robots of Lines of text" in ended.stdout
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        ('name="lines"', 'name="dots"', "its driver is named dots"),
+        ("DRIVER = Driver(", "DRIVER = dict(", "DRIVER is no Driver"),
+        ("BAUD, ROBOTS =", "BAUD ROBOTS =", "driver.py, line "),
+    ],
+)
+def test_a_faulty_one_is_left_out_in_one_line(lines: Path, old: str, new: str, reason: str) -> None:
+    changed(lines / "driver.py", old, new)
+    ended = program("robots", "check", "lines")
+    assert ended.returncode == 2
+    assert f"The driver lines in {lines} is left out: {reason}" in ended.stderr
+    assert "no driver 'lines'" in ended.stderr
+
+
+def test_a_mat_whose_driver_is_gone_says_so(lines: Path) -> None:
+    Settings(radio="lines").save(folders().config)
+    switch("lines", False)
+    ended = program("play", "pitanks", "--real", "1")
+    assert ended.returncode == 2
+    assert "The driver lines is not installed" in ended.stderr
