@@ -30,8 +30,11 @@ KINDS = (
     RobotKind("3pi_2040", "Pololu 3pi+ 2040", ("xbee",), (3,), 4400, 4000, 49.0),
     RobotKind("zumo_2040", "Pololu Zumo 2040", ("xbee",), (), 4400, 4000, 70.0),  # 99 mm square: half its diagonal
     RobotKind("microbit", "micro:bit", ("relay",), (4,), 4600, 4400, 60.0),  # its motor board needs 4.5 V
+    RobotKind("cutebot", "Cutebot", ("relay",), (), 0, 0, 75.0),  # measures no battery, nor does the next
+    RobotKind("maqueen", "Maqueen", ("relay",), (), 0, 0, 70.0),
 )
 DEFAULT = KINDS[0]
+CHASSIS = ("cutebot", "maqueen")  # bought ones that a micro:bit is plugged into
 
 
 def robot_kind(chosen: str, board: int | None = None, usual: RobotKind = DEFAULT) -> RobotKind:
@@ -49,9 +52,11 @@ def robot_config(robot: int, arena: int, key: bytes) -> str:
     return text.replace("ARENA = 0", f"ARENA = {arena}").replace("0" * 32, key.hex())
 
 
-def microbit_program(number: int, arena: int) -> str:
-    """The program of a micro:bit: of robot 1 to 4, or of the RELAY."""
+def microbit_program(number: int, arena: int, chassis: str = "") -> str:
+    """The program of a micro:bit: of robot 1 to 4, or of the RELAY. `chassis`: one of CHASSIS, else a DRV8833."""
     text = (PROGRAM / "microbit" / ("robot.py" if number else "relay.py")).read_text("utf-8")
+    if chassis:
+        text = text.replace("CHASSIS = None", f'CHASSIS = "{chassis}"')
     return text.replace("ROBOT, ARENA = 1, 0", f"ROBOT, ARENA = {number}, {arena}").replace(
         "ARENA = 0  #", f"ARENA = {arena}  #"
     )
@@ -61,6 +66,7 @@ def set_up_command(robot: int, arena: int, radio: str, kind: str = "") -> str:
     """The command that gives a robot (1 to 4) its numbers. `radio`: of the settings; `kind`: see robot_kinds."""
     if radio == "udp":
         return f"python3 main.py robots --wifi-config {robot} --out config.py"
-    if radio == "relay" or kind == "microbit":
-        return f"python3 main.py robots --microbit {robot} --out robot{robot}.py"
+    if radio == "relay" or kind in ("microbit", *CHASSIS):
+        chassis = f"--chassis {kind} " if kind in CHASSIS else ""
+        return f"python3 main.py robots --microbit {robot} {chassis}--out robot{robot}.py"
     return f"make flash ADDRESS={robot} ARENA={arena}"

@@ -42,6 +42,14 @@ class Air(MicrobitAir):
         return moving
 
 
+def cutebot(number, arena):
+    return MicrobitConfig(number, arena, "cutebot")
+
+
+def maqueen(number, arena):
+    return MicrobitConfig(number, arena, "maqueen")
+
+
 class WithDivider(MicrobitConfig):
     """A robot that measures its battery at pin 2."""
 
@@ -95,6 +103,27 @@ def test_the_arcade_drives_robots_through_the_relay_and_the_deadman_stops_them(a
     link.close()
     air.run(0.02)
     assert air.boards.motors(1) == (0.0, 0.0), "a stop by the link"
+
+
+@pytest.mark.parametrize("air", [cutebot, maqueen], indirect=True)
+def test_a_bought_chassis_obeys_and_its_motors_which_keep_their_speed_stop_in_time(air, link):
+    """The chip runs on when the program hangs: until the watchdog has restarted it, and its first act is to brake."""
+    drive(air, link, 0.5)
+    for robot in (0, 1):
+        assert air.boards.motors(robot + 1) == pytest.approx(SHARES[robot], abs=1.1e-2)
+    assert link.telemetry[0].flags == 0
+    for hang, most in ((None, 0.25), ("error", 0.01), ("hang loop", 0.25), ("hang board", 0.52)):
+        drive(air, link, 0.6)
+        assert any(air.boards.motors(1)), hang
+        began = air.now
+        if hang is None:
+            air.run(0.6)
+        else:
+            air.boards.disturb(1, do=hang)
+            drive(air, link, 0.6)
+        assert 0.0 <= air.boards.powered_until[1] - began <= most, hang
+    drive(air, link, 0.6)
+    assert link.telemetry[0].flags == RESTARTED
 
 
 def test_nothing_corrupt_repeated_or_of_another_arena_moves_a_motor(air):

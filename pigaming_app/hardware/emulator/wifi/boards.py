@@ -53,7 +53,10 @@ WIRING: Mapping[str, tuple[WheelPins, WheelPins]] = {  # of the board files
     "board_pico_w": (WheelPins(10, 11), WheelPins(12, 13)),
     "board_pololu_2040": (WheelPins(None, 11, 15), WheelPins(None, 10, 14)),
     "microbit": (WheelPins(8, 12), WheelPins(0, 16)),
+    "cutebot": (WheelPins(100, 101), WheelPins(102, 103)),  # outputs of motor chips, see micropython/microbit.py
+    "maqueen": (WheelPins(100, 101), WheelPins(102, 103)),
 }
+KEEPING = ("cutebot", "maqueen")  # boards whose motor chips keep their speeds while a program restarts
 DIVIDERS = {"board_pololu_2040": 11}  # of the battery's voltage; on robots of one's own 3
 
 
@@ -92,7 +95,8 @@ class MicrobitConfig(NamedTuple):
 
     def files(self) -> dict[str, bytes]:
         """Its only file."""
-        return {"main.py": microbit_program(self.number, self.arena).encode()}
+        chassis = self.board if self.board in KEEPING else ""
+        return {"main.py": microbit_program(self.number, self.arena, chassis).encode()}
 
 
 def interpreter() -> Path:
@@ -145,6 +149,7 @@ class Boards:
         self.resets: list[tuple[int, int]] = []  # robot and cause (1 power, 2 program, 3 watchdog), in order
         self.printed = [deque[str](maxlen=PRINTED) for _ in configs]
         self._wiring = [wiring[config.board] for config in configs]
+        self._keeping = [config.board in KEEPING for config in configs]
         first = {
             "robots": [_spec(config) for config in configs],
             "interpreter": interpreter().as_uri(),
@@ -172,6 +177,8 @@ class Boards:
         the right encoder.
         """
         self._tell({"robot": robot, **order})
+        if order.get("do") == "off" and self._keeping[robot]:  # the chip has no power either
+            self.pins[robot] = {}
 
     def motors(self, robot: int) -> Shares:
         """Voltages at the motors of a robot now."""
@@ -234,7 +241,7 @@ class Boards:
         if "pins" in message:
             robot = message["robot"]
             was_on = any(self._shares(robot))
-            self.pins[robot] = message["pins"]
+            self.pins[robot] = {**self.pins[robot], **message["pins"]} if self._keeping[robot] else message["pins"]
             if was_on and not any(self._shares(robot)):
                 self.powered_until[robot] = message["at"] / 1000
         elif "printed" in message:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.hardware.radio.packets import ROBOTS
-from pigaming_app.hardware.robot_kinds import RELAY, microbit_program, robot_config, robot_kind
+from pigaming_app.hardware.robot_kinds import CHASSIS, RELAY, microbit_program, robot_config, robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.jobs.terminal.options import integer, option, path
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
@@ -31,6 +31,9 @@ class WifiSetupOptions:
     microbit: int | None = option(
         "the program of a micro:bit: 0 for the relay, 1 to 4 for a robot", integer(RELAY, ROBOTS), metavar="NUMBER"
     )
+    chassis: str | None = option(
+        "with --microbit: what a robot's micro:bit is plugged into, instead of a DRV8833", choices=CHASSIS
+    )
     out: Path | None = option("write that file, in UTF-8, instead of printing it", path, metavar="FILE")
     wheels: int | None = option("turn the wheels of a robot that stands on blocks", integer(1, ROBOTS), metavar="ROBOT")
 
@@ -42,7 +45,11 @@ def supply_file(options: WifiSetupOptions, settings: Settings) -> bool:
     if options.wifi_config is not None:
         text = robot_config(options.wifi_config, arena_id(settings), wifi_key(settings))
     elif options.microbit is not None:
-        text = microbit_program(options.microbit, arena_id(settings))
+        if options.chassis and options.microbit == RELAY:
+            raise Refusal("--chassis: the relay has none")
+        text = microbit_program(options.microbit, arena_id(settings), options.chassis or "")
+    elif options.chassis is not None:
+        raise Refusal("--chassis goes with --microbit")
     elif options.out is not None:
         raise Refusal("--out is the file of --wifi-config or --microbit")
     else:

@@ -1,4 +1,8 @@
-"""Stand-in of the micro:bit's module `microbit`: pins, button A, display, USB serial line, scheduled functions."""
+"""Stand-in of the micro:bit's module `microbit`: pins, button A, display, USB serial line, scheduled functions, I2C.
+
+Behind I2C are the motor chips of Cutebot and Maqueen, as their makers' blocks for MakeCode address them (motors,
+MotorRun); the outputs of the chips count as pins 100 to 103: left ahead and back, right ahead and back.
+"""
 
 import time
 
@@ -23,6 +27,26 @@ class Pin:
 
     def read_analog(self):
         return js.bridge.battery() * 1023 // 9900  # a divider by 3, on 3.3 V
+
+
+WHEELS = {"cutebot": {1: 100, 2: 102}, "maqueen": {0: 100, 2: 102}}  # outputs by the first byte of a message
+WAYS = {"cutebot": {2: 0, 1: 1}, "maqueen": {0: 0, 1: 1}}  # ahead or back, by the second
+LONG, FULL = {"cutebot": 4, "maqueen": 3}, {"cutebot": 100, "maqueen": 255}  # bytes; full speed, the third
+
+
+class MotorChip:
+    """The motor chip of this board's chassis."""
+
+    def write(self, address, data):
+        board = js.bridge.board()
+        if address != 0x10 or board not in WHEELS:
+            raise OSError(19)  # nobody answers
+        wheel, way, speed = data[0], data[1], data[2]
+        if len(data) != LONG[board] or speed > FULL[board]:
+            raise ValueError(data)
+        pins, way = WHEELS[board][wheel], WAYS[board][way]
+        for each in (0, 1):
+            js.bridge.pin(str(pins + each), speed * 65535 // FULL[board] if each == way else 0)
 
 
 class Uart:
@@ -70,4 +94,4 @@ def run_every(callback, ms):
 
 
 pin0, pin1, pin2, pin8, pin12, pin16 = Pin(0), Pin(1), Pin(2), Pin(8), Pin(12), Pin(16)
-uart, display, button_a, sleep = Uart(), Display(), Button(), time.sleep_ms
+uart, display, button_a, i2c, sleep = Uart(), Display(), Button(), MotorChip(), time.sleep_ms

@@ -1,6 +1,7 @@
-"""Robot of PiGaming on a micro:bit V2 with a DRV8833: obeys drive packets, reports, and stops by itself.
+"""Robot of PiGaming on a micro:bit V2: obeys drive packets, reports, and stops by itself.
 
-It is the only file on the micro:bit; `main.py robots --microbit 2` prints it with the numbers of robot 2. A scheduled
+It is the only file on the micro:bit; `main.py robots --microbit 2` prints it with the numbers of robot 2, and with
+`--chassis cutebot` or `maqueen` for one of these instead of a DRV8833. A scheduled
 function stops the motors 200 ms after the last new command; the chip's watchdog restarts a program that hangs.
 docs/hardware.md, section Protocol, has the packets.
 """
@@ -9,9 +10,12 @@ import time
 
 import radio
 from machine import mem32
-from microbit import button_a, display, pin0, pin8, pin12, pin16, run_every, sleep
+from microbit import button_a, display, i2c, pin0, pin8, pin12, pin16, run_every, sleep
 
 ROBOT, ARENA = 1, 0  # number of the robot, 1 to 4; id of the arena, 1 to 16383: with 0 the motors never run
+
+CHASSIS = None  # or "cutebot" or "maqueen": their motors obey messages by I2C, and keep the last speed
+MOTOR_CHIP = 0x10  # I2C address on both
 
 # Kitronik's motor driver board 5620 (DRV8833, four AA cells): pins ahead and back of each motor
 LEFT, RIGHT = (pin8, pin12), (pin0, pin16)
@@ -55,8 +59,19 @@ def check_of(data, size):
     return bytes([low & 127, low >> 7 & 127, (low >> 14 | high << 2) & 127, high >> 5 & 127, high >> 12])
 
 
+def message(motor, speed):
+    """Message to the motor chip: wheel, direction, speed, in percent on a Cutebot, up to 255 on a Maqueen."""
+    size = speed if speed >= 0 else -speed
+    if CHASSIS == "cutebot":
+        return bytes([1 if motor is LEFT else 2, 1 if speed < 0 else 2, size * 100 // MIDDLE, 0])
+    return bytes([0 if motor is LEFT else 2, 1 if speed < 0 else 0, size * 255 // MIDDLE])
+
+
 def drive(motor, speed):
-    """Speed of a motor, -63 to 63; slow decay, 0 brakes."""
+    """Speed of a motor, -63 to 63; with a DRV8833 slow decay, 0 brakes."""
+    if CHASSIS:
+        i2c.write(MOTOR_CHIP, message(motor, speed))
+        return
     ahead, back = motor
     duty = speed * TOP // MIDDLE
     ahead.write_analog(TOP if duty >= 0 else TOP + duty)
@@ -75,7 +90,7 @@ class Robot:
         self.parked = False  # by the button
         self.empty = False
         self.millivolts = self.read_battery()  # 0 without a divider
-        for pin in LEFT + RIGHT:
+        for pin in () if CHASSIS else LEFT + RIGHT:
             pin.set_analog_period_microseconds(PWM_US)
         self.brake()
         run_every(self.watch, ms=TIMER_MS)
