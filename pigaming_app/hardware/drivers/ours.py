@@ -82,7 +82,7 @@ OURS = {
             serial=False,
             kind=robot_kind("esp32"),
         ),
-        Driver(name="stock", title="a robot on a cable", open=_factory_firmware, silence=None, stopped_by="nothing"),
+        Driver(name="stock", open=_factory_firmware, silence=None, stopped_by="nothing"),
     )
 }
 ROS = Driver(name="ros", open=_ros, silence=0.2, stopped_by="the node that drives the robot", serial=False)

@@ -41,7 +41,7 @@ DRIVING, RACING = 0.7, 0.1  # s between two movements of the stick
 AWAY = 4.0  # s for which a pad is pulled, or a phone locked
 LOOK = 8.0  # s on a page of the title's menu
 REST = 95.0  # s for which nobody drives
-MINUTES, GOAL = 2, 3  # of a match, at most
+MINUTES, GOAL = 1, 3  # of a match, at most, where its rules allow it
 MISHAP_AT = 8.0  # s of the match
 LEAST_REACH = 0.3  # deflection of a stick that turns a robot where it stands
 

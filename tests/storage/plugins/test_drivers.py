@@ -49,10 +49,10 @@ def test_robots_that_stop_too_late_play_no_match(lines: Path, silence: str) -> N
     changed(lines / "driver.py", "silence=SILENCE", f"silence={silence}")
     ended = program("play", "pitanks", "--real", "1", "--radio", "lines")
     assert ended.returncode == 2
-    assert ended.stderr.startswith("PiGaming: --radio: Robots of Lines of text ")
+    assert ended.stderr.startswith("PiGaming: --radio: Robots of radio mode Lines of text ")
     ended = program("robots", "check", "lines")
     assert ended.returncode == 1
-    assert "Robots of Lines of text" in ended.stdout
+    assert "Robots of radio mode Lines of text" in ended.stdout
 
 
 @pytest.mark.parametrize(
