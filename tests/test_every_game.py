@@ -16,10 +16,9 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import ALONE, Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
-from pigaming_app.sim.record import digest
+from pigaming_app.sim.record import digest, numbers
 from pigaming_app.sim.things.spec import ThingSpec, Use, written
 from tests.cases import one_in
-from tests.sim.walk import numbers
 
 SQUARE = ((0.0, 0.0), (50.0, 0.0), (50.0, 50.0), (0.0, 50.0))
 EVERY_VARIANT = [(game, variant) for game, rules in games().items() for variant in rules.variants]

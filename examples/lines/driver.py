@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Mapping, Sequence
 from random import Random
 
-from pigaming_app.api.robots import Driver, Link, LinkQuality, LinkSite, Misfit, Telemetry, WheelCommand
+from pigaming_app.api.robots import Link, LinkQuality, LinkSite, Misfit, RobotDriver, Telemetry, WheelCommand
 
 BAUD, ROBOTS = 115200, 4
 SILENCE, REPORT, DELAY, STEP = 0.2, 0.2, 0.01, 0.002  # s
@@ -58,7 +58,7 @@ def connect(site: LinkSite) -> Link:
 
 
 class Emulated:
-    """The emulated robots and their serial line: a Stand and a SerialPort."""
+    """The emulated robots and their serial line: a RobotStand and a SerialPort."""
 
     robots = ROBOTS
 
@@ -127,7 +127,7 @@ class Emulated:
         pass
 
 
-DRIVER = Driver(
+DRIVER = RobotDriver(
     name="lines",
     title="Lines of text",
     open=connect,

@@ -1,7 +1,7 @@
 """Drivers of robots: what one declares, the link that it opens, and emulated robots for `robots check`."""
 
-from pigaming_app.hardware.drivers.driver import Driver, LinkSite
-from pigaming_app.hardware.drivers.stand import Stand
+from pigaming_app.hardware.drivers.driver import LinkSite, RobotDriver
+from pigaming_app.hardware.drivers.stand import RobotStand
 from pigaming_app.hardware.radio.link import CommandLink, Link
 from pigaming_app.hardware.radio.protocol import LinkQuality, Misfit, RadioProtocol
 from pigaming_app.hardware.robot_kinds import RobotKind
@@ -9,14 +9,14 @@ from pigaming_app.hardware.signals import Telemetry, WheelCommand
 
 __all__ = [
     "CommandLink",
-    "Driver",
     "Link",
     "LinkQuality",
     "LinkSite",
     "Misfit",
     "RadioProtocol",
+    "RobotDriver",
     "RobotKind",
-    "Stand",
+    "RobotStand",
     "Telemetry",
     "WheelCommand",
 ]

@@ -84,7 +84,7 @@ def require_game(name: str) -> None:
     """Raises ChoiceError for a game that there is not, or that the operator has not switched on."""
     if name in games():
         return
-    if plugin := next((one for one in found() if one.name == name and not one.drives), None):
+    if plugin := next((plugin for plugin in found() if plugin.name == name), None):
         state = {None: "is new, and runs code of its own", False: "is switched off", True: "is left out"}[is_on(plugin)]
         advice = "see above" if is_on(plugin) else f"main.py games on {name}"
         raise ChoiceError(f"the game {name} in {plugin.folder} {state}: {advice}")

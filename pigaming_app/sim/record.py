@@ -16,7 +16,7 @@ record; `packed` and `unpack` copy between the two, and `digest` gives the same 
 
 import hashlib
 import struct
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar, get_args, get_origin, get_type_hints
 
 if TYPE_CHECKING:
@@ -28,7 +28,6 @@ _CODES = {float: "d", int: "q"}
 _NUMPY = {"d": "<f8", "f": "<f4", "q": "<i8", "h": "<i2"}
 _DTYPES: "dict[type, np.dtype[Any]]" = {}
 _LAYOUTS: dict[type, struct.Struct] = {}
-_PACKERS: "dict[type, Callable[[object], bytes]]" = {}
 
 
 class Field:
@@ -114,22 +113,14 @@ def dtype(kind: type) -> "np.dtype[Any]":
     return result
 
 
-def _terms(kind: type, owner: str) -> Iterator[str]:
-    """Expressions for the numbers of a plain record, in memory order; `owner`: the expression of the record."""
-    for field in fields_of(kind):
-        place = f"{owner}.{field.name}"
+def numbers(state: object) -> Iterator[float]:
+    """Every number of a plain record, in memory order."""
+    for field in fields_of(type(state)):
         if field.code:
-            yield place if field.count is None else f"*{place}"
+            yield from field.elements(state)
         else:
-            for element in [place] if field.count is None else [f"{place}[{i}]" for i in range(field.count)]:
-                yield from _terms(field.kind, element)
-
-
-def _packer(kind: type) -> Callable[[object], bytes]:
-    """A function that packs a plain record: one expression without loops, as a film of a match packs each tick."""
-    if kind not in _PACKERS:
-        _PACKERS[kind] = eval(f"lambda state: pack({', '.join(_terms(kind, 'state'))})", {"pack": _layout(kind).pack})
-    return _PACKERS[kind]
+            for element in field.elements(state):
+                yield from numbers(element)
 
 
 def _layout(kind: type) -> struct.Struct:
@@ -147,7 +138,7 @@ def _layout(kind: type) -> struct.Struct:
 
 def to_bytes(state: object) -> bytes:
     """The bytes of the equivalent NumPy record."""
-    return _packer(type(state))(state)
+    return _layout(type(state)).pack(*numbers(state))
 
 
 def packed(states: Sequence[Any]) -> Any:

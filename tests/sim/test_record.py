@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.sim.record import copy, digest, dtype, packed, record, to_bytes, unpack
+from pigaming_app.sim.record import copy, digest, dtype, numbers, packed, record, to_bytes, unpack
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.world import World
-from tests.sim.walk import numbers
 
 
 @record

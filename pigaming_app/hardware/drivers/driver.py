@@ -12,7 +12,7 @@ from pigaming_app.hardware.robot_kinds import DEFAULT, RobotKind
 from pigaming_app.storage.messages import OperatorMessage
 
 if TYPE_CHECKING:
-    from pigaming_app.hardware.drivers.stand import Stand
+    from pigaming_app.hardware.drivers.stand import RobotStand
     from pigaming_app.hardware.radio.link import CommandLink
     from pigaming_app.hardware.radio.serial_line import OpenPort
     from pigaming_app.hardware.radio.wifi import WifiNetwork
@@ -40,7 +40,7 @@ class LinkSite:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Driver:
+class RobotDriver:
     """A driver. `open(site)` returns its link, not started; one that does not come up reports its `fault`.
 
     `silence`: s without a command after which its robots switch their motors off by themselves; None: never.
@@ -58,7 +58,7 @@ class Driver:
     serial: bool = True
     kind: RobotKind = DEFAULT
     title: str = ""
-    stand: "Callable[[int], Stand] | None" = None
+    stand: "Callable[[int], RobotStand] | None" = None
 
     @property
     def problem(self) -> OperatorMessage | None:

@@ -3,7 +3,7 @@
 from functools import partial
 from typing import TYPE_CHECKING
 
-from pigaming_app.hardware.drivers.driver import Driver, LinkSite
+from pigaming_app.hardware.drivers.driver import LinkSite, RobotDriver
 from pigaming_app.hardware.robot_kinds import robot_kind
 
 if TYPE_CHECKING:
@@ -50,8 +50,8 @@ def _ros(site: LinkSite) -> "CommandLink":
     return RosLink(site.poses)
 
 
-def _xbee(mode: str) -> Driver:
-    return Driver(
+def _xbee(mode: str) -> RobotDriver:
+    return RobotDriver(
         name=mode,
         open=partial(_our_firmware, mode=mode),
         silence=0.25,
@@ -66,7 +66,7 @@ OURS = {
         _xbee("api2"),
         _xbee("api1"),
         _xbee("transparent"),
-        Driver(
+        RobotDriver(
             name=RELAY,
             open=partial(_our_firmware, mode="transparent", baud=RELAY_BAUD),
             silence=0.2,
@@ -74,7 +74,7 @@ OURS = {
             dead_time=0.02,
             kind=robot_kind("microbit"),
         ),
-        Driver(
+        RobotDriver(
             name=UDP,
             open=_wifi,
             silence=0.2,
@@ -82,7 +82,7 @@ OURS = {
             serial=False,
             kind=robot_kind("esp32"),
         ),
-        Driver(name="stock", open=_factory_firmware, silence=None, stopped_by="nothing"),
+        RobotDriver(name="stock", open=_factory_firmware, silence=None, stopped_by="nothing"),
     )
 }
-ROS = Driver(name="ros", open=_ros, silence=0.2, stopped_by="the node that drives the robot", serial=False)
+ROS = RobotDriver(name="ros", open=_ros, silence=0.2, stopped_by="the node that drives the robot", serial=False)

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.radio.link import CommandLink
 
 
-class Stand(Protocol):
+class RobotStand(Protocol):
     """Emulated robots; robot 0 to `robots` - 1. The link runs only in its `pump`, time passes only in `advance`."""
 
     robots: int

@@ -10,8 +10,8 @@ from random import Random
 from statistics import median
 from typing import NamedTuple
 
-from pigaming_app.hardware.drivers.driver import LONGEST_SILENCE, Driver
-from pigaming_app.hardware.drivers.stand import Stand
+from pigaming_app.hardware.drivers.driver import LONGEST_SILENCE, RobotDriver
+from pigaming_app.hardware.drivers.stand import RobotStand
 from pigaming_app.hardware.radio.link import BEAT
 from pigaming_app.hardware.signals import WheelCommand
 
@@ -40,7 +40,7 @@ class Finding(NamedTuple):
 class Conformance:
     """A run over a driver's promises."""
 
-    def __init__(self, driver: Driver, stand: Stand, seed: int = 1) -> None:
+    def __init__(self, driver: RobotDriver, stand: RobotStand, seed: int = 1) -> None:
         self.driver, self.stand, self._random = driver, stand, Random(f"conformance {seed}")
         self._everybody = range(stand.robots)
         self._due = stand.clock()

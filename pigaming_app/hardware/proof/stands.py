@@ -2,9 +2,9 @@
 
 from collections.abc import Callable
 
-from pigaming_app.hardware.drivers.driver import Driver, LinkSite
+from pigaming_app.hardware.drivers.driver import LinkSite, RobotDriver
 from pigaming_app.hardware.drivers.ours import RELAY, UDP
-from pigaming_app.hardware.drivers.stand import Stand
+from pigaming_app.hardware.drivers.stand import RobotStand
 from pigaming_app.hardware.emulator.arena import ARENA_ID, EmulatedArena
 from pigaming_app.hardware.emulator.radio import API, API_ESCAPED, TRANSPARENT, EmulatedRadio, RadioChannel
 from pigaming_app.hardware.emulator.robots import FULL_SPEED
@@ -28,7 +28,7 @@ class _ArenaStand:
 
     robots = ROBOTS
 
-    def __init__(self, driver: Driver, seed: int, channel: RadioChannel) -> None:
+    def __init__(self, driver: RobotDriver, seed: int, channel: RadioChannel) -> None:
         self.arena = EmulatedArena(seed, channel=channel)
         self.clock, self.network = self.arena.clock, None
         site = LinkSite(self.arena.arena_id, self.clock, "EMU0", open_port=self._port, network=self._new_network)
@@ -65,7 +65,7 @@ class _ArenaStand:
 class XBeeStand(_ArenaStand):
     """Robots with XBees."""
 
-    def __init__(self, driver: Driver, seed: int) -> None:
+    def __init__(self, driver: RobotDriver, seed: int) -> None:
         channel = RadioChannel(MODES[driver.name])
         super().__init__(driver, seed, channel)
         self._other = EmulatedRadio([], channel, self.clock, seed + 1)
@@ -82,7 +82,7 @@ class RelayStand:
 
     robots = ROBOTS
 
-    def __init__(self, driver: Driver, seed: int) -> None:
+    def __init__(self, driver: RobotDriver, seed: int) -> None:
         self.air = MicrobitAir(ROBOTS, ARENA_ID, seed)
         self.clock, self._count = self.air.clock, 0
         self.link = driver.open(LinkSite(ARENA_ID, self.clock, "EMU0", open_port=lambda baud: self.air.open))
@@ -117,7 +117,7 @@ class RelayStand:
 class WifiStand(_ArenaStand):
     """Boards that run their own program on a network of their own. Raises NoMicroPython."""
 
-    def __init__(self, driver: Driver, seed: int) -> None:
+    def __init__(self, driver: RobotDriver, seed: int) -> None:
         self._count = 0
         super().__init__(driver, seed, RadioChannel())
 
@@ -137,7 +137,7 @@ class WifiStand(_ArenaStand):
         return network
 
 
-def stand_of(driver: Driver, seed: int) -> Stand | None:
+def stand_of(driver: RobotDriver, seed: int) -> RobotStand | None:
     """The emulated robots of a driver; None: it has none. Raises NoMicroPython."""
     if driver.stand is not None:
         return driver.stand(seed)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.calibration.quality import CameraQuality
     from pigaming_app.hardware.calibration.site import CalibrationSite
     from pigaming_app.hardware.control.rig import Rig
-    from pigaming_app.hardware.drivers.driver import Driver
+    from pigaming_app.hardware.drivers.driver import RobotDriver
     from pigaming_app.hardware.radio.link import CommandLink
     from pigaming_app.hardware.radio.wifi import WifiNetwork
     from pigaming_app.hardware.radio.xbee_setup import Carrier
@@ -136,7 +136,7 @@ def new_rig(
     return Rig(camera, follower, link, clock, drivetrains, lambda: drift.mm, ground.mm, kinds, usual or DEFAULT)
 
 
-def driver_of(settings: "Settings") -> "Driver":
+def driver_of(settings: "Settings") -> "RobotDriver":
     """The driver of the settings. Raises RobotsUnavailable if its plug-in is gone."""
     from pigaming_app.hardware.drivers.registry import DRIVERS
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from pigaming_app.hardware.drivers.driver import Driver
+from pigaming_app.hardware.drivers.driver import RobotDriver
 from pigaming_app.hardware.drivers.ours import UDP
 from pigaming_app.hardware.drivers.registry import DRIVERS
 from pigaming_app.hardware.session.real import RealSession
@@ -62,7 +62,7 @@ def robots_of(options: RigOptions, radio: str | None = None) -> Iterator[RobotSe
         session.end()
 
 
-def require_driver(name: str, asked: str = "--radio") -> Driver:
+def require_driver(name: str, asked: str = "--radio") -> RobotDriver:
     """The driver of a name. Raises Refusal. `asked`: what it was given to."""
     if name not in DRIVERS:
         raise Refusal(f"{asked}: no driver {quote(name)}; there are {', '.join(DRIVERS)}")

@@ -12,10 +12,11 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.timestep import FixedTimestep
+from pigaming_app.scenes.views.film import to_bytes
 from pigaming_app.scenes.views.hud.parts import CLOCK
 from pigaming_app.scenes.views.pitanks.view import PiTanksView
 from pigaming_app.scenes.views.view import MatchView
-from pigaming_app.sim.record import from_bytes, to_bytes
+from pigaming_app.sim.record import from_bytes
 from pigaming_app.sim.world import DT, WIDTH
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, GlowCanvas, badge
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue

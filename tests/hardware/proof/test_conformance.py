@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from examples.lines.driver import DRIVER, Emulated
-from pigaming_app.hardware.drivers.driver import LONGEST_SILENCE, Driver
+from pigaming_app.hardware.drivers.driver import LONGEST_SILENCE, RobotDriver
 from pigaming_app.hardware.drivers.ours import OURS
 from pigaming_app.hardware.proof.conformance import Conformance
 from pigaming_app.hardware.proof.stands import stand_of
@@ -103,7 +103,7 @@ class Jammed(Emulated):
         return True
 
 
-def broken(driver: Driver, stand: Callable[[int], Emulated]) -> set[str]:
+def broken(driver: RobotDriver, stand: Callable[[int], Emulated]) -> set[str]:
     found = [*Conformance(driver, stand(1)).run()]
     return {finding.promise for finding in found if finding.holds is False}
 
