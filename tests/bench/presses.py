@@ -7,6 +7,7 @@ import os
 import random
 import sys
 import threading
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from copy import deepcopy
@@ -42,6 +43,7 @@ from tests.scenes.screens import SCREENS, event, match
 
 BUTTONS = sorted(set(Button) - {Button.POINT, Button.CLICK, Button.FOUND, Button.LOST}, key=lambda button: button.name)
 IDLE = (sys.executable, "-c", "input()")  # in place of the compilers, which work for minutes
+WORK = 60.0  # s for work that goes on: a poster is written by a thread of its own
 MOST_MB, SETTLED = 4.0, 5  # growth; thrice as much where there are fewer rounds than SETTLED: rare code still loads
 MOST_CACHED_MB = RESTING / 2**20 + 8.0  # sprites on the title; 8: painted since it has released the others
 
@@ -87,7 +89,7 @@ def rounds(presses: int, each: int = 12, seed: int = 1) -> Iterator[Usage]:
     `each`: presses on a screen, or on those to which they lead. PIGAMING_HOME is a folder of its own. As in the arcade,
     one title and one context are there all the time, and what pages leave is released by the title alone.
     """
-    chance, made = random.Random(seed), 0
+    chance, made, threads = random.Random(seed), 0, 0
     canvas = Canvas.open(Settings(fullscreen=False), headless=True)
     arcade = Arcade(Controls(canvas.to_canvas))
     context, title = arcade.context, Title(arcade.context)
@@ -111,7 +113,12 @@ def rounds(presses: int, each: int = 12, seed: int = 1) -> Iterator[Usage]:
                         made += 1
                         press(arcade, chance, title)
             arcade.wait(2 * REST, draw=True)
-            yield usage(made)
+            end = time.monotonic() + WORK
+            while threads and threading.active_count() > threads and time.monotonic() < end:
+                time.sleep(0.1)
+            found = usage(made)
+            threads = threads or found.threads
+            yield found
     finally:
         background.close()
 
