@@ -153,6 +153,7 @@ def test_xbees_keep_every_promise(name: str) -> None:
 
 
 @pytest.mark.long
+@pytest.mark.again  # minutes; their stops are in test_microbit.py, test_boards.py, test_wifi.py
 @pytest.mark.usefixtures("micropython")
 @pytest.mark.parametrize("name", ["relay", "udp"])
 def test_boards_keep_every_promise(name: str) -> None:
