@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -48,6 +48,7 @@ class Desktop:
 
     def open(self) -> None:
         self.start("openbox")
+        self.wait_until(lambda: self.tool("get_num_desktops") not in ("", "0"), "no window manager")
         self.start(sys.executable, "-c", OTHER)
         self.wait_for("Other")
 
@@ -67,9 +68,12 @@ class Desktop:
         return self.tool("getactivewindow", "getwindowname")
 
     def wait_for(self, title: str) -> None:
+        self.wait_until(lambda: self.active == title, f"{title} is not in front")
+
+    def wait_until(self, holds: Callable[[], bool], otherwise: str) -> None:
         end = time.monotonic() + PATIENCE
-        while self.active != title:
-            assert time.monotonic() < end, f"{title} is not in front, but {self.active!r}"
+        while not holds():
+            assert time.monotonic() < end, f"{otherwise}; in front: {self.active!r}"
             time.sleep(0.2)
 
     def press(self, *keys: str) -> None:
