@@ -66,8 +66,10 @@ class Seating:
 
 
 def seating(scenes: Sequence[Scene]) -> Seating:
-    """The seats of the scenes on the stack."""
-    seated = next((scene for scene in reversed(scenes) if isinstance(scene, Seated)), None)
+    """The seats of the scenes on the stack: of a match or its results, whatever page is over it."""
+    with_seats = [scene for scene in reversed(scenes) if isinstance(scene, Seated)]
+    of_match = next((scene for scene in with_seats if isinstance(scene, Driven | Ended)), None)
+    seated = of_match or next(iter(with_seats), None)
     if seated is None:
         return Seating()
     devices = tuple(seated.access.devices())

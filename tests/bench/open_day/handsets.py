@@ -5,12 +5,13 @@ import threading
 from contextlib import suppress
 from typing import Any
 
-from aiohttp import ClientError, ClientSession, ClientTimeout, ClientWebSocketResponse, WSMsgType
+from aiohttp import ClientError, ClientSession, ClientTimeout, ClientWebSocketResponse, TCPConnector, WSMsgType
 
 from pigaming_app.ui.input.phone_messages import ITS_TURN, VERSION, Touches, Wish, WishKind, pack, pack_wish
 
 BEAT = 0.15  # s between two messages of a phone that is not touched
 RETRY = 0.1  # s until the next attempt to connect
+ADDRESSES = "127.0.0.2", "127.0.0.3"  # of the phones: those of one address never take all places
 
 
 class Handset:
@@ -108,27 +109,31 @@ class Handsets:
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, name="handsets", daemon=True)
         self._thread.start()
-        self._session: ClientSession = asyncio.run_coroutine_threadsafe(_session(), self._loop).result(10.0)
+        self._sessions = asyncio.run_coroutine_threadsafe(_sessions(), self._loop).result(10.0)
 
-    def new(self, url: str, token: str = "") -> Handset:
-        """A phone that scans this code, or returns with its token."""
-        return Handset(self._loop, self._session, url, token)
+    def new(self, url: str, token: str = "", owner: int = 0) -> Handset:
+        """A phone that scans this code, or returns with its token. `owner`: a number that selects its address."""
+        return Handset(self._loop, self._sessions[owner % len(self._sessions)], url, token)
 
     def close(self) -> None:
         """End all phones."""
-        asyncio.run_coroutine_threadsafe(_end(self._session), self._loop).result(10.0)
+        asyncio.run_coroutine_threadsafe(_end(self._sessions), self._loop).result(10.0)
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join(10.0)
         self._loop.close()
 
 
-async def _session() -> ClientSession:
-    return ClientSession(timeout=ClientTimeout(total=None, connect=3.0))
+async def _sessions() -> list[ClientSession]:
+    return [
+        ClientSession(connector=TCPConnector(local_addr=(address, 0)), timeout=ClientTimeout(total=None, connect=3.0))
+        for address in ADDRESSES
+    ]
 
 
-async def _end(session: ClientSession) -> None:
+async def _end(sessions: list[ClientSession]) -> None:
     phones = asyncio.all_tasks() - {asyncio.current_task()}
     for task in phones:
         task.cancel()
     await asyncio.gather(*phones, return_exceptions=True)
-    await session.close()
+    for session in sessions:
+        await session.close()

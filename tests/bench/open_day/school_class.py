@@ -24,6 +24,7 @@ class SchoolClass:
         self.named: set[int] = set()
         self.waiting: dict[int, tuple[float, int, int]] = {}  # by visitor: since s, matches before it, fair share
         self.begun = 0  # matches
+        self._reported: set[int] = set()
         self.match: MatchScene | None = None  # on the stack
 
     @property
@@ -32,8 +33,9 @@ class SchoolClass:
         absent = [one for one in self.hall if one.visitor.number not in self.stage.watch.seated]
         if absent and self.stage.matches < MOST * -(-len(self.hall) // PLACES):
             return False
-        for player in absent:
-            self.stage.watch.trouble(f"visitor {player.visitor.number} of a class has had no turn")
+        for number in {player.visitor.number for player in absent} - self._reported:
+            self._reported.add(number)
+            self.stage.watch.trouble(f"visitor {number} of a class has had no turn")
         return True
 
     def visitors(self, match: MatchScene) -> list[int]:

@@ -7,6 +7,7 @@ import pytest
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.link import RESULT_SECONDS, PhoneLink
+from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.reconnect import TIMEOUT, Reconnect
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import Results
@@ -125,6 +126,27 @@ def test_pads_in_the_lobby_leave_fewer_places(crowd: Crowd) -> None:
     crowd.frame()
     crowd.frame()
     assert crowd.acting == [0, 1, 2]
+
+
+@pytest.mark.parametrize("page", ["", "phones", "controls"])
+def test_a_pause_takes_no_seat_from_those_who_play(crowd: Crowd, page: str) -> None:
+    six = [crowd.scan() for _ in range(6)]
+    match = crowd.match(*six[:4])
+    crowd.tap(six[0], Button.START)
+    pause = crowd.arcade.stack.top
+    assert isinstance(pause, Pause)
+    if page:
+        pause.focus.move_to(page)
+        crowd.tap(six[0])
+        assert crowd.arcade.stack.top is not pause
+    crowd.wait(2 * TURN_SECONDS)
+    assert crowd.acting == [0, 1, 2, 3]
+    assert not any(guest.played for guest in crowd.roster.guests())
+    for _ in range(2 if page else 1):
+        crowd.tap(six[0], Button.BACK)
+    assert crowd.arcade.stack.top is match
+    crowd.wait(1)
+    assert match.devices == six[:4]
 
 
 def test_those_who_wait_see_the_match_and_play_the_next_one(crowd: Crowd) -> None:
