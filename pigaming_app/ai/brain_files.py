@@ -25,9 +25,9 @@ def is_path(name: str) -> bool:
 
 
 def display_name(name: str) -> str:
-    """Name of a brain for screens and tables: of a path the file's, without suffix, and shortened."""
+    """Name of a brain for screens and tables: of a path the file's, without suffix, and shortened; without `bot:`."""
     if not is_path(name):
-        return name
+        return name.rpartition(":")[2]
     stem = stem_of(name)
     return stem if len(stem) <= SHOWN else f"{stem[: SHOWN - 1]}…"
 

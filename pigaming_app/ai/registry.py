@@ -29,8 +29,8 @@ BRAINS: Mapping[str, Mapping[str, BrainKind]] = {game: ai.brains for game, ai in
 
 
 def every_brain(game: str) -> Mapping[str, BrainKind]:
-    """The brains of a game by name, those of Auto and of people among them; none of an unknown game."""
-    return {**BRAINS.get(game, {}), **_auto(game), **_people(game)}
+    """The brains of a game by name, those of Auto, of people and bots among them; none of an unknown game."""
+    return {**BRAINS.get(game, {}), **_auto(game), **_people(game), **_bots(game)}
 
 
 @cache
@@ -43,6 +43,12 @@ def _auto(game: str) -> Mapping[str, BrainKind]:
 def _people(game: str) -> Mapping[str, BrainKind]:
     models = optional("ai.people.models")
     return models.people(AIS[game]) if models and game in AIS else {}
+
+
+def _bots(game: str) -> Mapping[str, BrainKind]:
+    """Those of this computer now: they come and go while a program runs."""
+    programs = optional("ai.bots.brains")
+    return programs.bots(game, AIS[game]) if programs and game in AIS else {}
 
 
 def is_brain(game: str, name: str) -> bool:

@@ -32,12 +32,12 @@ OPTIONAL |= {"bundle": {"train", "hardware", "phones", "events"}}
 EXTRA_OF_WORD = {  # words that require an extra anywhere on the command line
     **dict.fromkeys(("robots", "calibrate", "fidelity", "ros", "--emulate", "--real"), "hardware"),
     **dict.fromkeys(("--curve", "--plots"), "plots"),
-    **dict.fromkeys(("phones", "--phones", "desk"), "phones"),
+    **dict.fromkeys(("phones", "--phones", "desk", "bots"), "phones"),
     "--poster": "events",
     "--certificates": "events",
     **dict.fromkeys(("--ray", "--long"), "ray"),  # the long proofs train on several machines
 }
-EXTRA_OF_FILE = {".onnx": "onnx"}  # suffixes of files that require an extra, wherever one is named
+EXTRA_OF_FILE = {".onnx": "onnx", "bot:": "phones"}  # parts of names of AIs that require an extra
 HANDED_OVER = "pigaming"  # python -X pigaming: main.py skips boot
 
 

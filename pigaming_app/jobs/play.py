@@ -84,7 +84,7 @@ def _play(options: PlayOptions) -> int:
     wanted = options.goal(options.game)
     chosen = options.mat_settings()
     seats = [seat.strip() for seat in options.seats.split(",")]
-    require_for_brains(seats)
+    require_for_brains(seats, play=options.headless)
     names = known_brains(options.game, seats)
     rounds = _rounds(options)
     arena, seed, variant = options.arena, options.seed, options.variant

@@ -121,6 +121,8 @@ class Settings:
     phones_teams: bool = False  # a lobby begins with two teams
     phones_wifi: Annotated[str, PRINTABLE, Meta(max_length=32)] = ""  # name of the Wi-Fi for a code of its own
     phones_wifi_key: Annotated[str, PRINTABLE, Meta(max_length=63)] = ""  # its password; empty: an open network
+    bots: bool = False  # programs may watch matches and play, on the network of the phones
+    bots_vision: bool = False  # poses are sent as in RoboCup's Small Size League
     desk: bool = False  # pages of the running event for browsers, on the network of the phones
     attract_seconds: Annotated[float, between(5.0, 3600.0)] = 60.0  # without input
     corners: Annotated[list[Annotated[int, Meta(gt=-10_000, lt=10_000)]], none_or_eight] = field(

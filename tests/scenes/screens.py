@@ -11,6 +11,7 @@ from typing import Any
 import pygame
 import pytest
 
+from pigaming_app.ai.bots import brains
 from pigaming_app.ai.game_ai import ONE_BUTTON, POINT
 from pigaming_app.ai.registry import AIS
 from pigaming_app.events.journal import Paused, Summoned
@@ -23,6 +24,7 @@ from pigaming_app.games.game import Outcome, Row
 from pigaming_app.games.registry import games
 from pigaming_app.games.replay import Replay
 from pigaming_app.hardware.scan.things import ThingKind
+from pigaming_app.scenes.bots.page import BotsPage
 from pigaming_app.scenes.controls.controls_test import ControlsTest
 from pigaming_app.scenes.controls.remap_page import RemapPage
 from pigaming_app.scenes.editor import store
@@ -469,6 +471,15 @@ def phones_page(arcade: Arcade, trouble: str = "") -> Scene:
     return page
 
 
+def programs(arcade: Arcade, focus: str) -> Scene:
+    """The page of programs, of which there are some; one name is as long as it may be."""
+    for name in ("ada", "mmmmmmmmmmmm"):
+        brains.book().add(name)
+    page = BotsPage(arcade.context)
+    page.focus.move_to(focus)
+    return page
+
+
 def consent(arcade: Arcade, ages: Sequence[int]) -> Scene:
     """Keyboards on as many seats, with these age bands; all but the last have agreed."""
     page = ConsentPage(arcade.context, "factory")
@@ -682,6 +693,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "join by phone, crowded": lambda arcade: join_by_phone(crowded(arcade)),
     "options of phones, crowded": lambda arcade: phones_page(crowded(arcade)),
     "all phones": phone_list,
+    **{f"programs, {row}": partial(programs, focus=row) for row in ("enabled", "mmmmmmmmmmmm")},
     "Wi-Fi password": lambda arcade: PhonesPage(crowded(arcade).context)._typing("wifi_key"),
     **{f"join by phone, {key}": partial(join_by_phone, trouble=key) for key in ("missing", "network_gone")},
     **{f"options of phones, {key}": partial(phones_page, trouble=key) for key in ("port_taken", "port_forbidden")},

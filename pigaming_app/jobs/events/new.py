@@ -81,7 +81,7 @@ def run(options: NewEventOptions) -> int:
         raise Refusal(f"{options.file}: exists already; event run continues it")
     with refused(ChoiceError, ArenaError, ValueError):
         spec = _spec(options)
-        require_for_brains(entrant.brain for entrant in spec.entrants)
+        require_for_brains((entrant.brain for entrant in spec.entrants), play=False)
         event = Event(spec)
         _ = event.progress  # checks the spec
         check_playable(spec, find_brain)
@@ -164,7 +164,7 @@ def _notes(found: EntrantList, by_class: bool) -> Iterator[str]:
 
 def require_brain(brain: str, played: Sequence[str]) -> None:
     """Raises ChoiceError unless an AI plays all games, or Refusal if what runs it is missing."""
-    require_for_brains([brain])
+    require_for_brains([brain], play=False)
     for game in played:
         find_brain(game, brain)
 

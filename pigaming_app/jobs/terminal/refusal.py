@@ -10,6 +10,7 @@ from typing import Any
 from pigaming_app import FROZEN, INSTALLED
 from pigaming_app.links import installing
 from pigaming_app.storage.messages import OperatorError
+from pigaming_app.storage.optional import optional
 from pigaming_app.ui.i18n import english
 
 EXTRAS = {  # a module, and the package's name
@@ -87,10 +88,18 @@ def missing(extra: str) -> str:
     return "" if find_spec(module) else f"{name} is missing (extra `{extra}`): {remedy(extra)}"
 
 
-def require_for_brains(names: Iterable[str]) -> None:
-    """Raises Refusal where a brain is an ONNX model and the extra that runs it is not installed."""
-    if any(name.lower().endswith(".onnx") for name in names):
+def require_for_brains(names: Iterable[str], play: bool = True) -> None:
+    """Raises Refusal where a brain is an ONNX model and the extra that runs it is not installed.
+
+    `play`: without a window; then bots have to connect, which is waited for.
+    """
+    asked = list(names)
+    if any(name.lower().endswith(".onnx") for name in asked):
         require("onnx")
+    bots = [name for name in asked if name.startswith("bot:")]
+    programs = optional("jobs.bots.connect") if bots else None
+    if programs:
+        (programs.connect if play else programs.require_open)(bots)
 
 
 def remedy(extra: str) -> str:

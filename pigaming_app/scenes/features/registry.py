@@ -21,7 +21,7 @@ if TYPE_CHECKING:  # the title does not wait for these
 
 NAMES = (
     *("attract", "brain", "controls", "howto", "ladder", "events"),
-    *("lab", "editor", "replays", "phones", "kiosk", "mat", "playtest"),
+    *("lab", "editor", "replays", "phones", "bots", "kiosk", "mat", "playtest"),
 )
 
 log = logging.getLogger("pigaming")

@@ -5,6 +5,7 @@ from pigaming_app.ai.brain.effort import AUTO
 from pigaming_app.ai.brain_files import display_name
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.registry import AIS, level_of
+from pigaming_app.storage.optional import optional
 from pigaming_app.ui.draw.theme import STARS
 from pigaming_app.ui.i18n import Words
 
@@ -12,8 +13,10 @@ LIT, UNLIT = STARS[0], STARS[1]
 
 
 def rivals(game: str) -> tuple[str, ...]:
-    """What the lobby of a game offers as AIs, in the order in which it steps through them."""
-    return (NAME, *AIS[game].rivals) if AIS[game].auto else AIS[game].rivals
+    """What the lobby of a game offers as AIs, in the order in which it steps through them; last what is connected."""
+    own = (NAME, *AIS[game].rivals) if AIS[game].auto else AIS[game].rivals
+    programs = optional("ai.bots.brains")
+    return (*own, *programs.connected()) if programs else own
 
 
 def lit_stars(brain: str) -> str:

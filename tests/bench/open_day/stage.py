@@ -171,7 +171,9 @@ class Stage:
         """The visitor's phone, which returns with the token that it had."""
         host, token = self.app.context.shared(phone_host), self.tokens.get(visitor.number, "")
         self.watch.count("phones that return" if token else "phones")
-        return PhoneHands(self.handsets.new(host.url, token, visitor.number), self.app.context.controls.phones, self._number)
+        return PhoneHands(
+            self.handsets.new(host.url, token, visitor.number), self.app.context.controls.phones, self._number
+        )
 
     def _number(self, token: str) -> int | None:
         """The arcade's number of the phone with a token."""

@@ -56,6 +56,7 @@ OPERATORS = {
     "marker sheet": Right.ROBOTS,
     "options of phones": Right.SETTINGS,
     "all phones": Right.SETTINGS,
+    "programs": Right.SETTINGS,
     "added games": Right.SETTINGS,
     "play test": Right.SETTINGS,
     "new game": Right.SETTINGS,

@@ -1,0 +1,137 @@
+"""The server for programs while the operator has it on, and the stream of the match that is on the screen."""
+
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
+
+from pigaming_app.ai.bots import view
+from pigaming_app.ai.bots.line import FIELD, next_match
+from pigaming_app.ai.bots.session import BotSession
+from pigaming_app.games.match import Match
+from pigaming_app.scenes.bots.vision import VisionSender
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.ui.web.network import ServerUnavailable, chosen, networks
+
+if TYPE_CHECKING:
+    from pigaming_app.ui.web.sockets import SocketServer
+
+PORT = 8789  # TCP; 8787 and 8788 are those of phones and of the desk
+RATE = 500  # four seats, 50 times a second, and as much again
+CHECK_SECONDS = 3.0  # between two attempts to start
+
+
+@runtime_checkable
+class Running(Protocol):
+    """A scene with a match."""
+
+    match: Match
+
+
+class BotHost:
+    """`trouble`: why no program can connect, or None; `rate`: texts in a second that a program may send."""
+
+    def __init__(self, rate: int = RATE) -> None:
+        self._rate = rate
+        self.server: SocketServer | None = None
+        self.trouble: ServerUnavailable | None = None
+        self.sessions: set[BotSession] = set()
+        self._asked: tuple[str, int] | None = None
+        self._vision: VisionSender | None = None
+        self._tried_at = -CHECK_SECONDS
+        self._match: Match | None = None  # that observers know
+        self._number, self._tick, self._standing = 0, -1, tuple[int, ...]()
+
+    @property
+    def url(self) -> str:
+        """The address for programs; empty if none can connect."""
+        return self.server.url if self.server else ""
+
+    def switch(self, on: bool, network: str, port: int = PORT) -> None:
+        """Listen on a network, as long as it is `on`; a start that fails is repeated."""
+        asked = (network, port) if on else None
+        if asked != self._asked:
+            self.close()
+            self._asked, self._tried_at = asked, -CHECK_SECONDS
+        if asked and self.server is None and time.monotonic() - self._tried_at >= CHECK_SECONDS:
+            self._start(*asked)
+
+    def switch_vision(self, on: bool, network: str) -> None:
+        """Send the league's packets on a network, as long as it is `on`."""
+        if on == bool(self._vision):
+            return
+        if self._vision:
+            self._vision.close()
+            self._vision = None
+            return
+        with suppress(ServerUnavailable, OSError):  # no network: it is tried again
+            self._vision = VisionSender(chosen(network, networks()).address)
+
+    def close(self) -> None:
+        """End all connections."""
+        if self.server:
+            self.server.stop()
+        self.server = self.trouble = self._asked = None
+        self.sessions.clear()
+
+    def show(self, scenes: Sequence[Scene]) -> None:
+        """Send the match on the screen to those who observe, once a tick."""
+        match = next((scene.match for scene in reversed(scenes) if isinstance(scene, Running)), None)
+        observers = [session for session in [*self.sessions] if not session.name]
+        if match is None or not (observers or self._vision):
+            self._match = match if observers or self._vision else None
+            return
+        state, standing = match.state, view.standing(match.state)
+        new = [session for session in observers if session.match != id(match)]
+        if match is not self._match:
+            self._match, self._number, self._tick, self._standing = match, next_match(), -1, standing
+        for session in new:
+            session.match = id(match)
+            session.send(view.text(self._begin(match)))
+        if standing != self._standing:
+            self._standing = standing
+            self._tell(observers, {"type": "layout", **view.layout(state)})
+        if state.tick != self._tick:
+            self._tick = state.tick
+            self._tell(observers, {"type": "tick", **view.shown(state)})
+            if self._vision:
+                now = time.time()
+                self._vision.send(state, now, now)
+
+    def _tell(self, observers: Sequence[BotSession], message: dict[str, Any]) -> None:
+        text = view.text({**message, "match": self._number}) if observers else ""
+        for session in observers:
+            session.send(text)
+
+    def _begin(self, match: Match) -> dict[str, Any]:
+        setup = match.setup
+        seats = [{"brain": seat.brain, "team": seat.team} for seat in setup.seats]
+        told = {"type": "begin", "match": self._number, "game": setup.game, "variant": setup.variant}
+        told |= {"arena": setup.arena, "minutes": setup.minutes, "seats": seats, "rules": view.rules(match.state)}
+        return {**told, **FIELD, **view.layout(match.state)}
+
+    def _start(self, network: str, port: int) -> None:
+        self._tried_at = time.monotonic()
+        try:
+            if not all(find_spec(module) for module in ("aiohttp", "ifaddr")):
+                raise ServerUnavailable("missing")
+            from pigaming_app.ui.web.sockets import SocketServer
+
+            address = chosen(network, networks()).address
+            server = SocketServer("bots", address, port, self._opened, self._rate)
+            server.start()
+            self.server, self.trouble = server, None
+        except ServerUnavailable as trouble:
+            self.trouble = trouble
+
+    def _opened(self, send: Any, close: Any) -> BotSession:
+        session = BotSession(send, close, self.sessions.discard)
+        self.sessions.add(session)
+        return session
+
+
+def bot_host(context: Context) -> BotHost:
+    """The server of a context, made at first use: `context.shared(bot_host)`."""
+    return BotHost()
