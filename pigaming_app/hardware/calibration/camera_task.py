@@ -19,6 +19,8 @@ from pigaming_app.hardware.calibration.ground_plane import CalibrationError, Gro
 from pigaming_app.hardware.calibration.quality import CameraQuality, assessed
 from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureKept, ExposureState, Image
+from pigaming_app.hardware.vision.camera import shown
+from pigaming_app.hardware.vision.discovery import CameraId
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector, OpenCVMissing, opencv
 from pigaming_app.hardware.vision.sharpness import blur_of, overexposed
 from pigaming_app.storage.messages import OperatorMessage
@@ -43,13 +45,13 @@ class CameraTask:
     A thread carries out the steps until shortly after `close`; in simulated time the owner of the clock calls `pump`.
     """
 
-    users: ClassVar[dict[tuple[str, int], "CameraTask"]] = {}  # the last user of each camera, by site name and number
+    users: ClassVar[dict[tuple[str, CameraId], "CameraTask"]] = {}  # the last one of each camera of each site
 
     locks = True  # lock the exposure: for measurements, not for a preview
     fresh = False  # settle the exposure again; else it stays as set by the calibration, which matches need
     patience = BLIND  # s without a picture, after which it gives up
 
-    def __init__(self, site: CalibrationSite, number: int) -> None:
+    def __init__(self, site: CalibrationSite, number: CameraId) -> None:
         self.site, self.number = site, number
         self.fault: OperatorMessage | None = None
         self.small: Image | None = None  # the newest picture, scaled for the preview
@@ -118,7 +120,7 @@ class CameraTask:
     def give_up(self, fault: OperatorMessage) -> None:
         """Set `fault`; it is logged once."""
         if fault != self.fault and fault.key != "yet":
-            log.warning("camera %d: %s", self.number, fault)
+            log.warning("camera %s: %s", shown(self.number), fault)
         self.fault = fault
 
     def end(self) -> None:
@@ -146,7 +148,7 @@ class CameraPreview(CameraTask):
     locks = False
     patience = 1.0
 
-    def __init__(self, site: CalibrationSite, number: int) -> None:
+    def __init__(self, site: CalibrationSite, number: CameraId) -> None:
         super().__init__(site, number)
         self.size = (0, 0)
         self.rate = 0.0
@@ -172,7 +174,7 @@ class DriftCheck(CameraTask):
     """
 
     def __init__(
-        self, site: CalibrationSite, number: int, load: Callable[[tuple[int, int] | None], GroundPlane]
+        self, site: CalibrationSite, number: CameraId, load: Callable[[tuple[int, int] | None], GroundPlane]
     ) -> None:
         super().__init__(site, number)
         self.drift: DriftMonitor | None = None

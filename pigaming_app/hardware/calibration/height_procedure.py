@@ -14,6 +14,7 @@ from pigaming_app.hardware.calibration.ground_plane import CalibrationError, Gro
 from pigaming_app.hardware.calibration.procedure import LIT
 from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.signals import CameraFrame, DetectedMarker
+from pigaming_app.hardware.vision.discovery import CameraId
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector
 from pigaming_app.storage.messages import OperatorMessage
 
@@ -31,7 +32,7 @@ class HeightProcedure(CameraTask):
     marker: if it is far from the true size, the mat was measured wrongly.
     """
 
-    def __init__(self, site: CalibrationSite, number: int, ground: GroundPlane) -> None:
+    def __init__(self, site: CalibrationSite, number: CameraId, ground: GroundPlane) -> None:
         super().__init__(site, number)
         self.ground = ground
         self.found: GroundPlane | None = None

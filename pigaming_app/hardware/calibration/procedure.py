@@ -15,6 +15,7 @@ from pigaming_app.hardware.calibration.quality import assessed
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.calibration.solver import Residuals, solve, verify, with_verification
 from pigaming_app.hardware.signals import CameraFrame
+from pigaming_app.hardware.vision.discovery import CameraId
 from pigaming_app.storage.messages import OperatorMessage
 
 QUEUED = 5  # outdated pictures in a driver's queue
@@ -30,7 +31,7 @@ class Calibration(CameraTask):
 
     fresh = True  # the boards are about the brightest pictures, so exposure settles on them
 
-    def __init__(self, site: CalibrationSite, number: int, measures: Measurements, display: str) -> None:
+    def __init__(self, site: CalibrationSite, number: CameraId, measures: Measurements, display: str) -> None:
         super().__init__(site, number)
         self.measures, self.display = measures, display
         self.board: CalibrationBoard | None = BOARD  # to project; HELD_OUT to verify; None: done, or failed

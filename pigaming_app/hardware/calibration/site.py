@@ -8,7 +8,7 @@ from math import inf
 from pigaming_app.hardware.calibration.ground_plane import LID
 from pigaming_app.hardware.signals import CameraSource, Clock, ExposureKept
 from pigaming_app.hardware.vision.camera import SETTLE, Camera
-from pigaming_app.hardware.vision.discovery import CameraInfo, cameras
+from pigaming_app.hardware.vision.discovery import CameraId, CameraInfo, cameras
 
 SETTLED = 2.6  # s after which a real camera has locked its exposure
 
@@ -38,7 +38,7 @@ class CalibrationSite:
         raise NotImplementedError
 
     def open(
-        self, number: int, locks: bool = True, fresh: bool = False, kept: ExposureKept | None = None
+        self, number: CameraId, locks: bool = True, fresh: bool = False, kept: ExposureKept | None = None
     ) -> CameraSource:
         """Open a camera. Raises OpenCVMissing.
 
@@ -69,6 +69,6 @@ class RealCalibrationSite(CalibrationSite):
         return cameras()
 
     def open(
-        self, number: int, locks: bool = True, fresh: bool = False, kept: ExposureKept | None = None
+        self, number: CameraId, locks: bool = True, fresh: bool = False, kept: ExposureKept | None = None
     ) -> CameraSource:
         return Camera(number, self.clock, self._open_capture, SETTLE if locks else inf, fresh, kept)

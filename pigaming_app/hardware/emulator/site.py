@@ -14,7 +14,7 @@ from pigaming_app.hardware.emulator.arena import ARENA_AT, EmulatedArena
 from pigaming_app.hardware.emulator.camera import CameraDriver, CameraTraits, FrameTiming
 from pigaming_app.hardware.emulator.realtime import RealtimeArena
 from pigaming_app.hardware.signals import CameraFrame, ExposureKept, ExposureState
-from pigaming_app.hardware.vision.discovery import CameraInfo
+from pigaming_app.hardware.vision.discovery import CameraId, CameraInfo
 from pigaming_app.hardware.vision.exposure import ExposureControl
 from pigaming_app.hardware.vision.markers import opencv
 
@@ -77,7 +77,7 @@ class EmulatedCalibrationSite(CalibrationSite):
         return [CameraInfo(0, "emulated")]
 
     def open(
-        self, number: int, locks: bool = True, fresh: bool = False, kept: ExposureKept | None = None
+        self, number: CameraId, locks: bool = True, fresh: bool = False, kept: ExposureKept | None = None
     ) -> EmulatedCameraSource:
         return EmulatedCameraSource(self.arena, LOCKED if locks else inf, fresh, kept)
 

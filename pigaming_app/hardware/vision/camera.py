@@ -11,7 +11,8 @@ from collections.abc import Callable
 from typing import Any, Self
 
 from pigaming_app.hardware.signals import CameraFrame, Clock, ExposureKept, ExposureState, Image
-from pigaming_app.hardware.vision.discovery import unavailable_reason
+from pigaming_app.hardware.vision import stream
+from pigaming_app.hardware.vision.discovery import CameraId, unavailable_reason
 from pigaming_app.hardware.vision.exposure import ExposureControl
 from pigaming_app.hardware.vision.markers import opencv
 from pigaming_app.storage.messages import OperatorMessage
@@ -26,14 +27,14 @@ PATIENCE = 0.8  # s for which `close` waits for a hanging driver
 
 
 class Camera:
-    """The camera with this device number; a context manager. `fault` is its present fault, or None.
+    """The camera with this device number, or at this address; a context manager. `fault`: its present one, or None.
 
     `open_capture` returns a `cv2.VideoCapture` for a number. Raises OpenCVMissing.
     """
 
     def __init__(
         self,
-        number: int,
+        number: CameraId,
         clock: Clock = time.monotonic,
         open_capture: Callable[[int], Any] | None = None,
         settle: float = SETTLE,
@@ -44,14 +45,14 @@ class Camera:
         self.number, self.clock, self.settle = number, clock, settle
         self.fresh = fresh  # restart automatic exposure etc. and choose anew, else keep what a calibration locked
         self.kept = kept  # exposure of a calibration
-        self.fault: OperatorMessage | None = OperatorMessage("yet", number=number)
+        self.fault: OperatorMessage | None = OperatorMessage("yet", number=shown(number))
         self.exposure = ExposureState()
         self._open_capture = open_capture or self._cv.VideoCapture
         self._newest: CameraFrame | None = None
         self._count = 0
         self._lock = threading.Lock()
         self._closing = threading.Event()
-        self._thread = threading.Thread(target=self._run, name=f"camera {number}", daemon=True)
+        self._thread = threading.Thread(target=self._run, name=f"camera {shown(number)}", daemon=True)
         self._thread.start()
 
     def __enter__(self) -> Self:
@@ -83,9 +84,13 @@ class Camera:
 
     def _opened(self) -> Any:
         try:
-            capture = self._open_capture(self.number)
+            if isinstance(self.number, str):
+                capture = stream.opened(self._cv, self.number)
+            else:
+                capture = self._open_capture(self.number)
             if capture.isOpened():
-                self._configure(capture)
+                if isinstance(self.number, int):
+                    self._configure(capture)
                 return capture
             capture.release()
         except (self._cv.error, OSError):
@@ -116,18 +121,29 @@ class Camera:
                 control.observe(self._store(capture, picture), now)
                 self.exposure = control.state
             elif now - last > STALE:
-                self.fault = OperatorMessage("stopped", number=self.number)
+                self.fault = self._silent()
                 return
             else:
                 self._closing.wait(0.005)
+
+    def _silent(self) -> OperatorMessage:
+        if isinstance(self.number, str):
+            return unavailable_reason(self.number)
+        return OperatorMessage("stopped", number=self.number)
 
     def _store(self, capture: Any, picture: Any) -> Image:
         """Store a picture as the newest frame; returns it in grey."""
         grey: Image = picture if picture.ndim == 2 else self._cv.cvtColor(picture, self._cv.COLOR_BGR2GRAY)
         now = self.clock()
         stamp = float(capture.get(self._cv.CAP_PROP_POS_MSEC)) / 1000.0  # V4L2: same clock as time.monotonic
-        captured = stamp if 0.0 < now - stamp < PLAUSIBLE else now - ASSUMED
+        plausible = isinstance(self.number, int) and 0.0 < now - stamp < PLAUSIBLE  # streams have clocks of their own
+        captured = stamp if plausible else now - ASSUMED
         with self._lock:
             self._count += 1
             self._newest, self.fault = CameraFrame(grey, captured, self._count), None
         return grey
+
+
+def shown(number: CameraId) -> CameraId:
+    """A camera in messages: its number, or the host of its stream."""
+    return stream.host_of(number) if isinstance(number, str) else number

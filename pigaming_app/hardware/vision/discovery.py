@@ -6,16 +6,20 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
+from pigaming_app.hardware.vision.stream import host_of
 from pigaming_app.storage.messages import OperatorMessage
 
 DEVICES = Path("/sys/class/video4linux")
 NODES = Path("/dev")
 
 
+CameraId = int | str  # its number, or the address of its stream
+
+
 class CameraInfo(NamedTuple):
     """A camera known to the operating system."""
 
-    number: int
+    number: CameraId
     name: str
 
 
@@ -31,8 +35,10 @@ def cameras() -> list[CameraInfo]:
     return sorted(connected)
 
 
-def unavailable_reason(number: int) -> OperatorMessage:
+def unavailable_reason(number: CameraId) -> OperatorMessage:
     """Operator message for a camera that could not be opened."""
+    if isinstance(number, str):
+        return OperatorMessage("no_stream", host=host_of(number))
     if not sys.platform.startswith("linux"):
         return OperatorMessage("unusable", number=number)
     node = NODES / f"video{number}"

@@ -35,7 +35,7 @@ def emulated_session(seed: int, wifi: bool = False) -> RobotSession:
     return session
 
 
-def real_session(camera: int | None = None, port: str | None = None, radio: str | None = None) -> RobotSession:
+def real_session(camera: int | str | None = None, port: str | None = None, radio: str | None = None) -> RobotSession:
     """A session with the robots of the settings, not yet open; `camera`, `port` and `radio` override the settings."""
     settings, _ = Settings.load(folders().config)
     settings.camera = settings.camera if camera is None else camera
@@ -44,7 +44,9 @@ def real_session(camera: int | None = None, port: str | None = None, radio: str 
     return RealSession(settings)
 
 
-def new_session(emulate: int | None, camera: int | None, port: str | None, radio: str | None = None) -> RobotSession:
+def new_session(
+    emulate: int | None, camera: int | str | None, port: str | None, radio: str | None = None
+) -> RobotSession:
     """The emulated session of a seed, or the real one. Raises RobotsUnavailable."""
     if emulate is None:
         return real_session(camera, port, radio)

@@ -75,6 +75,11 @@ def hexadecimal(low: int, high: int) -> Callable[[str], int]:
     return parse
 
 
+def camera(text: str) -> int | str:
+    """The number of a camera, or the address of its stream, which the settings check."""
+    return word(text) if "://" in text else integer(0)(text)
+
+
 def path(text: str) -> Path:
     """A path that the system accepts."""
     if not text or "\0" in text:
@@ -255,7 +260,9 @@ class EmulateOption:
 class RigOptions(EmulateOption):
     """Camera and port of the robots."""
 
-    camera: int | None = option("camera above the mat, from 0", integer(0), metavar="NUMBER")
+    camera: int | str | None = option(
+        "camera above the mat, from 0, or the address of its stream", camera, metavar="CAMERA"
+    )
     port: str | None = option("serial port of the radio; empty: the first one", word)
 
     def mat_settings(self) -> dict[str, Any]:

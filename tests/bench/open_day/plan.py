@@ -4,6 +4,7 @@ import random
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from datetime import datetime
+from functools import cache
 from itertools import islice
 from math import inf
 
@@ -191,9 +192,14 @@ def crowd(rng: random.Random, count: int, phones: bool = False) -> list[Visitor]
 
 def initials_at(number: int) -> str:
     """The initials with this number: different ones, a few steps from AAA, so that they are entered in time."""
+    return _initials()[number]
+
+
+@cache
+def _initials() -> list[str]:
     near = (0, 1, 25, 2, 24, 3, 23, 4, 22, 5, 21)
     names = (LETTERS[a] + LETTERS[b] + LETTERS[c] for a in near for b in near for c in near if (a, b, c) != (0, 0, 0))
-    return [name for name in names if not is_rude(name)][number]
+    return [name for name in names if not is_rude(name)]
 
 
 def tasks(seconds: float, long: bool) -> list[Task]:

@@ -10,6 +10,7 @@ import pygame
 from pigaming_app.hardware.calibration.boards import LIGHT, CalibrationBoard
 from pigaming_app.hardware.calibration.procedure import Calibration
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
+from pigaming_app.hardware.vision.discovery import CameraId
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
@@ -29,7 +30,7 @@ class BoardsPage(Page):
     idle = math.inf
     hints = ()
 
-    def __init__(self, context: Context, site: CalibrationSite, number: int, measures: Measurements) -> None:
+    def __init__(self, context: Context, site: CalibrationSite, number: CameraId, measures: Measurements) -> None:
         super().__init__(context)
         self.site, self.number, self.measures = site, number, measures
         self.work = Calibration(site, number, measures, context.canvas.projection)

@@ -15,6 +15,7 @@ from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.calibration.solver import MAX_MM, MEAN_MM, Residuals
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.signals import ExposureState, Image
+from pigaming_app.hardware.vision.discovery import CameraId
 from pigaming_app.hardware.vision.exposure import warning_of
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
@@ -47,7 +48,7 @@ class CalibrationResult:
     """Inputs and result of a calibration. `marker_mm`: measured size of a robot's marker, 0 if none was seen."""
 
     site: CalibrationSite
-    number: int  # of the camera
+    number: CameraId
     measures: Measurements
     ground: GroundPlane | None
     residuals: Residuals | None

@@ -12,12 +12,14 @@ from pigaming_app.hardware.calibration.quality import used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements, RealCalibrationSite
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
+from pigaming_app.hardware.vision.discovery import CameraId
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.mat.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.scenes.pages.settings_page import SettingsPage
+from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST
 from pigaming_app.ui.draw.layers import LitImage
@@ -29,10 +31,12 @@ from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-ROWS = ("display", "camera", "width", "lid", "by", "height", "begin")
+ROWS = ("display", "camera", "address", "width", "lid", "by", "height", "begin")
 LIMITS = {"width": (500, 10000), "lid": (0, 300), "height": (500, 10000)}  # mm
 REPEAT_STEPS = ((40, 100), (14, 10), (0, 1))  # step in mm after this many auto-repeats
 DEFAULT_HEIGHT = 2500  # mm, initial height
+MAX_STREAM = 200
+URL_LETTERS = "abcdefghijklmnopqrstuvwxyz0123456789.:/-_?=&@%"
 SCAN_PERIOD = 2.0  # s between two scans for cameras
 PICTURE = pygame.Rect(dials.PANEL.x + 20, dials.PANEL.y + 20, *SMALL)
 
@@ -54,9 +58,9 @@ class CalibrationPage(SettingsPage):
     table = "calibrate"
     idle, stay = 600.0, 5.0
 
-    def __init__(self, context: Context, site: CalibrationSite | None = None, camera: int | None = None) -> None:
+    def __init__(self, context: Context, site: CalibrationSite | None = None, camera: CameraId | None = None) -> None:
         self.context, self.site = context, site or site_of(context)
-        self.number = context.settings.camera if camera is None else camera
+        self.number: CameraId = context.settings.camera if camera is None else camera
         self.measures = self._initial_measures()
         self.preview: CameraPreview | None = None
         self.cameras = self.site.cameras()
@@ -71,7 +75,8 @@ class CalibrationPage(SettingsPage):
     def on_enter(self) -> None:
         """Open the camera, also when a calibration returns here."""
         self.cameras = self.site.cameras()
-        if self.site.name == "real" and self.cameras and self.number not in [camera.number for camera in self.cameras]:
+        known = [self.number if isinstance(self.number, str) else -1, *(camera.number for camera in self.cameras)]
+        if self.site.name == "real" and self.cameras and self.number not in known:
             self.number = self.cameras[0].number
         self._open_camera()
 
@@ -152,7 +157,9 @@ class CalibrationPage(SettingsPage):
     # ---- rows
 
     def _rows(self) -> tuple[str, ...]:
-        return ROWS if self.measures.height else tuple(name for name in ROWS if name != "height")
+        without = {"height"} if not self.measures.height else set()
+        without |= set() if self.site.name == "real" else {"address"}
+        return tuple(name for name in ROWS if name not in without)
 
     def value(self, name: str) -> SettingValue:
         words, measures, canvas = self.context.words, self.measures, self.context.canvas
@@ -163,12 +170,16 @@ class CalibrationPage(SettingsPage):
                 return SettingValue("arrows", (self._camera(),))
             case "by":
                 return SettingValue("toggle", (words("calibrate.ruler"), words("calibrate.robot")), not measures.height)
+            case "address":
+                return self.action("calibrate.type")
             case "begin":
                 return self.action("calibrate.start")
         return SettingValue("arrows", (words("calibrate.mm", mm=f"{getattr(self.measures, name):.0f}"),))
 
     def _camera(self) -> str:
         words = self.context.words
+        if isinstance(self.number, str):
+            return self.number
         if not self.cameras:
             return words("calibrate.no_cameras")
         name = next((camera.name for camera in self.cameras if camera.number == self.number), "")
@@ -233,14 +244,27 @@ class CalibrationPage(SettingsPage):
         self.preview.begin()
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
-        """Start the calibration, full screen."""
+        """Start the calibration, full screen, or type the address of a camera."""
         self.context.sounds.play("accept")
         self.on_leave()
+        if name == "address":
+            before = self.number if isinstance(self.number, str) else "http://"
+            return Push(TextPage(self.context, self.label(name), before, MAX_STREAM, self._choose, True, URL_LETTERS))
         canvas = self.context.canvas
         if self.site.name == "real" and not canvas.fullscreen and not canvas.headless:
             self._show(canvas.display, True)
         self.save()
         return Push(BoardsPage(self.context, self.site, self.number, self.measures))
+
+    def _choose(self, address: str) -> str:
+        """Use the camera at an address; the reason why not, if it is none."""
+        try:
+            self.context.settings.choose("camera", address)
+        except ValueError:
+            return self.context.words("calibrate.no_address")
+        self.number = address
+        self.save()
+        return ""
 
     def _initial_measures(self) -> Measurements:
         settings = self.context.settings

@@ -138,7 +138,7 @@ def test_results_among_things_are_no_records_and_a_rematch_keeps_the_things(simu
 
 
 @pytest.mark.long(first=True)
-@pytest.mark.parametrize(("game", "seconds"), repeated([("pitanks", 10.0), *((game, 60.0) for game in BOXES)]))
+@pytest.mark.parametrize(("game", "seconds"), repeated([("pitanks", 5.0), *((game, 60.0) for game in BOXES)]))
 def test_a_match_among_scanned_things_has_no_false_alarm_and_stops_when_one_is_pushed(
     arcade: Arcade, cleared: EmulatedSession, game: str, seconds: float
 ) -> None:
