@@ -31,6 +31,7 @@ ONLY_IN = {
     "pygame": {"ui", "scenes"},
     "cv2": {"hardware"},
     "serial": {"hardware"},
+    "mpremote": {"hardware"},
     "rospy": {"hardware"},
     "aiohttp": {"ui", "jobs"},
     "segno": {"ui"},
@@ -46,7 +47,7 @@ ONLY_IN = {
 }
 DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "msgspec", "networkx", "numba", "llvmlite"}
 DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk", "ray", "PIL"}
-DEPENDENCIES |= {"aiohttp", "segno", "ifaddr"}
+DEPENDENCIES |= {"aiohttp", "segno", "ifaddr", "mpremote"}
 ROS = {"rospy", "rosgraph", "geometry_msgs", "sensor_msgs", "std_msgs"}  # of the system, in one module
 DEPENDENCIES |= ROS
 FILES = [PACKAGE.parent / "main.py", *sorted(path for path in PACKAGE.rglob("*.py") if "micropython" not in path.parts)]

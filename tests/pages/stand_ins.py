@@ -86,6 +86,7 @@ WITHOUT_ROBOTS = ("arena", "microbit", "sheet", "wifi_config")  # but not with t
 
 MINUTES_LONG = "it takes minutes"
 ELSEWHERE = (
+    Elsewhere(r".*robots setup.*", "it needs a board on USB", "tests/jobs/mat/test_usb_setup.py"),
     Elsewhere(r"openscad .*", "it needs OpenSCAD", "tests/hardware/test_chassis.py"),
     Elsewhere(r"python examples/bots/.*", "it needs the arcade beside it", "tests/jobs/bots/test_bots.py"),
     Elsewhere(r".*bot:ada level1.*", "it waits for a program", "tests/jobs/bots/test_bots.py"),

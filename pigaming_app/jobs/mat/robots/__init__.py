@@ -1,6 +1,7 @@
 """Status of robots, radios and cameras; on request pairing (each robot spins in turn), latency, set-up of radios.
 
-`robots check DRIVER` tries every promise of a driver on its emulated robots.
+`robots check DRIVER` tries every promise of a driver on its emulated robots; `robots setup` makes the board on USB a
+robot.
 """
 
 import json
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
 from pigaming_app.hardware.robot_kinds import set_up_command
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, camera_warning
-from pigaming_app.jobs.mat.robots import conformance, radio_setup, wifi_setup
+from pigaming_app.jobs.mat.robots import conformance, radio_setup, usb_setup, wifi_setup
 from pigaming_app.jobs.mat.sessions import robots_of
 from pigaming_app.jobs.terminal.options import argument, flag
 from pigaming_app.jobs.terminal.refusal import Refusal, require, sentence
@@ -55,11 +56,15 @@ STATUS = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class RobotsOptions(wifi_setup.WifiSetupOptions, radio_setup.RadioSetupOptions):
+class RobotsOptions(wifi_setup.WifiSetupOptions, radio_setup.RadioSetupOptions, usb_setup.UsbSetupOptions):
     """What to do with the robots."""
 
     check: tuple[str, ...] = argument(
-        "the promises of a driver, such as udp, tried on emulated robots", default=(), nargs="*", metavar="check DRIVER"
+        "check and a driver, such as udp: its promises, tried on emulated robots; setup, and a port if there are "
+        "several: the board on USB becomes a robot",
+        default=(),
+        nargs="*",
+        metavar="check DRIVER | setup PORT",
     )
     pair: bool = flag("spin each robot in turn to find its marker")
     latency: bool = flag("wiggle each robot to measure the end-to-end latency")
@@ -67,6 +72,8 @@ class RobotsOptions(wifi_setup.WifiSetupOptions, radio_setup.RadioSetupOptions):
 
 def run(options: RobotsOptions) -> int:
     """Print the status. Raises Refusal."""
+    if options.check[:1] == ("setup",):
+        return usb_setup.set_up(options, options.check)
     if options.check:
         return conformance.check(options, options.check)
     options.mat_settings()

@@ -1,0 +1,153 @@
+"""A board with MicroPython on USB becomes a robot: its files are written, checked and put in place one by one.
+
+A cable that is pulled at any moment does no harm: a file gets its name only when it is complete, `main.py` last, and
+the next attempt writes what is missing. `mpremote` talks to the board.
+"""
+
+import hashlib
+import json
+import struct
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
+
+from pigaming_app.hardware.robot_kinds import PROGRAM, robot_config
+from pigaming_app.storage.messages import OperatorError, OperatorMessage
+
+try:
+    from termios import error as termios_error
+except ImportError:  # Windows
+    FAILURES: tuple[type[Exception], ...] = (OSError,)
+else:
+    FAILURES = (OSError, termios_error)  # pyserial's SerialException is an OSError; termios.error is not
+BOARDS = {"rp2": "board_pico_w", "esp32": "board_esp32"}  # board file by `sys.platform`
+OLDEST = (1, 22)  # version of MicroPython
+USB = {0x2E8A: "Raspberry Pi", 0x303A: "Espressif", 0x10C4: "CP210x", 0x1A86: "CH340", 0x0403: "FTDI"}  # by vendor
+RATE, SILENT = 115_200, 3.0  # bit/s; s
+MAIN, PART = "main.py", ".part"  # the file that starts the robot; suffix of files that are not complete
+ASK = """
+import sys
+u = sys.implementation
+print('{"name": "%s", "version": [%d, %d], "platform": "%s"}' % (u[0], u[1][0], u[1][1], sys.platform))
+"""
+HASH = """
+import hashlib, binascii
+def h(n):
+    s = hashlib.sha256()
+    try:
+        with open(n, 'rb') as f:
+            while True:
+                d = f.read(256)
+                if not d:
+                    return binascii.hexlify(s.digest()).decode()
+                s.update(d)
+    except OSError:
+        return ''
+"""
+PUT = """
+import os
+def p(a, b):
+    try:
+        os.remove(b)
+    except OSError:
+        pass
+    os.rename(a, b)
+"""
+
+
+class SetupFailed(OperatorError):
+    """A board cannot be set up; the message says why."""
+
+
+def likely_ports() -> list[tuple[str, str]]:
+    """Serial ports of boards by the vendors of their USB chips: device and maker. Raises ImportError."""
+    from serial.tools.list_ports import comports
+
+    return [(port.device, USB[port.vid]) for port in comports() if port.vid in USB]
+
+
+def files_of(board: str, robot: int, arena: int, key: bytes, network: str, password: str) -> dict[str, bytes]:
+    """The files of a robot (1 to 4) by their names on the board, in the order in which they are written."""
+    config = robot_config(robot, arena, key)
+    config = config.replace('"name of the network"', json.dumps(network, ensure_ascii=False))
+    config = config.replace('"its password"', json.dumps(password, ensure_ascii=False))
+    files = {name: (PROGRAM / name).read_bytes() for name in ("motors.py", "wifi.py")}
+    files |= {"board.py": (PROGRAM / f"{board}.py").read_bytes(), "config.py": config.encode()}
+    return {**files, MAIN: (PROGRAM / "robot.py").read_bytes()}
+
+
+class BoardOnUsb:
+    """A board at a serial port; a context manager. Raises SetupFailed, also for a cable that is pulled."""
+
+    def __init__(self, port: str) -> None:
+        self.port = port
+        self._transport: Any = None
+
+    def __enter__(self) -> "BoardOnUsb":
+        from mpremote.transport_serial import SerialTransport
+
+        with self._plugged():
+            self._transport = SerialTransport(self.port, RATE, timeout=SILENT)
+            self._transport.enter_raw_repl(soft_reset=False)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._transport:
+            with self._plugged(quiet=True):
+                self._transport.exit_raw_repl()
+            with self._plugged(quiet=True):
+                self._transport.close()
+
+    def kind(self) -> str:
+        """The board file for it, or empty for an unknown board. Raises SetupFailed for an old MicroPython."""
+        told = json.loads(self._ask(ASK))
+        if told["name"] != "micropython" or tuple(told["version"]) < OLDEST:
+            raise SetupFailed(OperatorMessage("board_old", version=".".join(map(str, told["version"]))))
+        return BOARDS.get(told["platform"], "")
+
+    def write(self, files: Mapping[str, bytes], progress: Callable[[str, bool], None] = lambda name, new: None) -> None:
+        """Write the files that differ; `progress` is told of each, and whether it was written."""
+        self._ask(HASH + PUT)
+        differ = [name for name, data in files.items() if self._ask(f"print(h({name!r}))") != _hash(data)]
+        if differ and MAIN not in differ:  # a robot never starts with files of two versions
+            differ.append(MAIN)
+        if MAIN in differ:
+            self._ask(f"try:\n os.remove({MAIN!r})\nexcept OSError:\n pass")
+        for name, data in files.items():
+            if name in differ:
+                with self._plugged():
+                    self._transport.fs_writefile(name + PART, data)
+                if self._ask(f"print(h({name + PART!r}))") != _hash(data):
+                    raise SetupFailed(OperatorMessage("board_damaged", file=name))
+                self._ask(f"p({name + PART!r}, {name!r})")
+            progress(name, name in differ)
+
+    def restart(self) -> None:
+        """Start the robot's program."""
+        with self._plugged():
+            self._transport.exit_raw_repl()
+            self._transport.serial.write(b"\x04")
+
+    def _ask(self, program: str) -> str:
+        """What a program on the board prints."""
+        with self._plugged():
+            answer: bytes = self._transport.exec(program)
+        return answer.decode().strip()
+
+    @contextmanager
+    def _plugged(self, quiet: bool = False) -> Iterator[None]:
+        from mpremote.transport import TransportError
+
+        try:
+            yield
+        except (TransportError, struct.error) as error:  # the latter: silence amid an answer
+            if not quiet:
+                key = "board_gone" if "access" in str(error) else "board_silent"
+                raise SetupFailed(OperatorMessage(key, port=self.port)) from None
+        except FAILURES:
+            if not quiet:
+                raise SetupFailed(OperatorMessage("board_gone", port=self.port)) from None
+
+
+def _hash(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()

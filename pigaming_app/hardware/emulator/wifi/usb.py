@@ -1,0 +1,76 @@
+"""A board on USB: a pseudo-terminal that leads to MicroPython's own interpreter. The cable can be pulled."""
+
+import os
+import pty
+import subprocess
+import threading
+import tty
+from contextlib import suppress
+from typing import Self
+
+from pigaming_app.hardware.emulator.wifi.boards import HERE, interpreter
+
+PROMPT = b">>> "
+CHUNK = 64  # bytes of a USB packet
+
+
+class UsbBoard:
+    """A context manager. `port`: its present device; `sent`: bytes to the board since it was plugged in.
+
+    Its files stay, as on a board with a battery. Raises NoMicroPython.
+    """
+
+    def __enter__(self) -> Self:
+        command = ["node", str(HERE / "usb.mjs"), str(interpreter())]
+        self._node = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0)
+        self._master, self.sent, self.port = -1, 0, ""
+        heard = b""
+        assert self._node.stdout
+        while PROMPT not in heard:
+            heard += self._node.stdout.read(CHUNK) or b""
+        threading.Thread(target=self._down, name="usb down", daemon=True).start()
+        self.plug()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.pull()
+        self._node.kill()
+        self._node.wait()
+        for pipe in (self._node.stdin, self._node.stdout):
+            assert pipe
+            pipe.close()
+
+    def plug(self, cut_after: int | None = None) -> None:
+        """Plug the cable in; a new device appears. `cut_after`: bytes after which it is pulled again."""
+        self.pull()
+        self.sent = 0
+        self._master, slave = pty.openpty()
+        tty.setraw(slave)
+        self.port, self._slave = os.ttyname(slave), slave
+        threading.Thread(target=self._up, args=(self._master, cut_after), name="usb up", daemon=True).start()
+
+    def pull(self) -> None:
+        """Pull the cable: the device is gone."""
+        if self._master >= 0:
+            master, self._master = self._master, -1
+            os.close(self._slave)
+            os.close(master)
+
+    def _up(self, master: int, cut_after: int | None) -> None:
+        """From the computer to the board."""
+        assert self._node.stdin
+        with suppress(OSError, ValueError):
+            while data := os.read(master, CHUNK):
+                self.sent += len(data)
+                if cut_after is not None and self.sent >= cut_after:
+                    self.pull()
+                    return
+                self._node.stdin.write(data)
+
+    def _down(self) -> None:
+        """From the board to the computer, or to nobody."""
+        assert self._node.stdout
+        with suppress(OSError, ValueError):
+            while data := self._node.stdout.read(CHUNK):
+                with suppress(OSError):
+                    os.write(self._master, data)
