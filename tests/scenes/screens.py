@@ -69,6 +69,7 @@ from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import LobbySeats
 from pigaming_app.scenes.mat.robots.menu import RobotsMenu
+from pigaming_app.scenes.mat.robots.set_up_page import SetUpPage
 from pigaming_app.scenes.options import games_page
 from pigaming_app.scenes.options.games_page import NewGame
 from pigaming_app.scenes.options.page import SECTIONS, OptionsPage
@@ -679,6 +680,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "two PINs": lambda arcade: typed(NewPinPage(arcade.context), 0, "access.different"),
     **{f"options {section}": partial(options, section=section) for section in SECTIONS},
     "remap": lambda arcade: RemapPage(arcade.context),
+    "board set-up": lambda arcade: SetUpPage(arcade.context),
     "robots menu": lambda arcade: RobotsMenu(arcade.context),
     "marker sheet written": sheet_written,
     "added games": added_games,

@@ -20,7 +20,9 @@ except ImportError:  # Windows
     FAILURES: tuple[type[Exception], ...] = (OSError,)
 else:
     FAILURES = (OSError, termios_error)  # pyserial's SerialException is an OSError; termios.error is not
-BOARDS = {"rp2": "board_pico_w", "esp32": "board_esp32"}  # board file by `sys.platform`
+Tell = Callable[[str, bool], None]
+KINDS = {"pico_w": "board_pico_w", "esp32": "board_esp32", "pololu_2040": "board_pololu_2040"}  # their files
+BOARDS = {"rp2": "pico_w", "esp32": "esp32"}  # kind by `sys.platform`
 OLDEST = (1, 22)  # version of MicroPython
 USB = {0x2E8A: "Raspberry Pi", 0x303A: "Espressif", 0x10C4: "CP210x", 0x1A86: "CH340", 0x0403: "FTDI"}  # by vendor
 RATE, SILENT = 115_200, 3.0  # bit/s; s
@@ -59,11 +61,29 @@ class SetupFailed(OperatorError):
     """A board cannot be set up; the message says why."""
 
 
-def likely_ports() -> list[tuple[str, str]]:
-    """Serial ports of boards by the vendors of their USB chips: device and maker. Raises ImportError."""
+def only_port() -> str:
+    """The serial port of the only board on USB, known by the vendor of its chip. Raises SetupFailed."""
     from serial.tools.list_ports import comports
 
-    return [(port.device, USB[port.vid]) for port in comports() if port.vid in USB]
+    ports = [port.device for port in comports() if port.vid in USB]
+    if len(ports) != 1:
+        there = ", ".join(ports)
+        raise SetupFailed(OperatorMessage("board_several" if ports else "board_none", ports=there))
+    return str(ports[0])
+
+
+def set_up(port: str, board: str, files: Callable[[str], Mapping[str, bytes]], tell: "Tell") -> str:
+    """Make the board at a port a robot, and start it; its kind of board. Raises SetupFailed.
+
+    `board`: one of KINDS, empty: found out; `files`: those for a board file; `tell`: see `BoardOnUsb.write`.
+    """
+    with BoardOnUsb(port) as connected:
+        kind = board or connected.kind()
+        if not kind:
+            raise SetupFailed(OperatorMessage("board_unknown", port=port, kinds=", ".join(KINDS)))
+        connected.write(files(KINDS[kind]), tell)
+        connected.restart()
+    return kind
 
 
 def files_of(board: str, robot: int, arena: int, key: bytes, network: str, password: str) -> dict[str, bytes]:
@@ -99,14 +119,14 @@ class BoardOnUsb:
                 self._transport.close()
 
     def kind(self) -> str:
-        """The board file for it, or empty for an unknown board. Raises SetupFailed for an old MicroPython."""
+        """One of KINDS, or empty for an unknown board. Raises SetupFailed for an old MicroPython."""
         told = json.loads(self._ask(ASK))
         if told["name"] != "micropython" or tuple(told["version"]) < OLDEST:
             raise SetupFailed(OperatorMessage("board_old", version=".".join(map(str, told["version"]))))
         return BOARDS.get(told["platform"], "")
 
-    def write(self, files: Mapping[str, bytes], progress: Callable[[str, bool], None] = lambda name, new: None) -> None:
-        """Write the files that differ; `progress` is told of each, and whether it was written."""
+    def write(self, files: Mapping[str, bytes], tell: Tell = lambda name, new: None) -> None:
+        """Write the files that differ; `tell` gets the name of each, and whether it was written."""
         self._ask(HASH + PUT)
         differ = [name for name, data in files.items() if self._ask(f"print(h({name!r}))") != _hash(data)]
         if differ and MAIN not in differ:  # a robot never starts with files of two versions
@@ -120,7 +140,7 @@ class BoardOnUsb:
                 if self._ask(f"print(h({name + PART!r}))") != _hash(data):
                     raise SetupFailed(OperatorMessage("board_damaged", file=name))
                 self._ask(f"p({name + PART!r}, {name!r})")
-            progress(name, name in differ)
+            tell(name, name in differ)
 
     def restart(self) -> None:
         """Start the robot's program."""

@@ -53,6 +53,7 @@ OPERATORS = {
     "correction": Right.EVENTS,
     "widest correction": Right.EVENTS,
     "robots menu": Right.ROBOTS,
+    "board set-up": Right.ROBOTS,
     "marker sheet": Right.ROBOTS,
     "options of phones": Right.SETTINGS,
     "all phones": Right.SETTINGS,

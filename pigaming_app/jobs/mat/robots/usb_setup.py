@@ -16,7 +16,7 @@ from pigaming_app.storage.settings import Settings, folders
 
 JOINS = 40.0  # s for a board to start and to join the network
 TICK = 0.1  # s
-KINDS = {"pico_w": "board_pico_w", "esp32": "board_esp32", "pololu_2040": "board_pololu_2040"}
+BOARDS = ("pico_w", "esp32", "pololu_2040")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,51 +25,38 @@ class UsbSetupOptions:
 
     robot: int = option("with setup: its number, as on its marker; default 1", integer(1, ROBOTS), 1, metavar="ROBOT")
     network: str | None = option("with setup: the name of the Wi-Fi; its password is asked", word, metavar="NAME")
-    board: str | None = option("with setup: the board, if it is not recognised", choices=tuple(KINDS))
+    board: str | None = option("with setup: the board, if it is not recognised", choices=BOARDS)
     no_wait: bool = flag("with setup: do not wait until the robot is in the network")
 
 
 def set_up(options: Any, words: Sequence[str]) -> int:
     """Set up the board at the port in the words, or at the only one. Raises Refusal."""
-    from pigaming_app.hardware.commissioning.board_setup import BoardOnUsb, files_of
+    from pigaming_app.hardware.commissioning import board_setup
     from pigaming_app.hardware.session.store import arena_id, wifi_key
 
     if len(words) > 2:
         raise Refusal("robots setup: one word more, a port: robots setup /dev/ttyACM0")
     require("hardware")
-    if not options.network:
+    network = options.network
+    if not network:
         raise Refusal("robots setup: --network is missing, the name of the Wi-Fi")
     settings, _ = Settings.load(folders().config)
     arena, key = arena_id(settings), wifi_key(settings)
-    port = words[1] if len(words) > 1 else _only_port()
-    password = typed(f"Password of {options.network}: ", "robots setup")
-    with refused(OperatorError), BoardOnUsb(port) as board:
-        kind = KINDS[options.board] if options.board else board.kind()
-        if not kind:
-            raise Refusal(f"robots setup: the board at {port} is unknown: name it with --board {', '.join(KINDS)}")
-        print(f"{port}: {kind.removeprefix('board_')}, robot {options.robot}", flush=True)
-        board.write(files_of(kind, options.robot, arena, key, options.network, password), _tell)
-        board.restart()
+    with refused(OperatorError):
+        port = words[1] if len(words) > 1 else board_setup.only_port()
+        password = typed(f"Password of {network}: ", "robots setup")
+        print(f"{port}: robot {options.robot}", flush=True)
+        kind = board_setup.set_up(
+            port,
+            options.board or "",
+            lambda board: board_setup.files_of(board, options.robot, arena, key, network, password),
+            lambda name, new: print(f"  {name:12} {'written' if new else 'as it was'}", flush=True),
+        )
+    print(f"{kind} is robot {options.robot}")
     if not options.no_wait:
-        print(f"robot {options.robot} is in the network: {_address(options.robot)}")
+        print(f"and in the network: {_address(options.robot)}")
     print(f"Next, on blocks: main.py robots --radio udp --wheels {options.robot}")
     return 0
-
-
-def _tell(name: str, new: bool) -> None:
-    print(f"  {name:12} {'written' if new else 'as it was'}", flush=True)
-
-
-def _only_port() -> str:
-    """The serial port of the only board. Raises Refusal."""
-    from pigaming_app.hardware.commissioning.board_setup import likely_ports
-
-    ports = likely_ports()
-    if not ports:
-        raise Refusal("robots setup: no board on USB: plug it in with a cable that carries data, or name its port")
-    if len(ports) > 1:
-        raise Refusal(f"robots setup: several boards: {', '.join(port for port, _ in ports)}; name one of them")
-    return ports[0][0]
 
 
 def _address(robot: int) -> str:
