@@ -3,13 +3,13 @@
 //     main.py bots --add ada          prints a key
 //     node examples/bots/hunter.mjs ws://127.0.0.1:8789/ ada KEY
 //
-// Needs Node.js 22, or an older one with the package ws. The messages are described in docs/bots.md.
+// It waits for the arcade. Needs Node.js 22, or an older one with the package ws (`npm install ws`). The messages are described in docs/bots.md.
 
 import { createHmac } from "node:crypto";
 
 const WebSocket = globalThis.WebSocket ?? (await import("ws")).WebSocket;
 const [url, name, key] = process.argv.slice(2);
-const socket = new WebSocket(url);
+let socket;
 let nonce = "";
 
 function send(message) {
@@ -34,14 +34,25 @@ function decide({ robots, seat }) {
   };
 }
 
-socket.onmessage = ({ data }) => {
-  const message = JSON.parse(data);
-  if (message.type === "hello") {
-    nonce = message.nonce;
-    send({ type: "play", name });
-  } else if (message.type === "tick") {
-    const { match, seat, tick } = message;
-    send({ type: "act", match, seat, tick, ...decide(message) });
-  }
-};
-socket.onclose = ({ code }) => console.log(`closed with ${code}`);
+function connect() {
+  let open = false;
+  socket = new WebSocket(url);
+  socket.onmessage = ({ data }) => {
+    const message = JSON.parse(data);
+    open = true;
+    if (message.type === "hello") {
+      nonce = message.nonce;
+      send({ type: "play", name });
+    } else if (message.type === "tick") {
+      const { match, seat, tick } = message;
+      send({ type: "act", match, seat, tick, ...decide(message) });
+    }
+  };
+  socket.onerror = () => {};
+  socket.onclose = ({ code }) => {
+    if (open) console.log(`closed with ${code}`);
+    else setTimeout(connect, 500); // nobody listens yet
+  };
+}
+
+connect();

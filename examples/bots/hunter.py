@@ -3,7 +3,7 @@
     main.py bots --add ada          prints a key
     python examples/bots/hunter.py ws://127.0.0.1:8789/ ada KEY
 
-Needs aiohttp. The messages are described in docs/bots.md.
+It waits for the arcade. Needs aiohttp (`pip install aiohttp`). The messages are described in docs/bots.md.
 """
 
 import asyncio
@@ -11,6 +11,7 @@ import hmac
 import json
 import math
 import sys
+import time
 
 import aiohttp
 
@@ -50,5 +51,10 @@ async def play(url, name, key):
 if __name__ == "__main__":
     if len(sys.argv) != 4:
         sys.exit(__doc__)
-    code = asyncio.run(play(*sys.argv[1:]))
+    while True:
+        try:
+            code = asyncio.run(play(*sys.argv[1:]))
+            break
+        except aiohttp.ClientConnectionError:
+            time.sleep(0.5)  # nobody listens yet
     print(f"closed with {code}")

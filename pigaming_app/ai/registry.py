@@ -9,7 +9,7 @@ from pigaming_app.ai.brain.driving import Controller
 from pigaming_app.ai.brain.effort import between
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer, HumanPlayer, OneButtonPlayer
 from pigaming_app.ai.brain_files import is_path, read_brain
-from pigaming_app.ai.game_ai import LEVELS, ONE_BUTTON, RANDOM_ONLY, GameAI
+from pigaming_app.ai.game_ai import LEVELS, ONE_BUTTON, RANDOM_ONLY, STAND_IN, GameAI
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import OURS, games
@@ -101,6 +101,7 @@ def new_match(setup: Setup, plant: Plant | Callable[[Any], Plant] = SimPlant, ar
     """
     match = Match(setup, plant, arena)
     for i, seat in enumerate(setup.seats):
-        if is_brain(setup.game, seat.brain):
-            match.sit(i, make_brain(setup.game, seat.brain, setup.seed * ROBOTS + i))
+        gone = seat.brain.startswith("bot:") and not is_brain(setup.game, seat.brain)  # removed since it was chosen
+        if brain := STAND_IN if gone else seat.brain if is_brain(setup.game, seat.brain) else "":
+            match.sit(i, make_brain(setup.game, brain, setup.seed * ROBOTS + i))
     return match

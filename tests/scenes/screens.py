@@ -695,7 +695,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "join by phone, crowded": lambda arcade: join_by_phone(crowded(arcade)),
     "options of phones, crowded": lambda arcade: phones_page(crowded(arcade)),
     "all phones": phone_list,
-    **{f"programs, {row}": partial(programs, focus=row) for row in ("enabled", "mmmmmmmmmmmm")},
+    **{f"programs, {row}": partial(programs, focus=row) for row in ("enabled", "bot:mmmmmmmmmmmm")},
     "Wi-Fi password": lambda arcade: PhonesPage(crowded(arcade).context)._typing("wifi_key"),
     **{f"join by phone, {key}": partial(join_by_phone, trouble=key) for key in ("missing", "network_gone")},
     **{f"options of phones, {key}": partial(phones_page, trouble=key) for key in ("port_taken", "port_forbidden")},

@@ -56,6 +56,7 @@ class BotBook:
         if not re.fullmatch(NAME, name):
             raise ValueError(f"a name has 1 to {LONGEST_NAME} small letters, digits, - or _")
         with locked(self.path):
+            self._require_readable()
             keys = {**self.keys, name: secrets.token_hex(KEY_BYTES)}
             if len(keys) > MOST:
                 raise ValueError(f"there are {MOST} bots already")
@@ -65,10 +66,20 @@ class BotBook:
     def remove(self, name: str) -> None:
         """Raises ValueError without such a bot, or NotSaved."""
         with locked(self.path):
+            self._require_readable()
             keys = dict(self.keys)
             if keys.pop(name, None) is None:
                 raise ValueError(f"no bot {name}")
             self._write(keys)
+
+    def _require_readable(self) -> None:
+        """Raises ValueError for a file whose keys would be lost."""
+        try:
+            from_json(read_text(self.path), _Bots)
+        except FileNotFoundError:
+            return
+        except (OSError, ValueError):
+            raise ValueError(f"{self.path} cannot be read: mend it or delete it") from None
 
     def _write(self, keys: Mapping[str, str]) -> None:
         write_atomic(self.path, to_json(_Bots(dict(keys))).encode())

@@ -1,4 +1,7 @@
-"""Bots as brains: `bot:NAME` wherever an AI is named. A seat whose bot is silent stands still, then an AI takes it."""
+"""Bots as brains: `bot:NAME` wherever an AI is named. A seat whose bot is silent stands still, then an AI takes it.
+
+Where matches wait for decisions, as in leagues, no AI takes a seat: the result would not be the bot's.
+"""
 
 import logging
 from collections.abc import Mapping
@@ -7,18 +10,19 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from pigaming_app.ai.bots import view
 from pigaming_app.ai.bots.book import PREFIX, BotBook
-from pigaming_app.ai.bots.line import FRESH, BotLine, SeatOfMatch, next_match
+from pigaming_app.ai.bots.line import HELD, BotLine, SeatOfMatch, Service, next_match
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.game_ai import STAND_IN, GameAI
+from pigaming_app.games.setup import ChoiceError
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import record
 from pigaming_app.sim.world import HZ, World
 from pigaming_app.storage.settings import folders
 
-HELD = 2000  # seats of matches that are played at the same time, at most
-PATIENCE = 3 * HZ  # ticks of silence in a row after which an AI takes the seat, until the match is over
+PATIENCE = 3 * HZ  # ticks without a command that holds, after which an AI takes the seat, until the match is over
+MISSES = 10  # decisions in a row that a bot may miss where matches wait for them
+RETURNS = 10.0  # s in which a bot may connect again there
 
 log = logging.getLogger("pigaming")
 
@@ -35,10 +39,11 @@ class BotMind:
 class BotSeat:
     """One seat of one match."""
 
-    connection: int = 0  # by which the bot was told of the match
-    standing: tuple[int, ...] = ()  # the layout that it knows
-    silent: int = 0  # ticks
+    silent: int = 0  # ticks, or decisions where matches wait for them
     stand_in: BrainPlayer | None = None
+
+
+_service = Service.CLOSED  # of lines to come
 
 
 def book() -> BotBook:
@@ -54,7 +59,15 @@ def _book(folder: Path) -> BotBook:
 @cache
 def line_of(name: str) -> BotLine:
     """The line to a bot."""
-    return BotLine()
+    return BotLine(_service)
+
+
+def serve(service: Service) -> None:
+    """Matches of this process treat all bots so from now on."""
+    global _service
+    _service = service
+    for name in book().keys:
+        line_of(name).service = service
 
 
 def bots(game: str, ai: GameAI) -> Mapping[str, BrainKind]:
@@ -74,7 +87,7 @@ def _kind(game: str, name: str, stand_in: BrainKind) -> BrainKind:
     def reset(mind: BotMind, seed: int) -> None:
         mind.match = next_match()
 
-    def think(state: Any, seat: int, mind: BotMind, weights: Any) -> None:
+    def think(state: World, seat: int, mind: BotMind, weights: Any) -> None:
         place = SeatOfMatch(mind.match, seat)
         own = seats.get(place)
         if own is None:
@@ -82,29 +95,30 @@ def _kind(game: str, name: str, stand_in: BrainKind) -> BrainKind:
             if len(seats) > HELD:
                 del seats[next(iter(seats))]
         if own.stand_in:
-            own.stand_in.think(state, seat)
+            own.stand_in.think(state, seat)  # type: ignore[arg-type]
             return
-        _tell(line, game, own, state, place)
-        command = line.decide(place, state)
+        if line.service is not Service.LIVE:
+            _require(line, name, own.silent)
+        command = line.decide(place, game, state)
         if command:
             own.silent = 0
             fire, turbo = int(command.fire), int(command.turbo)
             set_action(state.actions[seat], command.linear, command.angular, fire, turbo)
             return
         set_action(state.actions[seat], 0.0, 0.0, 0, 0)
-        own.silent += FRESH if line.patient else 1
-        if own.silent >= PATIENCE:
+        own.silent += 1
+        if line.service is Service.LIVE and own.silent >= PATIENCE:
             log.warning("bot %s is silent: %s takes its seat", name, STAND_IN)
             own.stand_in = BrainPlayer(stand_in, mind.random)
 
     return BrainKind(PREFIX + name, BotMind, think, reset, plain=True)
 
 
-def _tell(line: BotLine, game: str, own: BotSeat, state: World, place: SeatOfMatch) -> None:
-    """Tell the bot of the match, or of walls that have changed, if it does not know."""
-    standing = view.standing(state)
-    if line.connection != own.connection:
-        line.begin(place, game, state)
-    elif standing != own.standing:
-        line.changed(place, state)
-    own.connection, own.standing = line.connection, standing
+def _require(line: BotLine, name: str, missed: int) -> None:
+    """Raises ChoiceError for a bot that cannot play here, is gone, or has missed too many decisions."""
+    if line.service is Service.CLOSED:
+        raise ChoiceError(f"{PREFIX}{name} plays in the arcade, in play, duel, league and event run only")
+    if missed >= MISSES:
+        raise ChoiceError(f"{PREFIX}{name} is silent: {MISSES} decisions without an answer")
+    if not line.wait(RETURNS):
+        raise ChoiceError(f"{PREFIX}{name} is gone, and has not connected again within {RETURNS:.0f} s")

@@ -3,7 +3,8 @@
 import itertools
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from enum import Enum
 from typing import Any, NamedTuple
 
 from pigaming_app.ai.bots import view
@@ -12,8 +13,16 @@ from pigaming_app.sim.world import HEIGHT, HZ, WIDTH, World
 Send = Callable[[str], object]
 FRESH = round(0.3 * HZ)  # ticks for which a command holds
 BUDGET = 0.3  # s for a decision where the match waits for it
-HELD = 64  # seats of matches whose newest commands are kept
+HELD = 2000  # seats of matches that are known at the same time
 FIELD = {"width": WIDTH, "height": HEIGHT, "hz": HZ}
+
+
+class Service(Enum):
+    """How matches of this process treat bots: not at all; the newest command counts; they wait for each decision."""
+
+    CLOSED = 0
+    LIVE = 1
+    PATIENT = 2
 
 
 class SeatOfMatch(NamedTuple):
@@ -24,7 +33,7 @@ class SeatOfMatch(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Command:
+class BotCommand:
     """The wish of a bot at a tick."""
 
     tick: int
@@ -34,77 +43,113 @@ class Command:
     turbo: bool
 
 
-class BotLine:
-    """The line to one bot. `patient`: matches wait for its decisions, as in leagues; else the newest one counts."""
+class Wire(NamedTuple):
+    """A connection of a bot, by number."""
 
-    def __init__(self, patient: bool = False) -> None:
-        self.patient = patient
-        self.connection = 0  # its number
-        self._send: Send | None = None
-        self._close: Callable[[], object] = lambda: None
-        self._commands: dict[SeatOfMatch, Command] = {}
-        self._changed = threading.Condition()
+    number: int
+    send: Send
+    close: Callable[[], object]
+
+
+@dataclass
+class Dialogue:
+    """What a bot knows of a seat, and its newest command."""
+
+    wire: int = 0  # by which it was told of the match
+    standing: tuple[int, ...] = ()  # the layout that it knows
+    shown: int = -1  # the last tick that it was shown
+    command: BotCommand | None = None
+
+
+@dataclass
+class BotLine:
+    """The line to one bot."""
+
+    service: Service = Service.CLOSED
+    wire: Wire | None = None
+    _dialogues: dict[SeatOfMatch, Dialogue] = field(default_factory=dict)
+    _changed: threading.Condition = field(default_factory=threading.Condition)
 
     @property
     def connected(self) -> bool:
-        return self._send is not None
+        return self.wire is not None
 
     # ---- for the match
 
-    def begin(self, place: SeatOfMatch, game: str, state: World) -> None:
-        """Tell the bot that it plays, and where."""
-        self._tell(place, {"type": "begin", "game": game, "rules": view.rules(state), **FIELD, **view.layout(state)})
+    def decide(self, place: SeatOfMatch, game: str, state: World) -> BotCommand | None:
+        """Show the bot this tick; its command, or None if it has none that still holds.
 
-    def changed(self, place: SeatOfMatch, state: World) -> None:
-        """Tell the bot that walls have gone or come."""
-        self._tell(place, {"type": "layout", **view.layout(state)})
-
-    def decide(self, place: SeatOfMatch, state: World) -> Command | None:
-        """Show the bot this tick; its command, or None if it has none that still holds."""
-        if not self._tell(place, {"type": "tick", **view.shown(state)}):
+        A bot that has not answered is shown no other tick for FRESH: so it never lags behind.
+        """
+        wire, standing = self.wire, view.standing(state)
+        if wire is None:
             return None
         with self._changed:
-            if self.patient:
-                self._changed.wait_for(lambda: self._of(place, state.tick) or not self.connected, BUDGET)
-            return self._of(place, state.tick - (0 if self.patient else FRESH))
+            own = self._dialogue(place)
+            new, changed = own.wire != wire.number, own.standing != standing
+            answered = own.command is not None and own.command.tick >= own.shown
+            due = new or answered or self.service is Service.PATIENT or state.tick >= own.shown + FRESH
+            own.wire, own.standing = wire.number, standing
+            own.shown = state.tick if due else own.shown
+        if new:
+            about = {"game": game, "rules": view.rules(state), **FIELD, **view.layout(state)}
+            wire.send(_text(place, {"type": "begin", **about}))
+        elif changed:
+            wire.send(_text(place, {"type": "layout", **view.layout(state)}))
+        if due:
+            wire.send(_text(place, {"type": "tick", **view.shown(state)}))
+        with self._changed:
+            if self.service is Service.PATIENT:
+                self._changed.wait_for(lambda: _at(own, state.tick) or self.wire is not wire, BUDGET)
+            return _at(own, state.tick - (0 if self.service is Service.PATIENT else FRESH))
 
-    def _of(self, place: SeatOfMatch, tick: int) -> Command | None:
-        """The newest command, if it is not older than this tick."""
-        command = self._commands.get(place)
-        return command if command and command.tick >= tick else None
-
-    def _tell(self, place: SeatOfMatch, message: dict[str, Any]) -> bool:
-        """False if nobody is connected."""
-        send = self._send
-        if send:
-            send(view.text({**message, **place._asdict()}))
-        return bool(send)
+    def wait(self, seconds: float) -> bool:
+        """Wait until it is connected; false if it is not after so long."""
+        with self._changed:
+            return self._changed.wait_for(lambda: self.connected, seconds)
 
     # ---- for the connection
 
     def attach(self, send: Send, close: Callable[[], object]) -> None:
         """Connect the bot; an earlier connection is closed."""
         with self._changed:
-            before, self._send, self._close = self._close, send, close
-            self.connection += 1
-            self._commands.clear()
-        before()
+            before, self.wire = self.wire, Wire(next(_numbers), send, close)
+            for own in self._dialogues.values():
+                own.command = None
+            self._changed.notify_all()
+        if before:
+            before.close()
 
     def detach(self, send: Send) -> None:
         """The connection has ended."""
         with self._changed:
-            if self._send is send:
-                self._send, self._close = None, lambda: None
+            if self.wire and self.wire.send is send:
+                self.wire = None
                 self._changed.notify_all()
 
-    def receive(self, place: SeatOfMatch, command: Command) -> None:
-        """A command of the bot; one that is not newer than the last of its seat does not count."""
+    def receive(self, place: SeatOfMatch, command: BotCommand) -> None:
+        """A command of the bot. It counts if the bot was shown its tick, and none later has come."""
         with self._changed:
-            before = self._commands.pop(place, command)
-            self._commands[place] = command if command.tick > before.tick else before  # last: the one used last
-            while len(self._commands) > HELD:
-                del self._commands[next(iter(self._commands))]
-            self._changed.notify_all()
+            own = self._dialogues.get(place)
+            if own and command.tick <= own.shown and (own.command is None or command.tick > own.command.tick):
+                own.command = command
+                self._changed.notify_all()
+
+    def _dialogue(self, place: SeatOfMatch) -> Dialogue:
+        own = self._dialogues.pop(place, None) or Dialogue()
+        self._dialogues[place] = own  # last: the one used last
+        while len(self._dialogues) > HELD:
+            del self._dialogues[next(iter(self._dialogues))]
+        return own
+
+
+def _at(own: Dialogue, tick: int) -> BotCommand | None:
+    """The newest command, if it is not older than this tick."""
+    return own.command if own.command and own.command.tick >= tick else None
+
+
+def _text(place: SeatOfMatch, message: dict[str, Any]) -> str:
+    return view.text({**message, **place._asdict()})
 
 
 _numbers = itertools.count(1)

@@ -14,7 +14,7 @@ from msgspec import Struct
 from pigaming_app import __version__
 from pigaming_app.ai.bots import brains, view
 from pigaming_app.ai.bots.book import Name
-from pigaming_app.ai.bots.line import FIELD, BotLine, Command, SeatOfMatch
+from pigaming_app.ai.bots.line import FIELD, BotCommand, BotLine, SeatOfMatch
 from pigaming_app.sim.drivetrain import MM
 from pigaming_app.storage.parsing import ParseError
 from pigaming_app.storage.schema import Finite, between, from_json
@@ -56,7 +56,7 @@ class BotSession:
         self.send, self.close, self._ended = send, close, ended
         self.nonce = secrets.token_hex(16)
         self.name = ""  # of its bot; empty: it observes
-        self.match = 0  # that it observes
+        self.match = 0  # that it observes, by number
         self._line: BotLine | None = None
         self._key = b""
         send(view.text({"type": "hello", "version": __version__, "nonce": self.nonce, "mm": MM, **FIELD}))
@@ -82,15 +82,16 @@ class BotSession:
         if not self._signed(sign, body):
             return WRONG_KEY
         self.name, self._line = name, brains.line_of(name)
-        self._line.attach(self.send, lambda: self.close(REPLACED))
         self.send(view.text({"type": "welcome", "name": name}))
+        self._line.attach(self.send, lambda: self.close(REPLACED))
         return 0
 
     def _act(self, line: BotLine, sign: str, body: str) -> int:
-        if not self._signed(sign, body):
+        known = brains.book().keys.get(self.name, "").encode() == self._key  # not removed since, nor given another key
+        if not known or not self._signed(sign, body):
             return WRONG_KEY
         act = from_json(body, Act)
-        command = Command(act.tick, act.linear, act.angular, act.fire, act.turbo)
+        command = BotCommand(act.tick, act.linear, act.angular, act.fire, act.turbo)
         line.receive(SeatOfMatch(act.match, act.seat), command)
         return 0
 

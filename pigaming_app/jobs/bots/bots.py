@@ -28,7 +28,7 @@ def run(options: BotsOptions) -> int:
             book().remove(options.remove)
     except ValueError as reason:
         raise Refusal(f"bots: {reason}") from None
-    keys = dict(book().keys)
+    keys = {name: key for name, key in book().keys.items() if options.add in (None, name)}  # others stay private
     if options.json:
         print(json.dumps({"keys": keys}))
     else:

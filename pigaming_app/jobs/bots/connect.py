@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from pigaming_app.ai.bots import brains
 from pigaming_app.ai.bots.book import PREFIX
+from pigaming_app.ai.bots.line import Service
 from pigaming_app.jobs.terminal.refusal import Refusal, require
 from pigaming_app.scenes.bots.host import PORT, BotHost
 from pigaming_app.ui.i18n import english
@@ -28,6 +29,7 @@ def connect(names: Sequence[str]) -> None:
     wanted = sorted({name.removeprefix(PREFIX) for name in names} & known.keys())
     if not wanted:
         return  # the job refuses names that it does not know
+    brains.serve(Service.PATIENT)
     host = BotHost(RATE)
     host.switch(True, ADDRESS, PORT)
     if host.trouble:
@@ -36,9 +38,5 @@ def connect(names: Sequence[str]) -> None:
     print(f"PiGaming: waiting for {', '.join(wanted)} at {host.url}", file=sys.stderr, flush=True)
     end = time.monotonic() + PATIENCE
     for name in wanted:
-        line = brains.line_of(name)
-        line.patient = True
-        while not line.connected:
-            if time.monotonic() > end:
-                raise Refusal(f"{PREFIX}{name} has not connected to {host.url}")
-            time.sleep(0.02)
+        if not brains.line_of(name).wait(max(0.0, end - time.monotonic())):
+            raise Refusal(f"{PREFIX}{name} has not connected to {host.url}")

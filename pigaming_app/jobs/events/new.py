@@ -81,7 +81,7 @@ def run(options: NewEventOptions) -> int:
         raise Refusal(f"{options.file}: exists already; event run continues it")
     with refused(ChoiceError, ArenaError, ValueError):
         spec = _spec(options)
-        require_for_brains((entrant.brain for entrant in spec.entrants), play=False)
+        require_for_brains([*(entrant.brain for entrant in spec.entrants), spec.fill or ""], play=False)
         event = Event(spec)
         _ = event.progress  # checks the spec
         check_playable(spec, find_brain)

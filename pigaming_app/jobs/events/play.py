@@ -74,7 +74,7 @@ def run(options: PlayEventOptions) -> int:
         raise Refusal("event run: --kiosk, --display, --scoreboard and --arcade go without --headless")
     module_of("learning", "learning")  # whose compiled loops play the matches
     require_writable(file)
-    require_for_brains(entrant.brain for entrant in event.entrants)
+    require_for_brains([*(entrant.brain for entrant in event.entrants), event.spec.fill or ""])
     began, before = perf_counter(), len(event.outcomes)
     with refused(ChoiceError, ArenaError, ValueError):
         check_playable(event.spec.with_entrants(event.entrants), find_brain)

@@ -1,6 +1,7 @@
 """Programs of pupils as a feature: the server, the stream of the match on the screen, and their page in the options."""
 
 from pigaming_app.ai.bots import brains
+from pigaming_app.ai.bots.line import Service as Serving
 from pigaming_app.scenes.bots.host import bot_host
 from pigaming_app.scenes.bots.pictures import sketch
 from pigaming_app.scenes.features.feature import Feature, OptionRow, Service
@@ -14,8 +15,7 @@ class BotService(Service):
 
     def __init__(self, context: Context) -> None:
         self.context, self.host = context, context.shared(bot_host)
-        for name in brains.book().keys:
-            brains.line_of(name).patient = False
+        brains.serve(Serving.LIVE)
 
     def update(self, seconds: float, stack: Stack) -> None:
         settings = self.context.settings

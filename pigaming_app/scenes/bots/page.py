@@ -3,7 +3,7 @@
 import pygame
 
 from pigaming_app.ai.bots import brains
-from pigaming_app.ai.bots.book import LONGEST_NAME
+from pigaming_app.ai.bots.book import LONGEST_NAME, PREFIX
 from pigaming_app.scenes.bots.host import bot_host
 from pigaming_app.scenes.bots.pictures import picture
 from pigaming_app.scenes.flow.access import Right
@@ -38,15 +38,15 @@ class BotsPage(SettingsPage):
         super().__init__(context, self._rows())
 
     def _rows(self) -> tuple[str, ...]:
-        return (*ROWS, *sorted(brains.book().keys)[:SHOWN])
+        return (*ROWS, *(PREFIX + name for name in sorted(brains.book().keys)[:SHOWN]))
 
     def label(self, name: str) -> str:
-        return super().label(name) if name in ROWS else name
+        return super().label(name) if name in ROWS else name.removeprefix(PREFIX)
 
     def line(self, name: str) -> str:
         if name in ROWS:
             return super().line(name)
-        return self.context.words("bots.plays" if brains.line_of(name).connected else "bots.away")
+        return self.context.words("bots.plays" if brains.line_of(self.label(name)).connected else "bots.away")
 
     def value(self, name: str) -> SettingValue:
         if name in SWITCHES:
@@ -68,7 +68,7 @@ class BotsPage(SettingsPage):
     def held(self) -> StackOperation:
         """Remove the bot with the focus."""
         try:
-            brains.book().remove(self.focus.name)
+            brains.book().remove(self.label(self.focus.name))
         except (ValueError, NotSaved) as reason:
             self.show_message(str(reason), wrong=True)
         self.context.sounds.play("back")
@@ -85,7 +85,7 @@ class BotsPage(SettingsPage):
         except (ValueError, NotSaved):
             return self.context.words("bots.wrong")
         self.show_rows(self._rows())
-        self.focus.move_to(name)
+        self.focus.move_to(PREFIX + name)
         return ""
 
     def paint(self, screen: pygame.Surface) -> None:
@@ -102,7 +102,7 @@ class BotsPage(SettingsPage):
 
     def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
         """A program, or the key of a bot."""
-        key, (x, y) = brains.book().keys.get(name, ""), dials.CENTRE
+        key, (x, y) = brains.book().keys.get(name.removeprefix(PREFIX), ""), dials.CENTRE
         if not key:
             picture(chosen).draw(screen, x, y)
         for row, start in enumerate(range(0, len(key), KEY_ROW)):

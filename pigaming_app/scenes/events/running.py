@@ -120,8 +120,9 @@ class RunningEvent:
         return any(one.name == name and not one.brain for one in (*self.event.spec.entrants, *late))
 
     def without_people(self, fixture: Fixture) -> bool:
-        """True if only AIs play."""
-        return all(self.brain(name) for name in fixture.entrants)
+        """True if only AIs play that this computer has; programs play on the screen."""
+        brains = [self.brain(name) for name in fixture.entrants]
+        return all(brain and not brain.startswith("bot:") for brain in brains)
 
 
 def accepts_late(event: Event) -> bool:

@@ -134,6 +134,7 @@ class Lobby:
         """Animate; go on when everyone is ready, leave when abandoned."""
         self.now.advance(seconds)
         self.focus.update(seconds)
+        self.seats.offer(rivals(self.game))
         if self.access.update(seconds):
             self.context.sounds.play("back")
             return Pop()

@@ -152,6 +152,11 @@ class LobbySeats:
             self.leave(seat)
         return self.add_ai() if self.robots == 1 else None
 
+    def offer(self, rivals: tuple[str, ...]) -> None:
+        """Offer these AIs from now on; what a seat has stays."""
+        kept = (place.strength for place in self.places if place.strength in self.rivals)
+        self.rivals = tuple(dict.fromkeys((*rivals, *kept, self.strength)))
+
     def change_strength(self, delta: int, seat: int | None = None) -> bool:
         """Step the strength of one seat's AI, or of all, through `rivals`; it becomes the default. True if changed."""
         chosen = self.of_kind(AI) if seat is None else [seat]

@@ -48,6 +48,7 @@ def test_a_damaged_book_has_no_bots_and_a_bot_that_is_unknown_is_no_brain(tmp_pa
     (tmp_path / "config").mkdir()
     (tmp_path / "config" / "bots.json").write_text("{")
     assert json.loads(bots(tmp_path, "--json").stdout) == {"keys": {}}
+    assert "cannot be read" in bots(tmp_path, "--add", "ada").stderr
     done = main(tmp_path, "duel", "pitanks", "bot:ada", "level1", "--matches", "2")
     assert done.returncode == 2
     assert "no brain 'bot:ada'" in done.stderr

@@ -10,9 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pigaming_app.ai.bots import brains
+from pigaming_app.ai.bots.line import Service
 from pigaming_app.ai.bots.session import BotSession
-from pigaming_app.ai.registry import find_brain, is_brain
+from pigaming_app.ai.registry import find_brain, is_brain, new_match
 from pigaming_app.games.match import Match
+from pigaming_app.games.setup import ChoiceError
 from pigaming_app.scenes.bots.feature import BotService
 from pigaming_app.scenes.bots.host import BotHost
 from pigaming_app.scenes.bots.page import BotsPage
@@ -34,9 +36,10 @@ def host(arcade: Arcade) -> Iterator[BotHost]:
     host.switch(True, "127.0.0.1", 0)
     assert host.trouble is None
     brains.book().add("ada")
-    brains.line_of("ada").patient = False
+    brains.serve(Service.LIVE)
     yield host
     host.close()
+    brains.serve(Service.CLOSED)
 
 
 def until(holds: Callable[[], Any]) -> None:
@@ -104,15 +107,82 @@ def test_a_robot_stops_within_a_third_of_a_second_of_silence_and_then_an_ai_has_
 
 def test_a_match_that_waits_does_not_wait_for_ever(host: BotHost, caplog: pytest.LogCaptureFixture) -> None:
     connected(host, lambda tick: {"linear": 1.0} if tick["tick"] < 20 else None)
-    brains.line_of("ada").patient = True
+    brains.serve(Service.PATIENT)
     match = match_of("race", ["bot:ada", "idle"])
     for tick in range(20):
         match.tick()
         assert match.state.actions[0].linear == 1.0, tick
     began = time.monotonic()
-    run(match, 200)
+    with pytest.raises(ChoiceError, match="bot:ada is silent"):
+        run(match, 200)
     assert time.monotonic() - began < 6.0, "ten times 0.3 s"
-    assert "level3 takes its seat" in caplog.text
+    assert not caplog.text, "no AI plays in its name"
+
+
+def test_a_league_does_not_go_on_without_a_bot_that_is_gone(host: BotHost, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(brains, "RETURNS", 0.5)
+    program = connected(host)
+    brains.serve(Service.PATIENT)
+    match = match_of("race", ["bot:ada", "idle"])
+    run(match, 5)
+    program.leave()
+    with pytest.raises(ChoiceError, match="bot:ada is gone"):
+        run(match, 50)
+    brains.serve(Service.CLOSED)
+    with pytest.raises(ChoiceError, match="plays in the arcade"):
+        run(match_of("race", ["bot:ada", "idle"]), 1)
+
+
+def test_a_command_for_a_tick_to_come_neither_counts_nor_blocks(host: BotHost) -> None:
+    told: list[dict[str, Any]] = []
+
+    def decide(tick: dict[str, Any]) -> dict[str, Any] | None:
+        told.append(tick)
+        return {"tick": 2**40, "linear": 1.0} if len(told) == 1 else {"linear": -0.5}
+
+    connected(host, decide)
+    match = match_of("race", ["bot:ada", "idle"])
+    played(match, 0.8)
+    assert match.state.actions[0].linear == -0.5
+
+
+def test_a_slow_program_plays_without_falling_behind(host: BotHost) -> None:
+    """It needs 60 ms for a decision, and is shown every third or fourth tick."""
+
+    def decide(tick: dict[str, Any]) -> dict[str, Any]:
+        time.sleep(0.06)
+        return {"linear": 1.0}
+
+    program = connected(host, decide)
+    match = match_of("race", ["bot:ada", "idle"])
+    played(match, 2.0)
+    ticks = [message["tick"] for message in program.seen if message["type"] == "tick"]
+    assert 15 <= len(ticks) <= 45
+    assert ticks[-1] > 85, "the newest, not the oldest"
+    assert match.state.actions[0].linear == 1.0
+
+
+def test_a_bot_that_is_removed_is_cut_off_and_an_ai_has_its_seat_in_the_next_match(host: BotHost) -> None:
+    program = connected(host, lambda tick: {"linear": 1.0})
+    match = match_of("race", ["bot:ada", "idle"])
+    setup = match.setup
+    played(match, 0.2)
+    brains.book().remove("ada")
+    played(match, 0.5)
+    program.join(WAIT)
+    assert program.code == 4401
+    assert match.state.actions[0].linear == 0.0
+    again: Any = new_match(setup).brains[0]
+    assert again.kind.name == "level3"
+    brains.book().add("ada")
+
+
+def test_a_new_key_ends_the_connection_with_the_old_one(host: BotHost) -> None:
+    program = connected(host, lambda tick: {"linear": 1.0})
+    brains.book().add("ada")
+    played(match_of("race", ["bot:ada", "idle"]), 0.2)
+    program.join(WAIT)
+    assert program.code == 4401
 
 
 def test_a_bot_that_returns_in_time_is_told_of_the_match_again(host: BotHost) -> None:
@@ -176,11 +246,12 @@ def test_an_older_command_does_not_replace_a_newer_one(host: BotHost) -> None:
 
     program = connected(host, decide)
     match = match_of("race", ["bot:ada", "idle"])
-    played(match, 0.1)
-    until(lambda: len(told) > 3)
-    place = {"type": "act", "match": told[3]["match"], "seat": 0}
-    program.say(program.signed({**place, "tick": 3, "linear": 1.0}))
-    program.say(program.signed({**place, "tick": 2, "linear": -1.0}))
+    played(match, 0.95)
+    until(lambda: len(told) == 4)
+    assert [tick["tick"] for tick in told] == [0, 15, 30, 45], "a silent program is shown a tick every 0.3 s"
+    place = {"type": "act", "match": told[0]["match"], "seat": 0}
+    program.say(program.signed({**place, "tick": 45, "linear": 1.0}))
+    program.say(program.signed({**place, "tick": 30, "linear": -1.0}))
     time.sleep(0.1)
     match.tick()
     assert match.state.actions[0].linear == 1.0
@@ -259,11 +330,18 @@ def test_walls_that_break_are_told(host: BotHost) -> None:
 def test_the_lobby_offers_who_is_connected(arcade: Arcade, host: BotHost) -> None:
     assert "bot:ada" not in rivals("pitanks")
     assert is_brain("pitanks", "bot:ada")
-    connected(host)
+    lobby = arcade.open(Lobby(arcade.context, "pitanks"))
+    program = connected(host)
     assert rivals("pitanks")[-1] == "bot:ada"
+    lobby.update(0.1)
+    assert lobby.seats.rivals[-1] == "bot:ada"
     assert Lobby(arcade.context, "pitanks").seats.rivals[-1] == "bot:ada"
     assert brain_name(arcade.context.words, "pitanks", "bot:ada") == "ADA"
     assert find_brain("pitanks", "bot:ada").plain
+    program.leave()
+    until(lambda: not brains.line_of("ada").connected)
+    lobby.update(0.1)
+    assert "bot:ada" not in lobby.seats.rivals
 
 
 def test_the_page_makes_a_bot_shows_its_key_and_removes_it(arcade: Arcade, host: BotHost) -> None:
@@ -276,9 +354,9 @@ def test_the_page_makes_a_bot_shows_its_key_and_removes_it(arcade: Arcade, host:
     arcade.press(Button.START)
     page = arcade.shown(BotsPage)
     assert brains.book().keys.keys() == {"ada", "eve"}
-    assert page.focus.name == "eve"
-    assert page.rows == ("enabled", "vision", "new", "ada", "eve")
-    assert page.line("eve") == arcade.context.words("bots.away")
+    assert page.focus.name == "bot:eve"
+    assert page.rows == ("enabled", "vision", "new", "bot:ada", "bot:eve")
+    assert page.line("bot:eve") == arcade.context.words("bots.away")
     page.held()
     assert brains.book().keys.keys() == {"ada"}
 
