@@ -4,11 +4,15 @@ A cable that is pulled at any moment does no harm: a file gets its name only whe
 the next attempt writes what is missing. `mpremote` talks to the board.
 """
 
+import errno
 import hashlib
 import json
+import os
+import re
 import struct
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
+from time import sleep
 from typing import Any
 
 from pigaming_app.hardware.robot_kinds import PROGRAM, robot_config
@@ -21,16 +25,26 @@ except ImportError:  # Windows
 else:
     FAILURES = (OSError, termios_error)  # pyserial's SerialException is an OSError; termios.error is not
 Tell = Callable[[str, bool], None]
-KINDS = {"pico_w": "board_pico_w", "esp32": "board_esp32", "pololu_2040": "board_pololu_2040"}  # their files
-BOARDS = {"rp2": "pico_w", "esp32": "esp32"}  # kind by `sys.platform`
+KINDS = {"pico_w": "board_pico_w", "esp32": "board_esp32"}  # their files
+BOARDS = {"rp2": "pico_w", "esp32": "esp32"}  # kind by `sys.platform`, of boards with Wi-Fi
+OTHERS = re.compile(r"ESP32-?[SCHP]\d")  # chips of other pins
 OLDEST = (1, 22)  # version of MicroPython
-USB = {0x2E8A: "Raspberry Pi", 0x303A: "Espressif", 0x10C4: "CP210x", 0x1A86: "CH340", 0x0403: "FTDI"}  # by vendor
+USB = {0x2E8A: "Raspberry Pi", 0x303A: "Espressif", 0x10C4: "CP210x", 0x1A86: "CH340"}  # by vendor; radios have FTDI's
 RATE, SILENT = 115_200, 3.0  # bit/s; s
+AGAIN = 3.0  # s after which a board is tried once more: a running program's watchdog may have restarted it
+PINS = "board.py"  # the file with pins and divider, which its owner may have changed
 MAIN, PART = "main.py", ".part"  # the file that starts the robot; suffix of files that are not complete
 ASK = """
 import sys
 u = sys.implementation
-print('{"name": "%s", "version": [%d, %d], "platform": "%s"}' % (u[0], u[1][0], u[1][1], sys.platform))
+try:
+    import network
+    w = hasattr(network, 'WLAN')
+except ImportError:
+    w = False
+m = getattr(u, '_machine', '')
+print('{"name": "%s", "version": [%d, %d], "platform": "%s", "wifi": %d, "machine": "%s"}' % (
+    u[0], u[1][0], u[1][1], sys.platform, w, m.replace('"', '')))
 """
 HASH = """
 import hashlib, binascii
@@ -75,15 +89,29 @@ def only_port() -> str:
 def set_up(port: str, board: str, files: Callable[[str], Mapping[str, bytes]], tell: "Tell") -> str:
     """Make the board at a port a robot, and start it; its kind of board. Raises SetupFailed.
 
-    `board`: one of KINDS, empty: found out; `files`: those for a board file; `tell`: see `BoardOnUsb.write`.
+    `board`: one of KINDS, empty: found out, and a board file that is there is kept; `files`: those for a board file;
+    `tell`: see `BoardOnUsb.write`.
     """
+    try:
+        return _set_up(port, board, files, tell)
+    except SetupFailed as failed:
+        if failed.message.key not in ("board_gone", "board_silent"):
+            raise
+    sleep(AGAIN)
+    return _set_up(port, board, files, tell)
+
+
+def _set_up(port: str, board: str, files: Callable[[str], Mapping[str, bytes]], tell: "Tell") -> str:
     with BoardOnUsb(port) as connected:
-        kind = board or connected.kind()
-        if not kind:
+        kind = connected.kind()
+        if not (board or kind):
             raise SetupFailed(OperatorMessage("board_unknown", port=port, kinds=", ".join(KINDS)))
-        connected.write(files(KINDS[kind]), tell)
+        wanted = dict(files(KINDS[board or kind]))
+        if not board and connected.has(PINS):
+            del wanted[PINS]
+        connected.write(wanted, tell)
         connected.restart()
-    return kind
+    return board or kind
 
 
 def files_of(board: str, robot: int, arena: int, key: bytes, network: str, password: str) -> dict[str, bytes]:
@@ -106,9 +134,16 @@ class BoardOnUsb:
     def __enter__(self) -> "BoardOnUsb":
         from mpremote.transport_serial import SerialTransport
 
+        if not os.access(self.port, os.R_OK | os.W_OK) and os.path.exists(self.port):
+            raise SetupFailed(OperatorMessage("board_denied", port=self.port))
         with self._plugged():
             self._transport = SerialTransport(self.port, RATE, timeout=SILENT)
-            self._transport.enter_raw_repl(soft_reset=False)
+        try:
+            with self._plugged():
+                self._transport.enter_raw_repl(soft_reset=False)
+        except SetupFailed:
+            self.__exit__()
+            raise
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -120,10 +155,17 @@ class BoardOnUsb:
 
     def kind(self) -> str:
         """One of KINDS, or empty for an unknown board. Raises SetupFailed for an old MicroPython."""
-        told = json.loads(self._ask(ASK))
+        try:
+            told = json.loads(self._ask(ASK))
+        except ValueError:  # it printed something else
+            raise SetupFailed(OperatorMessage("board_silent", port=self.port)) from None
         if told["name"] != "micropython" or tuple(told["version"]) < OLDEST:
             raise SetupFailed(OperatorMessage("board_old", version=".".join(map(str, told["version"]))))
-        return BOARDS.get(told["platform"], "")
+        return BOARDS.get(told["platform"], "") if told["wifi"] and not OTHERS.search(told["machine"]) else ""
+
+    def has(self, name: str) -> bool:
+        """True if a file is on the board."""
+        return self._ask(f"import os\nprint({name!r} in os.listdir())") == "True"
 
     def write(self, files: Mapping[str, bytes], tell: Tell = lambda name, new: None) -> None:
         """Write the files that differ; `tell` gets the name of each, and whether it was written."""
@@ -145,8 +187,7 @@ class BoardOnUsb:
     def restart(self) -> None:
         """Start the robot's program."""
         with self._plugged():
-            self._transport.exit_raw_repl()
-            self._transport.serial.write(b"\x04")
+            self._transport.exec_raw_no_follow("import machine\nmachine.reset()")  # also the Wi-Fi begins anew
 
     def _ask(self, program: str) -> str:
         """What a program on the board prints."""
@@ -156,15 +197,22 @@ class BoardOnUsb:
 
     @contextmanager
     def _plugged(self, quiet: bool = False) -> Iterator[None]:
-        from mpremote.transport import TransportError
+        from mpremote.transport import TransportError, TransportExecError
 
         try:
-            yield
+            with redirect_stdout(None):  # mpremote prints what it did not expect
+                yield
+        except TransportExecError as error:  # of the program on the board
+            if not quiet:
+                detail = (error.error_output or str(error)).strip().splitlines()[-1][:80]
+                raise SetupFailed(OperatorMessage("board_failed", detail=detail)) from None
         except (TransportError, struct.error) as error:  # the latter: silence amid an answer
             if not quiet:
                 key = "board_gone" if "access" in str(error) else "board_silent"
                 raise SetupFailed(OperatorMessage(key, port=self.port)) from None
-        except FAILURES:
+        except FAILURES as error:
+            if not quiet and getattr(error, "errno", 0) in (errno.ENOSPC, errno.EROFS):  # of the board's disk
+                raise SetupFailed(OperatorMessage("board_failed", detail=str(error)[:80])) from None
             if not quiet:
                 raise SetupFailed(OperatorMessage("board_gone", port=self.port)) from None
 

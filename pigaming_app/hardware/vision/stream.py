@@ -18,4 +18,7 @@ def opened(cv: Any, address: str) -> Any:
 
 def host_of(address: str) -> str:
     """The computer in an address, for messages: without name and password."""
-    return urlsplit(address).hostname or "?"
+    try:
+        return urlsplit(address).hostname or "?"
+    except ValueError:  # a bracket without its partner
+        return "?"

@@ -281,6 +281,8 @@ class RigOptions(EmulateOption):
             try:
                 Settings().choose(name, value)
             except ValueError as error:
+                if name == "camera":  # its address may hold a password
+                    raise Refusal("--camera: a number, or an address such as http://192.168.0.7:8080/video") from None
                 raise Refusal(f"--{error}") from None
         return given
 

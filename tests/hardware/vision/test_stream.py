@@ -130,6 +130,8 @@ def test_an_address_without_a_camera_is_a_fault_that_keeps_its_password(server: 
         ("http://", False),
         ("http:///video", False),
         ("http://a b/", False),
+        ("http://anna:pa[ss@10.0.0.2/video", False),
+        ("http://[x]/v", False),
         ("http://a/\n", False),
         ("http://" + "a" * 200, False),
         ("rtsp://x/|touch y", False),

@@ -48,7 +48,7 @@ def test_a_board_at_a_port_becomes_robot_three(tmp_path: Path) -> None:
     with UsbBoard() as usb:
         unknown = setup(tmp_path, usb.port, "--network", "Schule", "--no-wait")
         assert unknown.returncode == 2
-        assert "is unknown: choose pico_w, esp32, pololu_2040" in unknown.stderr
+        assert "is unknown: choose pico_w, esp32" in unknown.stderr
         usb.plug()
         words = (usb.port, "--network", "Schule", "--robot", "3", "--board", "pico_w", "--no-wait")
         done = setup(tmp_path, *words)

@@ -1,10 +1,9 @@
 """A board on USB: a pseudo-terminal that leads to MicroPython's own interpreter. The cable can be pulled."""
 
 import os
-import pty
+import select
 import subprocess
 import threading
-import tty
 from contextlib import suppress
 from typing import Self
 
@@ -12,6 +11,7 @@ from pigaming_app.hardware.emulator.wifi.boards import HERE, interpreter
 
 PROMPT = b">>> "
 CHUNK = 64  # bytes of a USB packet
+LOOK = 0.02  # s between two looks whether the cable is still there
 
 
 class UsbBoard:
@@ -24,6 +24,8 @@ class UsbBoard:
         command = ["node", str(HERE / "usb.mjs"), str(interpreter())]
         self._node = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0)
         self._master, self.sent, self.port = -1, 0, ""
+        self._lock = threading.Lock()
+        self._reader: threading.Thread | None = None
         heard = b""
         assert self._node.stdout
         while PROMPT not in heard:
@@ -42,17 +44,24 @@ class UsbBoard:
 
     def plug(self, cut_after: int | None = None) -> None:
         """Plug the cable in; a new device appears. `cut_after`: bytes after which it is pulled again."""
+        import pty  # not on Windows
+        import tty
+
         self.pull()
         self.sent = 0
-        self._master, slave = pty.openpty()
-        tty.setraw(slave)
-        self.port, self._slave = os.ttyname(slave), slave
-        threading.Thread(target=self._up, args=(self._master, cut_after), name="usb up", daemon=True).start()
+        self._master, self._slave = pty.openpty()
+        tty.setraw(self._slave)
+        self.port = os.ttyname(self._slave)
+        self._reader = threading.Thread(target=self._up, args=(self._master, cut_after), name="usb up", daemon=True)
+        self._reader.start()
 
     def pull(self) -> None:
         """Pull the cable: the device is gone."""
-        if self._master >= 0:
+        with self._lock:
             master, self._master = self._master, -1
+        if self._reader and self._reader is not threading.current_thread():
+            self._reader.join()  # before its file number can be that of another file
+        if master >= 0:
             os.close(self._slave)
             os.close(master)
 
@@ -60,7 +69,10 @@ class UsbBoard:
         """From the computer to the board."""
         assert self._node.stdin
         with suppress(OSError, ValueError):
-            while data := os.read(master, CHUNK):
+            while self._master == master:
+                if not select.select([master], [], [], LOOK)[0]:
+                    continue
+                data = os.read(master, CHUNK)
                 self.sent += len(data)
                 if cut_after is not None and self.sent >= cut_after:
                     self.pull()
@@ -72,5 +84,5 @@ class UsbBoard:
         assert self._node.stdout
         with suppress(OSError, ValueError):
             while data := self._node.stdout.read(CHUNK):
-                with suppress(OSError):
+                with self._lock, suppress(OSError):
                     os.write(self._master, data)

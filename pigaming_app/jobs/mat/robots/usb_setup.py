@@ -13,10 +13,11 @@ from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.jobs.terminal.typed import typed
 from pigaming_app.storage.messages import OperatorError
 from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.ui.i18n import english
 
 JOINS = 40.0  # s for a board to start and to join the network
 TICK = 0.1  # s
-BOARDS = ("pico_w", "esp32", "pololu_2040")
+BOARDS = ("pico_w", "esp32")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +26,9 @@ class UsbSetupOptions:
 
     robot: int = option("with setup: its number, as on its marker; default 1", integer(1, ROBOTS), 1, metavar="ROBOT")
     network: str | None = option("with setup: the name of the Wi-Fi; its password is asked", word, metavar="NAME")
-    board: str | None = option("with setup: the board, if it is not recognised", choices=BOARDS)
+    board: str | None = option(
+        "with setup: the board, if it is not recognised; its file board.py becomes ours again", choices=BOARDS
+    )
     no_wait: bool = flag("with setup: do not wait until the robot is in the network")
 
 
@@ -70,6 +73,8 @@ def _address(robot: int) -> str:
                 if one.announced.address == robot and one.status == "ours":
                     return str(one.address)
             time.sleep(TICK)
+        if session.fault:
+            raise Refusal(english().long_sentence(session.fault))
     raise Refusal(
         f"robot {robot} has not joined the network within {JOINS:.0f} s: is the name right, the password, 2.4 GHz? "
         "Repeat the command."

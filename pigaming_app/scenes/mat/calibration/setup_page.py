@@ -12,6 +12,7 @@ from pigaming_app.hardware.calibration.quality import used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements, RealCalibrationSite
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
+from pigaming_app.hardware.vision.camera import shown
 from pigaming_app.hardware.vision.discovery import CameraId
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, StackOperation
@@ -179,7 +180,7 @@ class CalibrationPage(SettingsPage):
     def _camera(self) -> str:
         words = self.context.words
         if isinstance(self.number, str):
-            return self.number
+            return str(shown(self.number))
         if not self.cameras:
             return words("calibrate.no_cameras")
         name = next((camera.name for camera in self.cameras if camera.number == self.number), "")

@@ -8,6 +8,7 @@ from pigaming_app.hardware.drivers.ours import OURS
 from pigaming_app.hardware.drivers.registry import DRIVERS
 from pigaming_app.hardware.radio.serial_line import ports
 from pigaming_app.hardware.session.robot_session import camera_warning
+from pigaming_app.hardware.vision.camera import shown
 from pigaming_app.hardware.vision.discovery import cameras
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import StackOperation
@@ -240,7 +241,7 @@ class FleetPage(SettingsPage):
             return {getattr(settings, name): words("fleet.no_line")}, getattr(settings, name)
         if name == "camera":
             known: dict[object, str] = {camera.number: f"{camera.number}: {camera.name}" for camera in cameras()}
-            return {settings.camera: str(settings.camera), **known}, settings.camera
+            return {settings.camera: str(shown(settings.camera)), **known}, settings.camera
         if name == "port":
             there: dict[object, str] = {port.device: port.device for port in ports()}
             first = words("fleet.first", port=next(iter(there), "-"))

@@ -73,7 +73,7 @@ class SetUpPage(SettingsPage):
             return SettingValue("arrows", tuple(str(i + 1) for i in range(ROBOTS)), self.robot - 1, endless=True)
         if name == "board":
             kinds = ("", *KINDS)
-            shown = (words("board.automatic"), "Pico W", "ESP32", "Pololu 2040")
+            shown = (words("board.automatic"), "Pico W", "ESP32")
             return SettingValue("arrows", shown, kinds.index(self.board), endless=True)
         if name == "begin":
             return self.action("board.working" if self.busy else "board.start")
