@@ -197,6 +197,13 @@ def readings(mb: list[float], life: int = 1) -> list[dict[str, Any]]:
     return [{"what": "memory", "life": life, "at": 600 * i, "mb": one} for i, one in enumerate(mb)]
 
 
+def test_memory_is_compared_from_the_first_match_of_the_last_game_on() -> None:
+    rows = readings([190.0] * 12 + [240.0] * 12)
+    late = [{**row, "games": 3 + (i >= 12)} for i, row in enumerate(rows)]
+    assert [*audit.flat(ledger.digest(iter(late)), 8 * 3600.0)] == []
+    assert [*audit.flat(ledger.digest(iter(rows)), 8 * 3600.0)] != []
+
+
 def test_memory_that_grows_after_the_warm_up_is_a_problem() -> None:
     flat = ledger.digest(iter(readings([100.0, 250.0, 250.0, *[300.0] * 12])))
     assert audit.memory_of_runs(flat)[0]["end_mb"] == 300.0

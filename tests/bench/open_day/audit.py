@@ -194,15 +194,16 @@ def clean(data: Path, kills: int, full: bool = False) -> Iterator[str]:
 def memory_of_runs(ledger: Ledger) -> list[dict[str, float]]:
     """MB of each run that was long enough, after its warm-up and at its end."""
     found = []
-    for life in sorted({life for life, _, _ in ledger.memory}):
-        readings = [(at, mb) for number, at, mb in ledger.memory if number == life]
-        begin, end = readings[0][0], readings[-1][0]
-        warm = [mb for at, mb in readings if at >= begin + WARM][:SAMPLES]
-        last = [mb for at, mb in readings if at >= end - TAIL][-SAMPLES:]
+    for life in sorted({one.life for one in ledger.memory}):
+        readings = [one for one in ledger.memory if one.life == life]
+        begin, end, games = readings[0].at, readings[-1].at, readings[-1].games
+        shown = [one for one in readings if one.games == games]  # the first match of a game loads its pictures
+        warm = [one.mb for one in shown if one.at >= begin + WARM][:SAMPLES]
+        last = [one.mb for one in readings if one.at >= end - TAIL][-SAMPLES:]
         if end - begin >= WARM + TAIL and len(warm) == len(last) == SAMPLES:
             first, final = statistics.median(warm), statistics.median(last)
             hours = (end - begin) / 3600.0
-            most = max(mb for _, mb in readings)
+            most = max(one.mb for one in readings)
             found.append({"hours": round(hours, 2), "warm_mb": first, "end_mb": final, "most_mb": most})
     return found
 

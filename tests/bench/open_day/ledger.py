@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 Row = tuple[str, int]  # a high-score table as JSON, and a value
 SIGNED = tuple[str, int, str]  # and initials
@@ -56,6 +56,15 @@ class Wait:
     fair: int
 
 
+class Reading(NamedTuple):
+    """Memory of a run: `at` s since the opening, MB, and the games that it has shown so far."""
+
+    life: int
+    at: float
+    mb: float
+    games: int
+
+
 @dataclass
 class Ledger:
     """All that was seen. `playing`: matches that began and have neither ended nor been left, as after a kill;
@@ -68,7 +77,7 @@ class Ledger:
     rows: list[SIGNED] = field(default_factory=list)
     entries: list[Row] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=dict)
-    memory: list[tuple[int, float, float]] = field(default_factory=list)  # life, s since the opening, MB
+    memory: list[Reading] = field(default_factory=list)
     troubles: list[str] = field(default_factory=list)
     lives: int = 0
     played: dict[int, int] = field(default_factory=dict)  # matches by group
@@ -98,7 +107,7 @@ class Ledger:
             self.rows + other.rows,
             self.entries + other.entries,
             dict(Counter(self.counts) + Counter(other.counts)),
-            self.memory + [(life + lives, at, mb) for life, at, mb in other.memory],
+            self.memory + [one._replace(life=one.life + lives) for one in other.memory],
             self.troubles + other.troubles,
             lives + other.lives,
             self.played | {groups + group: count for group, count in other.played.items()},
@@ -166,8 +175,8 @@ def digest(lines: Iterator[dict[str, Any]]) -> Ledger:
                 out.rows += [(table, value, initials) for table, value, initials in rows]
             case {"what": "count", "name": name}:
                 out.counts[name] = out.counts.get(name, 0) + 1
-            case {"what": "memory", "life": life, "at": at, "mb": mb}:
-                out.memory.append((life, at, mb))
+            case {"what": "memory", "life": life, "at": at, "mb": mb, **seen}:
+                out.memory.append(Reading(life, at, mb, seen.get("games", 0)))
             case {"what": "trouble", "text": text}:
                 out.troubles.append(text)
             case {"what": "done", "group": group}:

@@ -49,7 +49,8 @@ class SchoolClass:
         match = next((scene for scene in self.stage.app.stack.scenes if isinstance(scene, MatchScene)), None)
         if match is not self.match:
             self.match, playing = match, self.visitors(match) if match else []
-            self.begun += bool(playing)
+            later_round = bool(match and match.rounds and match.rounds.outcomes)
+            self.begun += bool(playing) and not later_round
             self._seat(now, playing)
         for player in self.hall:
             self._wish(player)

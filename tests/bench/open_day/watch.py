@@ -28,6 +28,7 @@ class Watch:
     def __init__(self, app: App, day: Day, ledger: LedgerFile, life: int) -> None:
         self.app, self.day, self.ledger, self.life = app, day, ledger, life
         self.numbers = Counter[str]()
+        self.games: set[str] = set()  # that were played in this run
         self.match: MatchScene | None = None  # on the stack
         self.name = ""  # of that match in the ledger
         self.over = False
@@ -67,7 +68,7 @@ class Watch:
 
     def memory(self, seconds: float) -> None:
         """Note the resident memory."""
-        self.ledger.note("memory", life=self.life, at=round(seconds), mb=resident_mb())
+        self.ledger.note("memory", life=self.life, at=round(seconds), mb=resident_mb(), games=len(self.games))
 
     # ---- inside
 
@@ -82,6 +83,7 @@ class Watch:
             self.match = None
         if here is not None and self.match is None and here.match.state.tick > 0:
             self.match, self.name, self.over = here, self._next("match"), False
+            self.games.add(here.setup.game)
             self.ledger.note("playing", match=self.name)
         if self.match is not None and self.match.match.over and not self.over:
             self.over = True
