@@ -1,10 +1,10 @@
-// Chassis of a Wi-Fi robot: plate, lid and foot, printed flat and without supports. Lengths in mm.
+// Chassis of a Wi-Fi robot: plate, lid and two feet, printed flat and without supports. Lengths in mm.
 //
-//     openscad -o plate.stl -D 'part="plate"' assets/chassis/robot.scad      also lid, foot
+//     openscad -o plate.stl -D 'part="plate"' assets/chassis/robot.scad      also lid, foot, front
 //
 // The origin is on the mat, midway between the wheels; y points ahead. docs/kit.md has the steps.
 
-part = "assembly";  // plate, lid, foot, or assembly: the whole robot, for a look and for measuring
+part = "assembly";  // plate, lid, foot, front (its foot), or assembly: the whole robot, for a look and for measuring
 
 diameter = 95;      // of plate and lid: the robot of the games
 base = 82;          // between the middles of the wheels
@@ -16,9 +16,10 @@ motor = [24, 12, 10];   // gear motor N20 without its shaft: along the axle, ahe
 bracket_holes = 18; // between the screws M2 of its bracket
 caster_h = 10;      // ball caster of 3/8 inch
 caster_holes = 13.5;
-caster_y = -33;
+caster_y = 33;      // one behind the wheels, on the mat; one ahead, above it, for the robot to brake onto
+lift = 0.8;         // of the front caster above the mat
 post_r = 4;
-posts = [[25.7, 30.6], [-25.7, 30.6], [0, -40]];
+posts = [[13, 38.5], [-13, 38.5], [0, -40]];   // beside the paper of a marker, 66.7 wide
 
 axle = wheel_d / 2;
 plate_z = axle + motor[2] / 2;          // underside of the plate: motors hang below it
@@ -49,10 +50,11 @@ module plate() {
         }
         for (side = [-1, 1]) { wheel_window(side); bracket_slots(side); }
         for (p = posts) translate([p[0], p[1], thick + post_h - 12]) cylinder(d = 2.6, h = 13, $fn = 24);
-        for (x = [-1, 1]) translate([x * caster_holes / 2, caster_y, 0]) screw_hole(2.4, thick);
+        for (x = [-1, 1]) for (y = [-1, 1])
+            translate([x * caster_holes / 2, y * caster_y, 0]) screw_hole(2.4, thick);
         for (x = [-22, 22]) for (y = [-20, 20])     // straps of the cells
             translate([x - 1.75, y - 3, -1]) cube([3.5, 6, thick + 2]);
-        translate([0, 34, 0]) screw_hole(9, thick);     // wires
+        translate([0, 22, 0]) screw_hole(9, thick);     // wires
     }
 }
 
@@ -67,10 +69,10 @@ module lid() {
     }
 }
 
-module foot() {
+module foot(high) {
     difference() {
-        hull() for (x = [-1, 1]) translate([x * caster_holes / 2, 0, 0]) cylinder(d = 9, h = foot_h, $fn = 48);
-        for (x = [-1, 1]) translate([x * caster_holes / 2, 0, 0]) screw_hole(2.4, foot_h);
+        hull() for (x = [-1, 1]) translate([x * caster_holes / 2, 0, 0]) cylinder(d = 9, h = high, $fn = 48);
+        for (x = [-1, 1]) translate([x * caster_holes / 2, 0, 0]) screw_hole(2.4, high);
     }
 }
 
@@ -89,13 +91,16 @@ module motors() {
 module assembly() {
     translate([0, 0, plate_z]) plate();
     translate([0, 0, lid_top - thick + 0.01]) lid();
-    translate([0, caster_y, plate_z - foot_h - 0.05]) foot();
-    translate([0, caster_y, caster_h / 2]) sphere(d = caster_h - 0.2);
+    for (y = [-1, 1]) translate([0, y * caster_y, y > 0 ? lift : 0]) {
+        translate([0, 0, plate_z - foot_h - 0.05]) foot(foot_h - (y > 0 ? lift : 0));
+        translate([0, 0, caster_h / 2]) sphere(d = caster_h - 0.2);
+    }
     wheels();
     motors();
 }
 
 if (part == "plate") plate();
 else if (part == "lid") lid();
-else if (part == "foot") foot();
+else if (part == "foot") foot(foot_h);
+else if (part == "front") foot(foot_h - lift);
 else assembly();

@@ -15,7 +15,8 @@ from pigaming_app.sim.drivetrain import MM
 
 ROOT = Path(__file__).resolve().parents[2]
 MODEL = ROOT / "assets" / "chassis" / "robot.scad"
-PRINTED = ("plate", "lid", "foot")
+PRINTED = ("plate", "lid", "foot", "front")
+PAPER = 66.7  # mm, edge of a marker of 50 mm with its white rim
 BED = 120.0  # mm, of a small printer
 WALL = 1.2  # mm, three lines of a nozzle of 0.4 mm
 STEEPEST = 46.0  # degrees from the vertical that are printed without supports
@@ -151,13 +152,16 @@ def test_the_marker_is_level_at_the_height_of_the_lids_and_the_robot_as_wide_as_
     assert np.hypot(corners[:, 0], corners[:, 1]).max() * 2.0 == pytest.approx(72 * MM, abs=0.6)
 
 
-def test_three_points_touch_the_mat_and_the_middle_is_between_them() -> None:
-    """Two wheels and a caster; the cells over the caster's side keep it down."""
+def test_it_stands_on_wheels_and_rear_caster_and_brakes_onto_the_front_one() -> None:
+    """The cells are over the axle: a robot that brakes tips forward, by less than a millimetre, not onto its plate."""
     corners = mesh("assembly").reshape(-1, 3)
     low = corners[corners[:, 2] < 0.15]
     assert low[:, 0].min() < -37.0
     assert low[:, 0].max() > 37.0
-    assert low[:, 1].min() < -30.0
+    assert -36.0 < low[:, 1].min() < -30.0
+    front = corners[(corners[:, 1] > 28.0) & (abs(corners[:, 0]) < 10.0)]
+    assert 0.3 < front[:, 2].min() < 1.2
+    assert front[front[:, 2] < 1.2][:, 1].mean() == pytest.approx(33.0, abs=0.5)
 
 
 def test_the_cells_fit_between_plate_and_lid() -> None:
@@ -175,7 +179,8 @@ def test_the_lid_is_screwed_onto_the_posts() -> None:
     rim = lid[(lid[:, 2] < 1e-3) & (np.hypot(lid[:, 0], lid[:, 1]) < 46.0)]
     for body in (tops, rim):
         assert len(body) > 30
-    for x, y in ((25.7, 30.6), (-25.7, 30.6), (0.0, -40.0)):
+    for x, y in ((13.0, 38.5), (-13.0, 38.5), (0.0, -40.0)):
+        assert max(abs(x), abs(y)) - 3.4 > PAPER / 2.0, "no screw under the paper of the marker"
         for points, radius in ((tops, 4.0), (rim, 1.7)):
             near = np.hypot(points[:, 0] - x, points[:, 1] - y)
             assert near[near < 6.0].max() == pytest.approx(radius, abs=0.02)
