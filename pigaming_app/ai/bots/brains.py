@@ -11,14 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.ai.bots.book import PREFIX, BotBook
-from pigaming_app.ai.bots.line import HELD, BotLine, SeatOfMatch, Service, next_match
+from pigaming_app.ai.bots.line import HELD, BotLine, SeatOfMatch, Serving, next_match
 from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.game_ai import STAND_IN, GameAI
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.record import record
 from pigaming_app.sim.world import HZ, World
-from pigaming_app.storage.settings import folders
+from pigaming_app.storage.settings import NoHome, folders
 
 PATIENCE = 3 * HZ  # ticks without a command that holds, after which an AI takes the seat, until the match is over
 MISSES = 10  # decisions in a row that a bot may miss where matches wait for them
@@ -43,12 +43,20 @@ class BotSeat:
     stand_in: BrainPlayer | None = None
 
 
-_service = Service.CLOSED  # of lines to come
+_service = Serving.CLOSED  # of lines to come
 
 
 def book() -> BotBook:
     """The bots of this computer."""
     return _book(folders().config)
+
+
+def known() -> Mapping[str, str]:
+    """The keys of the bots by name; none for a user without a folder of their own."""
+    try:
+        return book().keys
+    except NoHome:
+        return {}
 
 
 @cache
@@ -62,22 +70,22 @@ def line_of(name: str) -> BotLine:
     return BotLine(_service)
 
 
-def serve(service: Service) -> None:
+def serve(service: Serving) -> None:
     """Matches of this process treat all bots so from now on."""
     global _service
     _service = service
-    for name in book().keys:
+    for name in known():
         line_of(name).service = service
 
 
 def bots(game: str, ai: GameAI) -> Mapping[str, BrainKind]:
     """The bots as players of a game, by name; connected or not."""
-    return {PREFIX + name: _kind(game, name, ai.kinds[STAND_IN]) for name in book().keys}
+    return {PREFIX + name: _kind(game, name, ai.kinds[STAND_IN]) for name in known()}
 
 
 def connected() -> list[str]:
     """The names of the bots that are connected, in alphabetical order."""
-    return [PREFIX + name for name in sorted(book().keys) if line_of(name).connected]
+    return [PREFIX + name for name in sorted(known()) if line_of(name).connected]
 
 
 @cache
@@ -97,7 +105,7 @@ def _kind(game: str, name: str, stand_in: BrainKind) -> BrainKind:
         if own.stand_in:
             own.stand_in.think(state, seat)  # type: ignore[arg-type]
             return
-        if line.service is not Service.LIVE:
+        if line.service is not Serving.LIVE:
             _require(line, name, own.silent)
         command = line.decide(place, game, state)
         if command:
@@ -107,7 +115,7 @@ def _kind(game: str, name: str, stand_in: BrainKind) -> BrainKind:
             return
         set_action(state.actions[seat], 0.0, 0.0, 0, 0)
         own.silent += 1
-        if line.service is Service.LIVE and own.silent >= PATIENCE:
+        if line.service is Serving.LIVE and own.silent >= PATIENCE:
             log.warning("bot %s is silent: %s takes its seat", name, STAND_IN)
             own.stand_in = BrainPlayer(stand_in, mind.random)
 
@@ -116,7 +124,7 @@ def _kind(game: str, name: str, stand_in: BrainKind) -> BrainKind:
 
 def _require(line: BotLine, name: str, missed: int) -> None:
     """Raises ChoiceError for a bot that cannot play here, is gone, or has missed too many decisions."""
-    if line.service is Service.CLOSED:
+    if line.service is Serving.CLOSED:
         raise ChoiceError(f"{PREFIX}{name} plays in the arcade, in play, duel, league and event run only")
     if missed >= MISSES:
         raise ChoiceError(f"{PREFIX}{name} is silent: {MISSES} decisions without an answer")

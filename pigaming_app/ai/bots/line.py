@@ -17,7 +17,7 @@ HELD = 2000  # seats of matches that are known at the same time
 FIELD = {"width": WIDTH, "height": HEIGHT, "hz": HZ}
 
 
-class Service(Enum):
+class Serving(Enum):
     """How matches of this process treat bots: not at all; the newest command counts; they wait for each decision."""
 
     CLOSED = 0
@@ -65,7 +65,7 @@ class Dialogue:
 class BotLine:
     """The line to one bot."""
 
-    service: Service = Service.CLOSED
+    service: Serving = Serving.CLOSED
     wire: Wire | None = None
     _dialogues: dict[SeatOfMatch, Dialogue] = field(default_factory=dict)
     _changed: threading.Condition = field(default_factory=threading.Condition)
@@ -88,7 +88,7 @@ class BotLine:
             own = self._dialogue(place)
             new, changed = own.wire != wire.number, own.standing != standing
             answered = own.command is not None and own.command.tick >= own.shown
-            due = new or answered or self.service is Service.PATIENT or state.tick >= own.shown + FRESH
+            due = new or answered or self.service is Serving.PATIENT or state.tick >= own.shown + FRESH
             own.wire, own.standing = wire.number, standing
             own.shown = state.tick if due else own.shown
         if new:
@@ -99,9 +99,9 @@ class BotLine:
         if due:
             wire.send(_text(place, {"type": "tick", **view.shown(state)}))
         with self._changed:
-            if self.service is Service.PATIENT:
+            if self.service is Serving.PATIENT:
                 self._changed.wait_for(lambda: _at(own, state.tick) or self.wire is not wire, BUDGET)
-            return _at(own, state.tick - (0 if self.service is Service.PATIENT else FRESH))
+            return _at(own, state.tick - (0 if self.service is Serving.PATIENT else FRESH))
 
     def wait(self, seconds: float) -> bool:
         """Wait until it is connected; false if it is not after so long."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from pigaming_app.ai.bots import brains
 from pigaming_app.ai.bots.book import PREFIX
-from pigaming_app.ai.bots.line import Service
+from pigaming_app.ai.bots.line import Serving
 from pigaming_app.jobs.terminal.refusal import Refusal, require
 from pigaming_app.scenes.bots.host import PORT, BotHost
 from pigaming_app.ui.i18n import english
@@ -29,7 +29,7 @@ def connect(names: Sequence[str]) -> None:
     wanted = sorted({name.removeprefix(PREFIX) for name in names} & known.keys())
     if not wanted:
         return  # the job refuses names that it does not know
-    brains.serve(Service.PATIENT)
+    brains.serve(Serving.PATIENT)
     host = BotHost(RATE)
     host.switch(True, ADDRESS, PORT)
     if host.trouble:

@@ -1,7 +1,7 @@
 """Programs of pupils as a feature: the server, the stream of the match on the screen, and their page in the options."""
 
 from pigaming_app.ai.bots import brains
-from pigaming_app.ai.bots.line import Service as Serving
+from pigaming_app.ai.bots.line import Serving
 from pigaming_app.scenes.bots.host import bot_host
 from pigaming_app.scenes.bots.pictures import sketch
 from pigaming_app.scenes.features.feature import Feature, OptionRow, Service

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pigaming_app.ai.bots import brains
-from pigaming_app.ai.bots.line import Service
+from pigaming_app.ai.bots.line import Serving
 from pigaming_app.ai.bots.session import BotSession
 from pigaming_app.ai.registry import find_brain, is_brain, new_match
 from pigaming_app.games.match import Match
@@ -36,10 +36,10 @@ def host(arcade: Arcade) -> Iterator[BotHost]:
     host.switch(True, "127.0.0.1", 0)
     assert host.trouble is None
     brains.book().add("ada")
-    brains.serve(Service.LIVE)
+    brains.serve(Serving.LIVE)
     yield host
     host.close()
-    brains.serve(Service.CLOSED)
+    brains.serve(Serving.CLOSED)
 
 
 def until(holds: Callable[[], Any]) -> None:
@@ -107,7 +107,7 @@ def test_a_robot_stops_within_a_third_of_a_second_of_silence_and_then_an_ai_has_
 
 def test_a_match_that_waits_does_not_wait_for_ever(host: BotHost, caplog: pytest.LogCaptureFixture) -> None:
     connected(host, lambda tick: {"linear": 1.0} if tick["tick"] < 20 else None)
-    brains.serve(Service.PATIENT)
+    brains.serve(Serving.PATIENT)
     match = match_of("race", ["bot:ada", "idle"])
     for tick in range(20):
         match.tick()
@@ -122,13 +122,13 @@ def test_a_match_that_waits_does_not_wait_for_ever(host: BotHost, caplog: pytest
 def test_a_league_does_not_go_on_without_a_bot_that_is_gone(host: BotHost, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(brains, "RETURNS", 0.5)
     program = connected(host)
-    brains.serve(Service.PATIENT)
+    brains.serve(Serving.PATIENT)
     match = match_of("race", ["bot:ada", "idle"])
     run(match, 5)
     program.leave()
     with pytest.raises(ChoiceError, match="bot:ada is gone"):
         run(match, 50)
-    brains.serve(Service.CLOSED)
+    brains.serve(Serving.CLOSED)
     with pytest.raises(ChoiceError, match="plays in the arcade"):
         run(match_of("race", ["bot:ada", "idle"]), 1)
 
