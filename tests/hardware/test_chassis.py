@@ -14,7 +14,7 @@ import pytest
 from pigaming_app.sim.drivetrain import MM
 
 ROOT = Path(__file__).resolve().parents[2]
-MODEL = ROOT / "assets" / "chassis" / "robot.scad"
+MODEL = ROOT / "docs" / "chassis" / "robot.scad"
 PRINTED = ("plate", "lid", "foot", "front")
 PAPER = 66.7  # mm, edge of a marker of 50 mm with its white rim
 BED = 120.0  # mm, of a small printer

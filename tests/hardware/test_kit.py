@@ -5,7 +5,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "kit.md").read_text(encoding="utf-8")
-MODEL = (ROOT / "assets" / "chassis" / "robot.scad").read_text(encoding="utf-8")
+MODEL = (ROOT / "docs" / "chassis" / "robot.scad").read_text(encoding="utf-8")
 
 
 def test_the_parts_cost_about_forty_euros_and_add_up() -> None:

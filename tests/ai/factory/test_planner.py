@@ -24,7 +24,7 @@ from pigaming_app.sim.world import DT, HZ
 from tests.bench.fairness_factory import measure
 from tests.bench.makespan_bound import Floor, Search, bound
 from tests.bench.trial import Trial
-from tests.cases import one_in, repeated
+from tests.cases import one_in
 from tests.games.factory.shop import Shop
 from tests.matches import finished, match_of
 
@@ -143,8 +143,9 @@ def test_higher_levels_need_less_time():
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("variant", repeated(["party", "standard", "together"]))
-@pytest.mark.parametrize("level", repeated([NAMES[-1], *NAMES[:-1]]))
+@pytest.mark.again  # of `test_variants`, with the other levels
+@pytest.mark.parametrize("variant", ["standard", "party", "together"])
+@pytest.mark.parametrize("level", NAMES)
 def test_no_level_stands_still_for_long(variant, level):
     found = measure(Trial("factory", variant, 12, 1, [level] * 4, fast=can_compile()))["equal teams"]
     assert all(found[floor]["standing still, median"] <= 0.15 for floor in FLOORS)

@@ -72,6 +72,7 @@ def test_everything_is_seen_where_it_is():
 
 
 @pytest.mark.long
+@pytest.mark.again  # of `test_policy`, with this game
 def test_both_bodies_play_the_same_race_to_the_last_bit():
     kinds = BRAINS["race"]
     one, two = brain_of(random_network(1, "race")), brain_of(random_network(2, "race", handicap=HANDICAP))

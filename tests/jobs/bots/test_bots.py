@@ -55,9 +55,13 @@ def test_a_damaged_book_has_no_bots_and_a_bot_that_is_unknown_is_no_brain(tmp_pa
 
 
 @pytest.mark.long
-@pytest.mark.alone  # the port is one of all
-@pytest.mark.parametrize("program", ["hunter.py", "hunter.mjs"])
-def test_an_example_plays_a_duel_as_its_page_prints_it(tmp_path: Path, program: str) -> None:
+def test_the_examples_play_duels_as_their_page_prints_it(tmp_path: Path) -> None:
+    """One after the other: the port is the same."""
+    for program in ("hunter.py", "hunter.mjs"):
+        plays_a_duel(tmp_path, program)
+
+
+def plays_a_duel(tmp_path: Path, program: str) -> None:
     key = json.loads(bots(tmp_path, "--add", "ada", "--json").stdout)["keys"]["ada"]
     file, runs, environment = ROOT / "examples" / "bots" / program, [sys.executable], dict(os.environ)
     if program.endswith(".mjs"):

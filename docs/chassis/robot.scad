@@ -1,6 +1,6 @@
 // Chassis of a Wi-Fi robot: plate, lid and two feet, printed flat and without supports. Lengths in mm.
 //
-//     openscad -o plate.stl -D 'part="plate"' assets/chassis/robot.scad      also lid, foot, front
+//     openscad -o plate.stl -D 'part="plate"' docs/chassis/robot.scad      also lid, foot, front
 //
 // The origin is on the mat, midway between the wheels; y points ahead. docs/kit.md has the steps.
 
