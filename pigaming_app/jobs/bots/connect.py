@@ -31,7 +31,7 @@ def connect(names: Sequence[str]) -> None:
         return  # the job refuses names that it does not know
     brains.serve(Serving.PATIENT)
     host = BotHost(RATE)
-    host.switch(True, ADDRESS, PORT)
+    host.follow(True, False, ADDRESS, PORT)
     if host.trouble:
         raise Refusal(english()(f"phones.{host.trouble.key}", **host.trouble.values))
     atexit.register(host.close)

@@ -19,13 +19,11 @@ class BotService(Service):
 
     def update(self, seconds: float, stack: Stack) -> None:
         settings = self.context.settings
-        self.host.switch(settings.bots, settings.phones_network)
-        self.host.switch_vision(settings.bots_vision, settings.phones_network)
+        self.host.follow(settings.bots, settings.bots_vision, settings.phones_network)
         self.host.show(stack.scenes)
 
     def close(self) -> None:
         self.host.close()
-        self.host.switch_vision(False, "")
 
 
 def service(context: Context, options: Options) -> Service:

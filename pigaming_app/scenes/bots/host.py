@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 PORT = 8789  # TCP; 8787 and 8788 are those of phones and of the desk
 RATE = 2000  # four seats, 50 times a second, up to ten times real time
-CHECK_SECONDS = 3.0  # between two attempts to start
+CHECK_SECONDS = 3.0  # between two looks at the network, and two attempts to start
 
 
 @runtime_checkable
@@ -38,9 +38,9 @@ class BotHost:
         self.server: SocketServer | None = None
         self.trouble: ServerUnavailable | None = None
         self.sessions: set[BotSession] = set()
-        self._asked: tuple[str, int] | None = None
+        self._asked: tuple[bool, bool, str, int] | None = None
         self._vision: VisionSender | None = None
-        self._tried_at = -CHECK_SECONDS
+        self._checked_at = 0.0
         self._match: Match | None = None  # that observers know
         self._number, self._tick, self._standing = 0, -1, tuple[int, ...]()
 
@@ -49,31 +49,40 @@ class BotHost:
         """The address for programs; empty if none can connect."""
         return self.server.url if self.server else ""
 
-    def switch(self, on: bool, network: str, port: int = PORT) -> None:
-        """Listen on a network, as long as it is `on`; a start that fails is repeated."""
-        asked = (network, port) if on else None
-        if asked != self._asked:
-            self.close()
-            self._asked, self._tried_at = asked, -CHECK_SECONDS
-        if asked and self.server is None and time.monotonic() - self._tried_at >= CHECK_SECONDS:
-            self._start(*asked)
-
-    def switch_vision(self, on: bool, network: str) -> None:
-        """Send the league's packets on a network, as long as it is `on`."""
-        if on == bool(self._vision):
+    def follow(self, on: bool, vision: bool, network: str, port: int = PORT) -> None:
+        """Serve programs (`on`) and send the league's packets (`vision`) on a network, whose address may change."""
+        asked, now = (on, vision, network, port), time.monotonic()
+        if asked == self._asked and (not (on or vision) or now - self._checked_at < CHECK_SECONDS):
             return
-        if self._vision:
+        if self._asked and self._asked[3] != port:
+            self.close()
+        self._asked, self._checked_at, self.trouble = asked, now, None
+        try:
+            address = _address(network) if on or vision else ""
+        except ServerUnavailable as trouble:
+            address, self.trouble = "", trouble
+        if self.server and not (on and address == self.server.address):
+            self._stop()
+        if self._vision and not (vision and address == self._vision.address):
             self._vision.close()
             self._vision = None
-            return
-        with suppress(ServerUnavailable, OSError):  # no network: it is tried again
-            self._vision = VisionSender(chosen(network, networks()).address)
+        if on and address and self.server is None:
+            self._start(address, port)
+        if vision and address and self._vision is None:
+            with suppress(OSError):  # it is tried again
+                self._vision = VisionSender(address)
 
     def close(self) -> None:
         """End all connections."""
+        self._stop()
+        if self._vision:
+            self._vision.close()
+        self._vision = self._asked = self.trouble = None
+
+    def _stop(self) -> None:
         if self.server:
             self.server.stop()
-        self.server = self.trouble = self._asked = None
+        self.server = None
         self.sessions.clear()
 
     def show(self, scenes: Sequence[Scene]) -> None:
@@ -112,17 +121,13 @@ class BotHost:
         told |= {"arena": setup.arena, "minutes": setup.minutes, "seats": seats, "rules": view.rules(match.state)}
         return {**told, **FIELD, **view.layout(match.state)}
 
-    def _start(self, network: str, port: int) -> None:
-        self._tried_at = time.monotonic()
-        try:
-            if not all(find_spec(module) for module in ("aiohttp", "ifaddr")):
-                raise ServerUnavailable("missing")
-            from pigaming_app.ui.web.sockets import SocketServer
+    def _start(self, address: str, port: int) -> None:
+        from pigaming_app.ui.web.sockets import SocketServer
 
-            address = chosen(network, networks()).address
-            server = SocketServer("bots", address, port, self._opened, self._rate)
+        server = SocketServer("bots", address, port, self._opened, self._rate)
+        try:
             server.start()
-            self.server, self.trouble = server, None
+            self.server = server
         except ServerUnavailable as trouble:
             self.trouble = trouble
 
@@ -130,6 +135,13 @@ class BotHost:
         session = BotSession(send, close, self.sessions.discard)
         self.sessions.add(session)
         return session
+
+
+def _address(network: str) -> str:
+    """The address of this computer on a network. Raises ServerUnavailable."""
+    if not all(find_spec(module) for module in ("aiohttp", "ifaddr")):
+        raise ServerUnavailable("missing")
+    return chosen(network, networks()).address
 
 
 def bot_host(context: Context) -> BotHost:

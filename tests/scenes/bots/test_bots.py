@@ -33,7 +33,7 @@ WAIT = 10.0  # s for what happens within milliseconds
 @pytest.fixture
 def host(arcade: Arcade) -> Iterator[BotHost]:
     host = BotHost()
-    host.switch(True, "127.0.0.1", 0)
+    host.follow(True, False, "127.0.0.1", 0)
     assert host.trouble is None
     brains.book().add("ada")
     brains.serve(Serving.LIVE)
@@ -375,6 +375,21 @@ def test_the_service_follows_the_settings(arcade: Arcade) -> None:
     observer.join(WAIT)
     assert observer.code == 1001
     service.close()
+
+
+def test_another_network_ends_the_old_address(monkeypatch: pytest.MonkeyPatch) -> None:
+    host = BotHost()
+    host.follow(True, True, "127.0.0.1", 0)
+    observer = Program(host.url)
+    until(lambda: observer.types() == ["hello"])
+    monkeypatch.setattr("pigaming_app.scenes.bots.host.CHECK_SECONDS", 0.0)
+    host.follow(True, True, "127.0.0.2", 0)
+    observer.join(WAIT)
+    assert observer.code == 1001
+    assert host.url.startswith("ws://127.0.0.2:")
+    host.follow(True, True, "no such network", 0)
+    assert (host.url, host.trouble and host.trouble.key) == ("", "network_gone")
+    host.close()
 
 
 @pytest.mark.parametrize("game", ["pitanks", "factory", "race", "football"])
