@@ -12,6 +12,13 @@ from numpy.typing import NDArray
 
 from pigaming_app.storage.messages import OperatorMessage
 
+try:
+    from termios import error as termios_error
+except ImportError:  # Windows
+    SERIAL_FAILURES: tuple[type[Exception], ...] = (OSError,)
+else:
+    SERIAL_FAILURES = (OSError, termios_error)  # pyserial's SerialException is an OSError; termios.error is not
+
 Clock = Callable[[], float]  # s
 Image = NDArray[np.uint8]  # (height, width), grey
 

@@ -12,18 +12,14 @@ import re
 import struct
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
+from io import StringIO
 from time import sleep
 from typing import Any
 
 from pigaming_app.hardware.robot_kinds import PROGRAM, robot_config
+from pigaming_app.hardware.signals import SERIAL_FAILURES
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
-try:
-    from termios import error as termios_error
-except ImportError:  # Windows
-    FAILURES: tuple[type[Exception], ...] = (OSError,)
-else:
-    FAILURES = (OSError, termios_error)  # pyserial's SerialException is an OSError; termios.error is not
 Tell = Callable[[str, bool], None]
 KINDS = {"pico_w": "board_pico_w", "esp32": "board_esp32"}  # their files
 BOARDS = {"rp2": "pico_w", "esp32": "esp32"}  # kind by `sys.platform`, of boards with Wi-Fi
@@ -200,7 +196,7 @@ class BoardOnUsb:
         from mpremote.transport import TransportError, TransportExecError
 
         try:
-            with redirect_stdout(None):  # mpremote prints what it did not expect
+            with redirect_stdout(StringIO()):  # mpremote prints what it did not expect
                 yield
         except TransportExecError as error:  # of the program on the board
             if not quiet:
@@ -210,7 +206,7 @@ class BoardOnUsb:
             if not quiet:
                 key = "board_gone" if "access" in str(error) else "board_silent"
                 raise SetupFailed(OperatorMessage(key, port=self.port)) from None
-        except FAILURES as error:
+        except SERIAL_FAILURES as error:
             if not quiet and getattr(error, "errno", 0) in (errno.ENOSPC, errno.EROFS):  # of the board's disk
                 raise SetupFailed(OperatorMessage("board_failed", detail=str(error)[:80])) from None
             if not quiet:

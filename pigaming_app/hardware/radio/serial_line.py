@@ -11,16 +11,10 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, NamedTuple
 
-from pigaming_app.hardware.signals import Clock, SerialPort
+from pigaming_app.hardware.signals import SERIAL_FAILURES, Clock, SerialPort
 from pigaming_app.storage.messages import OperatorMessage
 
-try:
-    from termios import error as termios_error
-except ImportError:  # Windows
-    FAILURES: tuple[type[Exception], ...] = (OSError,)
-else:
-    FAILURES = (OSError, termios_error)  # pyserial's SerialException is an OSError; termios.error is not
-CANNOT_OPEN: tuple[type[Exception], ...] = (*FAILURES, ImportError, ValueError)  # no pyserial; invalid baud rate
+CANNOT_OPEN: tuple[type[Exception], ...] = (*SERIAL_FAILURES, ImportError, ValueError)  # no pyserial; invalid baud rate
 
 BAUD = 57600  # bit/s of the radios and of our firmware
 FIRST, LONGEST = 0.25, 2.0  # s between two attempts to open, doubled every time
@@ -133,7 +127,7 @@ class SerialLine:
             return b""
         try:
             return self._port.read(waiting) if (waiting := self._port.in_waiting) else b""
-        except FAILURES:
+        except SERIAL_FAILURES:
             self._lose()
             return b""
 
@@ -143,7 +137,7 @@ class SerialLine:
             return
         try:
             self._port.write(data)
-        except FAILURES as error:
+        except SERIAL_FAILURES as error:
             if type(error).__name__ == "SerialTimeoutException":
                 self._timed_out(self._port)
             else:
@@ -155,7 +149,7 @@ class SerialLine:
         """Close the port; `open` may reopen it."""
         port, self._port = self._port, None
         if port is not None:
-            with suppress(*FAILURES):
+            with suppress(*SERIAL_FAILURES):
                 port.close()
 
     def _timed_out(self, port: Any) -> None:
@@ -168,7 +162,7 @@ class SerialLine:
         if hasattr(port, "reset_output_buffer"):
             try:
                 port.reset_output_buffer()
-            except FAILURES:
+            except SERIAL_FAILURES:
                 self._lose()
 
     def _lose(self) -> None:

@@ -9,9 +9,9 @@ from contextlib import suppress
 from typing import NamedTuple, TypeVar
 
 from pigaming_app.hardware.radio.packets import ROBOTS
-from pigaming_app.hardware.radio.serial_line import CANNOT_OPEN, FAILURES, failure_message, radio_message
+from pigaming_app.hardware.radio.serial_line import CANNOT_OPEN, failure_message, radio_message
 from pigaming_app.hardware.radio.xbee_frames import ATCommand, ATResponse, FrameDecoder, decode, encode, frame
-from pigaming_app.hardware.signals import Clock, SerialPort
+from pigaming_app.hardware.signals import SERIAL_FAILURES, Clock, SerialPort
 from pigaming_app.storage.messages import OperatorError
 
 FACTORY_BAUD = 9600
@@ -92,11 +92,11 @@ class XBeeSetup:
             if self._api is None:
                 yield from self._command("CN")
                 self._entered = False
-        except FAILURES:
+        except SERIAL_FAILURES:
             raise self._error("unplugged") from None
         finally:
             if self._entered:
-                with suppress(*FAILURES):
+                with suppress(*SERIAL_FAILURES):
                     self._write(b"ATCN\r")  # else it would answer no further attempt for 10 s
             self._close()
 
@@ -185,7 +185,7 @@ class XBeeSetup:
     def _close(self) -> None:
         port, self._port = self._port, None
         if port is not None:
-            with suppress(*FAILURES):
+            with suppress(*SERIAL_FAILURES):
                 port.close()
 
     def _read(self) -> bytes:

@@ -10,13 +10,13 @@ import pytest
 import serial
 
 from pigaming_app.hardware.radio.serial_line import (
-    FAILURES,
     SerialLine,
     failure_message,
     ports,
     radio_message,
     serial_port,
 )
+from pigaming_app.hardware.signals import SERIAL_FAILURES
 from tests.hardware.sentences import key_of, sentence
 from tests.hardware.wire import Time, Wire
 
@@ -33,7 +33,7 @@ REFUSALS = {  # errors on opening, on Linux, macOS and Windows: expected reason
         "absent",
     ),
     "busy, Windows": (OSError("could not open port 'COM3': PermissionError(13, 'Access is denied.', None, 5)"), "busy"),
-    "no hardware, told by termios": (FAILURES[-1](errno.EIO, "Input/output error"), "dead"),
+    "no hardware, told by termios": (SERIAL_FAILURES[-1](errno.EIO, "Input/output error"), "dead"),
     "no pyserial": (ImportError("No module named 'serial'"), "missing"),
     "no such baud": (ValueError("Invalid baud rate: 7"), "failed"),
 }
@@ -114,7 +114,7 @@ def test_the_ports_of_the_computer_are_listed():
     assert all(port.device and port.description for port in ports())
 
 
-@pytest.mark.parametrize("kind", FAILURES)
+@pytest.mark.parametrize("kind", SERIAL_FAILURES)
 def test_a_lost_port_is_opened_again_at_longer_and_longer_intervals(kind):
     time, tries = Time(), []
     wires = [Wire(time), Wire(time)]
@@ -140,7 +140,7 @@ def test_a_lost_port_is_opened_again_at_longer_and_longer_intervals(kind):
     assert line.is_open
 
 
-@pytest.mark.parametrize("kind", FAILURES)
+@pytest.mark.parametrize("kind", SERIAL_FAILURES)
 def test_a_write_that_fails_loses_the_port(kind):
     wire = Wire(Time())
     line = SerialLine(lambda: wire, wire.time, "COM3")
