@@ -16,16 +16,16 @@ from pigaming_app.ai.race.racer import HAND1, HAND2, HAND3, Driver, lead, person
 from pigaming_app.ai.race.steering_help import with_help
 
 NETWORK = "race"  # in assets/brains
-driver = partial(Driver, form=0.4, boost=0.15, reaction=(5, 30), care=0.03)
+driver = partial(Driver, form=0.15, spell=0.45, boost=0.15, reaction=(5, 30), care=0.03)
 DRIVERS = (
-    driver(speed=0.54, line=0.9, spread=12.0, delay=0.3, mistakes=0.01, foresight=190.0, alert=0.08),
-    driver(speed=0.64, form=0.5, line=0.95, spread=10.0, delay=0.3, mistakes=0.01, foresight=210.0, alert=0.1),
-    driver(speed=0.68, line=0.95, spread=8.0, delay=0.2, mistakes=0.01, foresight=240.0, alert=0.18),
-    driver(speed=0.77, line=1.0, spread=6.0, delay=0.1, mistakes=0.0, foresight=290.0, alert=0.35),
-    driver(speed=0.87, line=1.0, spread=4.0, delay=0.05, mistakes=0.0, foresight=380.0, alert=1.0),
+    driver(speed=0.62, line=0.9, spread=12.0, delay=0.3, mistakes=0.01, foresight=190.0, alert=0.08),
+    driver(speed=0.735, form=0.2, line=0.95, spread=10.0, delay=0.3, mistakes=0.01, foresight=210.0, alert=0.1),
+    driver(speed=0.78, line=0.95, spread=8.0, delay=0.2, mistakes=0.01, foresight=240.0, alert=0.18),
+    driver(speed=0.88, line=1.0, spread=6.0, delay=0.1, mistakes=0.0, foresight=290.0, alert=0.35),
+    driver(speed=1.0, line=1.0, spread=4.0, delay=0.05, mistakes=0.0, foresight=380.0, alert=1.0),
 )
-EASIEST = driver(speed=0.4, line=0.85, spread=14.0, delay=0.3, mistakes=0.01, foresight=180.0, alert=0.05)
-HARDEST = driver(form=0.01, care=0.02, line=1.0, spread=2.0, delay=0.05, mistakes=0.0, foresight=400.0, alert=1.0)
+EASIEST = driver(speed=0.46, line=0.85, spread=14.0, delay=0.3, mistakes=0.01, foresight=180.0, alert=0.05)
+HARDEST = driver(form=0.005, spell=0.01, care=0.02, line=1.0, spread=2.0, delay=0.05, mistakes=0.0, foresight=400.0, alert=1.0)
 LEVELS = tuple(racer(f"level{number}", driver) for number, driver in enumerate(DRIVERS, start=1))
 NET = shipped_brain("net", "race", NETWORK)
 

@@ -36,6 +36,8 @@ OUT = 30.0  # px inside the edge at which it aims when off the course
 SLACK = 25.0  # px past a line before it counts as missed: the rules may not have registered the crossing yet
 SAVE = 80.0  # px to a robot ahead within which it saves its turbo
 NEW_ERROR = 30  # ticks between draws of the line error
+SPELL = 25 * HZ  # ticks of a spell of form, on average; from half of it to one and a half
+EASE = 0.03  # of the way from one spell's form to the next, with each decision
 BEND = 0.3  # sine of the turn ahead, from which a bend may cause a mistake
 BLUNDER = 35  # ticks of a mistake
 WIDE, OVER = 60.0, 45.0  # px of lane change within one lookahead then, and px off the course that it heads for
@@ -55,7 +57,11 @@ class RacerMind:
     senses: RaceSenses
     obs: RaceObservation
     speed: float
-    form: float  # share of its speed that it reaches today
+    day: float  # share of its speed that it lacks today
+    spell: float
+    low: float  # how much of `spell` it lacks on top at present, 0 to 1
+    next_low: float  # where `low` goes in this spell
+    spell_left: int  # ticks
     line: float
     spread: float
     boost: float
@@ -167,6 +173,8 @@ def aimed_lane(mind: RacerMind) -> float:
 @kernel
 def draw_error(obs: RaceObservation, mind: RacerMind) -> None:
     """Draw a new line error and how early it brakes, every NEW_ERROR ticks; in a bend perhaps a mistake."""
+    if mind.spell > 0.0:
+        update_form(mind)
     mind.blunder -= PERIOD
     mind.stray_left -= PERIOD
     if mind.stray_left <= 0:
@@ -175,6 +183,22 @@ def draw_error(obs: RaceObservation, mind: RacerMind) -> None:
         mind.caution = mind.care * uniform(mind)
         if abs(obs.turn) > BEND and obs.on and uniform(mind) < mind.mistakes:
             mind.blunder = BLUNDER
+
+
+@kernel
+def update_form(mind: RacerMind) -> None:
+    """Approach the form of this spell; draw the next one when it is over."""
+    mind.spell_left -= PERIOD
+    if mind.spell_left <= 0:
+        draw_spell(mind)
+    mind.low += EASE * (mind.next_low - mind.low)
+
+
+@kernel
+def draw_spell(mind: RacerMind) -> None:
+    """Draw form and length of a spell."""
+    mind.next_low = uniform(mind)
+    mind.spell_left = int(SPELL * (0.5 + uniform(mind)))
 
 
 @kernel
@@ -241,7 +265,8 @@ def pursue(obs: RaceObservation, mind: RacerMind, action: Action, x: float, y: f
     held = leader_speed(obs, mind)
     dash = wants_turbo(obs, mind, bend) if held > 1.0 else 0
     full = obs.speed * (obs.turbo_factor if dash else 1.0)
-    speed, limit = mind.speed * mind.form, GRIP * obs.turn_rate / (abs(bend) * full + 1e-9)
+    form = 1.0 - mind.day - mind.spell * mind.low
+    speed, limit = mind.speed * form, GRIP * obs.turn_rate / (abs(bend) * full + 1e-9)
     if mind.blunder <= 0:
         early = 1.0 if obs.pace >= 1.0 else 1.0 - mind.caution
         speed *= obs.pace * early
@@ -289,6 +314,7 @@ class Driver:
     foresight: float  # px ahead, within which it reacts to pads, boxes and oil
     alert: float  # probability, per decision, of noticing that it should use its item
     speed: float = 1.0  # share of full speed, on a good day
+    spell: float = 0.0  # share of its speed that it may lack on top, for some time
 
     def reset(self, mind: RacerMind, seed: int) -> None:
         """Initialise a fresh mind. The range of reactions is a multiple of PERIOD: no seat has an advantage."""
@@ -298,7 +324,10 @@ class Driver:
         mind.random = seeded(seed)
         fewest, more = self.reaction
         mind.reaction = fewest + int(more * uniform(mind))
-        mind.form = 1.0 - self.form * uniform(mind)
+        mind.day, mind.spell = self.form * uniform(mind), self.spell
+        if self.spell:
+            draw_spell(mind)
+            mind.low = mind.next_low
 
 
 def racer(name: str, driver: Driver) -> BrainKind:
