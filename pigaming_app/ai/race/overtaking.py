@@ -63,7 +63,7 @@ def choose_lane(obs: RaceObservation, mind: Overtaker) -> None:
 @kernel
 def lane_cost(obs: RaceObservation, mind: Overtaker, lane: float) -> float:
     """Cost of the robots and features on a lane, px; 0 if there are none. `lane`: px right of the middle."""
-    cost = feature_cost(obs, mind, lane) if obs.party else 0.0
+    cost = feature_cost(obs, mind, lane) if obs.boosts else 0.0
     passing = eagerness(obs)
     for i in range(OTHERS):
         other = obs.others[i]
@@ -87,7 +87,7 @@ def lane_cost(obs: RaceObservation, mind: Overtaker, lane: float) -> float:
 @kernel
 def eagerness(obs: RaceObservation) -> float:
     """Cost of staying behind a robot right ahead, px: in `party`, with a charged meter, on a straight."""
-    if not obs.party or (obs.turbo < CHARGED and not obs.surge):
+    if not obs.boosts or (obs.turbo < CHARGED and not obs.surge):
         return 0.0
     cost: float = PASSING * (1.0 - abs(obs.turn) / STRAIGHT)
     return cost if cost > 0.0 else 0.0
@@ -97,7 +97,7 @@ def eagerness(obs: RaceObservation) -> float:
 def has_features(obs: RaceObservation, mind: Overtaker) -> bool:
     """True if something on the course, or a slipstream, may be worth another lane."""
     near = obs.pad.present or obs.box.present or obs.oils[0].present
-    return bool(obs.party and mind.alert > 0.0 and (near or obs.turbo < CHARGED))
+    return bool(obs.boosts and mind.alert > 0.0 and (near or obs.turbo < CHARGED))
 
 
 @kernel
@@ -128,7 +128,7 @@ def feature_cost(obs: RaceObservation, mind: Overtaker, lane: float) -> float:
 def leader_speed(obs: RaceObservation, mind: Overtaker) -> float:
     """Speed of a robot right ahead on the present lane, as a share of full speed; above 1 if there is none."""
     share = 2.0
-    tail = 0.0 if obs.party else TAIL
+    tail = 0.0 if obs.boosts else TAIL
     for i in range(OTHERS):
         other = obs.others[i]
         near = other.present and other.ahead > 15.0 and other.distance < CLEAR + tail

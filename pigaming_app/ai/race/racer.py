@@ -6,7 +6,8 @@ allows, with turbo on straights. A stuck robot backs out; one that has missed a 
 The strengths differ in speed, in how closely and steadily they keep the fastest line, in turbo (hand1 never uses it),
 in reaction time and in mistakes: a missed braking point, after which the robot runs wide, often into the mud. Those
 below hand3 stay nearer to the middle of the course, which leaves room inside to overtake them. No two races of a driver
-are alike: its reaction at the start, its line and how early it brakes vary with the seed.
+are alike: its reaction at the start, its line and how early it brakes vary with the seed. Levels also have a form, of
+the day and of spells, so that half a race does not decide it.
 
 In `party` it uses its item when that pays (see `wants_item`). FIRE also asks for the way back when it is lost for good.
 """
@@ -282,7 +283,7 @@ def wants_turbo(obs: RaceObservation, mind: RacerMind, bend: float) -> int:
         return 0
     for i in range(OTHERS):
         other = obs.others[i]
-        beside = obs.party and abs(other.aside - mind.lane) > CLEAR - LEEWAY
+        beside = obs.boosts and abs(other.aside - mind.lane) > CLEAR - LEEWAY
         if other.present and other.ahead > 0.0 and other.distance < SAVE and not beside:
             return 0
     return 1 if obs.boosting or obs.turbo > mind.boost else 0

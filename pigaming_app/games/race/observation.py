@@ -9,6 +9,7 @@ from typing import Annotated, Protocol
 
 from pigaming_app.games.race.course import Course, CoursePosition, distance_ahead, locate, point_at, segment_at
 from pigaming_app.games.race.laps import stretch
+from pigaming_app.games.race.party import is_last
 from pigaming_app.games.race.passages import clear_aside
 from pigaming_app.games.race.state import Race
 from pigaming_app.sim.angles import turn_to
@@ -105,7 +106,7 @@ class RaceObservation:
     ahead: TrackPoint  # at the lookahead distance
     others: Annotated[list[RaceOther], OTHERS]
     lost: int  # as in Racer: FIRE asks for the way back
-    party: int  # 1: the fields below are in use
+    boosts: int  # 1: slipstream and boost pads work for it, and the fields below are in use
     item: int
     shield: int
     spin: int
@@ -149,8 +150,8 @@ def observe(match: Race, seat: int, senses: RaceSenses, obs: RaceObservation) ->
     observe_next_line(match, seat, along, obs)
     for i in range(OTHERS):
         observe_other(match, robot, (seat + 1 + i) % ROBOTS, along, senses, obs.others[i])
-    obs.lost, obs.party = racer.lost, rules.party
-    if rules.party:
+    obs.lost, obs.boosts = racer.lost, 1 if rules.party or (rules.draft and is_last(match, seat)) else 0
+    if obs.boosts:
         obs.item, obs.shield, obs.spin = racer.item, racer.shield, racer.spin
         obs.slip, obs.surge = racer.slip, racer.surge
         observe_features(match, along, senses.place, obs)
@@ -257,7 +258,7 @@ def observe_features(match: Race, along: float, place: CoursePosition, obs: Road
     for pad in match.pads:
         note(obs.pad, distance_ahead(course, along, pad.along), pad.aside, aside)
     for box in match.boxes:
-        if not box.pause:
+        if match.rules.party and not box.pause:
             note(obs.box, distance_ahead(course, along, box.along), box.aside, aside)
     for slick in obs.oils:
         slick.present = 0

@@ -1,4 +1,4 @@
-"""Robot Race, `party`: slipstream, boost pads, item boxes and oil.
+"""Robot Race, `party`: slipstream, boost pads, item boxes and oil. In `draft` the last robot has the first two.
 
 - Slipstream: behind another robot the turbo meter refills, also while turbo is on; the farther back in the race, the
   faster.
@@ -28,20 +28,33 @@ CREEP = 0.2  # share of full speed in a spin
 @kernel
 def update_course(match: Race) -> None:
     """One tick of everything on the course."""
-    for i in range(BOXES):
-        update_box(match, match.boxes[i])
-    for oil in match.oils:
-        if oil.alive:
-            oil.alive -= 1
+    party = match.rules.party
+    if party:
+        for i in range(BOXES):
+            update_box(match, match.boxes[i])
+        for oil in match.oils:
+            if oil.alive:
+                oil.alive -= 1
     for k in range(ROBOTS):
         racer = match.racers[k]
         racer.slip = 0
         if match.robots[k].present and not racer.finished:
             if racer.shield:
                 racer.shield -= 1
-            draft(match, k)
-            drive_over_pads(match, k)
-            drive_over_oil(match, k)
+            if party or is_last(match, k):
+                draft(match, k)
+                drive_over_pads(match, k)
+            if party:
+                drive_over_oil(match, k)
+
+
+@kernel
+def is_last(match: Race, k: int) -> bool:
+    """True if robot k is the last of several."""
+    robots = 0
+    for robot in match.robots:
+        robots += robot.present
+    return bool(robots > 1 and match.racers[k].rank == robots)
 
 
 @kernel

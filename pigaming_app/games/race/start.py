@@ -51,7 +51,9 @@ GOALS = tuple(range(1, MAX_LAPS + 1))
 PARTY_LAPS = 5
 PARTY_MUD = 0.5
 VARIANTS = Variant.by_name(
-    Variant("standard", (10,), 10, GOALS, LAPS, ALONE), Variant("party", (10,), 10, GOALS, PARTY_LAPS, ALONE)
+    Variant("standard", (10,), 10, GOALS, LAPS, ALONE),
+    Variant("draft", (10,), 10, GOALS, LAPS, ALONE),
+    Variant("party", (10,), 10, GOALS, PARTY_LAPS, ALONE),
 )
 APART = 300.0  # px, least distance between two lines
 LEEWAY = 400.0  # px by which tape moves a line, at most
@@ -161,8 +163,10 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
         racer.last_x, racer.last_y, racer.rank = robot.x, robot.y, (place if party else i) + 1
         racer.left = racer.place.along
         racer.progress = progress(match, i)
+    if party or match.rules.draft:
+        _place_pads(match, track)
     if party:
-        _furnish(match, track)
+        _place_boxes(match, track)
 
 
 def reroute(arena: Arena, rules: RaceRules, things: tuple[ThingSpec, ...]) -> Callable[[Race], None]:
@@ -180,14 +184,18 @@ def _set_line(match: Race, found: tuple[Line, Sequence[Span]]) -> None:
     match.low[:], match.high[:] = zip(*spans, strict=True) if spans else ([0.0] * POINTS,) * 2
 
 
-def _furnish(match: Race, track: TrackPlan) -> None:
-    """Put pads and boxes on the course."""
+def _place_pads(match: Race, track: TrackPlan) -> None:
+    """Put boost pads on the course."""
     for pad, along in zip(match.pads, track.pads, strict=True):
         k, _ = segment_at(track.course, along)
         aside = pad_aside(track.course, along, match.ideal[k])
         aside = min(max(aside, match.low[k]), match.high[k]) if match.narrow else aside
         pose = pose_at(track.course, along, aside)
         pad.x, pad.y, pad.heading, pad.along, pad.aside = pose.x, pose.y, pose.heading, along, aside
+
+
+def _place_boxes(match: Race, track: TrackPlan) -> None:
+    """Put item boxes on the course."""
     for box, (along, aside) in zip(match.boxes, track.boxes, strict=True):
         box.x, box.y = point_at(track.course, along, aside)
         box.along, box.aside = along, aside
@@ -212,6 +220,7 @@ def set_rules(rules: RaceRules, setup: Setup) -> None:
     """Adapt fresh rules to a setup. `party`: a common start, and half the speed in mud instead of a third."""
     rules.ticks = round(setup.minutes * 60 * HZ)
     rules.laps = setup.goal or rules.laps
+    rules.draft = int(setup.variant == "draft")
     if setup.variant == "party":
         rules.party, rules.mud = 1, PARTY_MUD
 

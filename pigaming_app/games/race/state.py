@@ -35,6 +35,7 @@ class RaceRules(MatchRules):
     roll_on: int = round(1.5 * HZ)  # for which a finisher may still drive, to clear the line
     carried: float = 40.0  # px in a tick: a robot that moved further was carried by hand, and has crossed nothing
     party: int  # 1: common start and finish line, slipstream, boost pads, items
+    draft: int  # 1: slipstream and boost pads, for the last of several only
     slip_reach: float = 350.0  # px, length of the slipstream behind a robot's centre
     slip_width: float = 45.0  # px to either side of it
     slip_refill: float = 1.0 / (5 * HZ)  # of the meter, per tick, times the place: most for the last
@@ -142,8 +143,8 @@ class Race(MatchState):
     first: int  # tick of the first finish; 0: none yet
     ideal: Annotated[list[float], POINTS]  # offset of the fastest line at each point of the course, px
     pace: Annotated[list[float], POINTS]  # speed there, as a share of full speed
-    pads: Annotated[list[BoostPad], PADS]  # party only
-    boxes: Annotated[list[Box], BOXES]
+    pads: Annotated[list[BoostPad], PADS]  # party and draft
+    boxes: Annotated[list[Box], BOXES]  # party only
     oils: Annotated[list[Oil], OILS]
     narrow: int  # 1: there are things, and robots pass them between these two offsets at each point, px
     low: Annotated[list[float], POINTS]

@@ -394,3 +394,19 @@ def test_a_robot_shows_only_its_last_change_of_place(screen):
             state.tick += 1
             view.watch(state)
     assert sorted(note.seat for note in view.notes.notes) == [0, 1]
+
+
+@pytest.mark.parametrize("last", range(4))
+def test_pads_of_draft_shine_in_the_colour_of_the_last(screen, last):
+    scene = BusyRace(variant="draft")
+    state, view = scene.state, seen(scene)
+    for seat, racer in enumerate(state.racers):
+        racer.rank = (seat - last) % 4 or 4
+    pad = state.pads[0]
+    for robot in state.robots:
+        robot.x, robot.y = pad.x + 400.0, pad.y + 200.0
+    view.draw(screen, state, 1.0, 0.0)
+    box = around(pad.x, pad.y, 40)
+    pixels = [screen.get_at((x, y))[:3] for x in range(box.left, box.right) for y in range(box.top, box.bottom)]
+    bright = max(pixels, key=lambda pixel: max(pixel) - min(pixel))  # the road is grey
+    assert min(range(4), key=lambda seat: sum((a - b) ** 2 for a, b in zip(bright, PLAYERS[seat], strict=True))) == last

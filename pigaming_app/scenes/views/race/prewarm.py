@@ -83,16 +83,23 @@ def _light(seats: Sequence[int], party: bool) -> Iterator[Job]:
             yield partial(effects.light, color, level)
 
 
-def party_jobs(state: Race, seats: Sequence[int], finish: LineFrame) -> Iterator[Job]:
-    """One small job per sprite; a cached sprite costs nothing. `finish`: the common finish line."""
+def party_jobs(state: Race, seats: Sequence[int], finish: LineFrame | None) -> Iterator[Job]:
+    """One small job per sprite; a cached sprite costs nothing. `finish`: the common finish line; None: in draft."""
+    colors = [FOCUS] if finish else [FOCUS, *(PLAYERS[seat] for seat in seats)]
     for turn in sorted({step(pad.heading, HEADINGS) for pad in state.pads}):
-        yield from (partial(things.pad, turn, phase) for phase in range(things.PAD_PHASES))
+        for color in colors:
+            yield from (partial(things.pad, turn, phase, color) for phase in range(things.PAD_PHASES))
+    for turn in range(things.AIR_TURNS):
+        yield from (partial(things.air, turn, level) for level in range(things.AIR_LEVELS, 0, -1))
+    if finish:
+        yield from _party(seats, finish)
+
+
+def _party(seats: Sequence[int], finish: LineFrame) -> Iterator[Job]:
     yield from (partial(things.item_box, turn) for turn in range(things.BOX_TURNS))
     yield things.box_gone
     for shape in range(things.OIL_SHAPES):
         yield from (partial(things.oil, shape, level) for level in range(things.OIL_LEVELS, 0, -1))
-    for turn in range(things.AIR_TURNS):
-        yield from (partial(things.air, turn, level) for level in range(things.AIR_LEVELS, 0, -1))
     yield from (partial(things.swirl, turn, 52) for turn in range(things.SWIRL_TURNS))
     yield from (partial(things.finish_pulse, finish, level) for level in range(things.PULSE_LEVELS, 0, -1))
     for seat in seats:

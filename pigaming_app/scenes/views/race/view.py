@@ -70,7 +70,7 @@ class RaceView(MatchView):
         self.arena = arena
         self.cards = RaceHud(self.background, state, players, words)
         self.detector = RaceEventDetector(state)
-        self.party = PartyEventDetector(state) if state.rules.party else None
+        self.party = PartyEventDetector(state) if state.rules.party or state.rules.draft else None
         self.signs = self.floor.signs
         self.notes = RaceAnnouncements()
         self.event_effects = RaceEffects(self.particles, self.notes, options, words, self.signs)
@@ -83,11 +83,11 @@ class RaceView(MatchView):
         self.add_prewarm_jobs(self.cards.jobs(state))
         self.add_prewarm_jobs(jobs(self.seats, words, self.signs))
         if self.party:
-            line = self.frames[finish_line(self.signs)]
+            line = self.frames[finish_line(self.signs)] if state.rules.party else None
             self.add_prewarm_jobs(party_jobs(state, self.seats, line))
 
     def enable_persistence(self, folder: Path) -> None:
-        """Load the track's ghost, and save people's best laps; not in party, where pads and items help."""
+        """Load the track's ghost, and save people's best laps; not where pads and items help."""
         if not self.party:
             self.recorder = GhostRecorder(folder, self.arena, self.players)
 
@@ -167,10 +167,10 @@ class RaceView(MatchView):
             self.cards.announce(self.words("race.close_finish", seconds=number), state.tick)
 
     def _party(self, under: Batch, over: Batch, state: Race, poses: Sequence[Pose]) -> None:
-        """Draw the course of party, slipstreams, and the finish line of the last lap."""
+        """Draw what lies on the course, slipstreams, and in party the finish line of the last lap."""
         clock = self.particles.clock
         draw_floor(under, over, state, clock)
-        if self.party and self.party.final and not state.over:
+        if state.rules.party and self.party and self.party.final and not state.over:
             draw_finish(under, self.frames[finish_line(self.signs)], clock)
         for seat in self.seats:
             if state.racers[seat].slip:

@@ -1,14 +1,16 @@
-"""Everything of `party` on the course: boost pads, item boxes, oil, and air in slipstreams."""
+"""Everything on the course in `party` and `draft`: boost pads, item boxes, oil, and air in slipstreams."""
 
 import math
 from collections.abc import Sequence
 
+from pigaming_app.games.race.party import is_last
 from pigaming_app.games.race.state import OWN_OILS, Race
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.race.lines import START, LineFrame
 from pigaming_app.scenes.views.race.party import sprites as things
 from pigaming_app.scenes.views.view import Pose
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.ui.draw import FOCUS, PLAYERS
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 
 PAD_SPEED = 1.4  # waves of light over a boost pad, per second
@@ -21,10 +23,14 @@ CLEAR = 50.0  # px between a robot's centre and the air
 
 
 def draw_floor(under: Batch, over: Batch, state: Race, clock: float) -> None:
-    """Draw pads, boxes and oil."""
+    """Draw pads, boxes and oil; pads that only the last can use in its colour."""
+    owner = next((seat for seat in range(ROBOTS) if is_last(state, seat)), None) if state.rules.draft else None
+    color = FOCUS if owner is None else PLAYERS[owner]
     for pad in state.pads:
         phase = int(clock * PAD_SPEED * things.PAD_PHASES) % things.PAD_PHASES
-        put(under, things.pad(step(pad.heading, HEADINGS), phase), LEFT + pad.x, TOP + pad.y)
+        put(under, things.pad(step(pad.heading, HEADINGS), phase, color), LEFT + pad.x, TOP + pad.y)
+    if not state.rules.party:
+        return
     for i, oil in enumerate(state.oils):
         if oil.alive:
             level = min(things.OIL_LEVELS, 1 + oil.alive * things.OIL_LEVELS // DRYING)

@@ -25,22 +25,22 @@ SHEEN: kit.Color = (70, 215, 200)
 
 
 @cached
-def pad(turn: int, phase: int) -> Sprite:
+def pad(turn: int, phase: int, color: kit.Color) -> Sprite:
     """Boost pad at heading `turn` of HEADINGS: three chevrons that light up in driving direction."""
-    return turned(painted(_pad, (phase,)), turn, HEADINGS)
+    return turned(painted(_pad, (phase, color)), turn, HEADINGS)
 
 
-def _pad(phase: int) -> pygame.Surface:
+def _pad(phase: int, color: kit.Color) -> pygame.Surface:
     ink, h = master(58), PAD_HALF
     for x in (-h, h):
         for y in (-h, h):
             inward = [(x - math.copysign(16, x), y), (x, y), (x, y - math.copysign(16, y))]
-            ink.line(inward, kit.dim(kit.FOCUS, 0.45), kit.THIN)
+            ink.line(inward, kit.dim(color, 0.45), kit.THIN)
     for i in range(3):
         lag = (phase / PAD_PHASES - i / 3) % 1.0
         bright = 0.28 + 0.72 * max(0.0, 1.0 - 2.2 * lag)
         x = -22.0 + 20.0 * i
-        ink.line([(x - 8, -24), (x + 12, 0), (x - 8, 24)], kit.dim(kit.FOCUS, bright), 9)
+        ink.line([(x - 8, -24), (x + 12, 0), (x - 8, 24)], kit.dim(color, bright), 9)
     return ink.lit(0.9)
 
 
