@@ -2,8 +2,8 @@
 
 The five levels are one driver by hand, set against models of people (`ai/people`), who are much slower than it could
 be. Over a whole race the better driver would win nearly always, since robots do not slip. What makes it open is
-form, which comes and goes. The lower levels also drive wider lines, start later, miss braking points, and see pads, boxes and oil
-later. The network alone is `net`.
+form, which comes and goes. The lower levels also drive wider lines, start later, miss braking points, and see pads,
+boxes and oil later. The network alone is `net`.
 """
 
 from functools import partial

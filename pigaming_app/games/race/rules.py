@@ -5,7 +5,8 @@ all four in order and in the right direction, beginning with your own, or the la
 you must go back to it. Driving back over a line gains and costs nothing. Off the course is mud: a third of the speed.
 Turbo makes you faster while its meter lasts. After the first has finished, the others have half a minute left; those
 who do not finish are ranked by distance. A robot that has lost its way may ask for the way back (recovery.py). In
-`party` all start behind the same line, and there is more on the course (party.py), of which the last has a part in `draft`.
+`party` all start behind the same line, and there is more on the course (party.py), of which `draft` gives a part to the
+last.
 """
 
 from math import cos, sin
