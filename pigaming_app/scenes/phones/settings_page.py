@@ -8,12 +8,12 @@ from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.pages.settings_page import SettingsPage
-from pigaming_app.scenes.pages.text_page import TextPage
+from pigaming_app.scenes.pages.wifi import WIFI, wifi_typing, wifi_value
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import JoinByPhone, draw_code, draw_wifi, plain, trouble
 from pigaming_app.scenes.phones.list_page import PhoneList
 from pigaming_app.storage.settings import MAX_NAME
-from pigaming_app.ui.draw import ALARM, BODY, FOCUS, MIST, STEEL, THIN, text_width
+from pigaming_app.ui.draw import ALARM, FOCUS, MIST, STEEL, THIN, text_width
 from pigaming_app.ui.draw.layers import LEFT, RIGHT
 from pigaming_app.ui.draw.text import SMALLEST, fit_text, text
 from pigaming_app.ui.input.events import InputEvent
@@ -22,10 +22,8 @@ from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.labels import sign
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-ROWS = ("enabled", "network", "code", "list", "stay", "teams", "wifi", "wifi_key", "renew")
+ROWS = ("enabled", "network", "code", "list", "stay", "teams", *WIFI, "renew")
 FIELDS = {"enabled": "phones", "stay": "phones_stay", "teams": "phones_teams"}  # settings of the rows that are switches
-TYPED = {"wifi": ("phones_wifi", 32), "wifi_key": ("phones_wifi_key", 63)}  # settings that are typed, and their lengths
-LETTERS = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 -_.!?#$%&@*+=/,;:'\"()"
 STATUS_Y = 924  # px: what phones find at the moment
 
 
@@ -55,9 +53,9 @@ class PhonesPage(SettingsPage):
 
     def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
         host, settings, (x, y) = self.host, self.context.settings, dials.CENTRE
-        if name in TYPED and settings.phones_wifi and importable():
+        if name in WIFI and settings.phones_wifi and importable():
             draw_wifi(screen, settings, pygame.Rect(x - 165, y - 165, 330, 330))
-        elif host.url and name not in (*TYPED, "list"):
+        elif host.url and name not in (*WIFI, "list"):
             draw_code(screen, host.url, pygame.Rect(x - 165, y - 165, 330, 330))
         else:
             sign("phone", 120, FOCUS if host.on else STEEL, THIN).draw(screen, x, y)
@@ -72,10 +70,8 @@ class PhonesPage(SettingsPage):
         words, settings = self.context.words, self.context.settings
         if name in FIELDS:
             return self.switch(getattr(settings, FIELDS[name]))
-        if name == "wifi":
-            return SettingValue("action", (fit_text(settings.phones_wifi, BODY, 380)[0] or words("phones.none_set"),))
-        if name == "wifi_key":
-            return SettingValue("action", ("*" * min(12, len(settings.phones_wifi_key)) or words("phones.none_set"),))
+        if name in WIFI:
+            return wifi_value(self, name)
         if name != "network":
             return self.action("phones.renew_now" if name == "renew" else "options.open")
         chosen, known = settings.phones_network, self._names()
@@ -97,9 +93,9 @@ class PhonesPage(SettingsPage):
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
         """Open a page; a new code needs a held button."""
-        if name in TYPED:
+        if name in WIFI:
             self.context.sounds.play("accept")
-            return Push(self._typing(name))
+            return Push(wifi_typing(self, name))
         if not self.host.on:
             self.show_message(self.context.words("phones.are_off"))
             self.context.sounds.play("error")
@@ -116,18 +112,6 @@ class PhonesPage(SettingsPage):
         self.show_message(self.context.words("phones.renewed"))
         self.context.sounds.play("ready")
         return None
-
-    def _typing(self, name: str) -> TextPage:
-        """The page for the name of the Wi-Fi, or its password."""
-        settings, (field, most) = self.context.settings, TYPED[name]
-
-        def keep(text: str) -> str:
-            setattr(settings, field, text)
-            self.save()
-            self.rewarm()
-            return ""
-
-        return TextPage(self.context, self.label(name), getattr(settings, field), most, keep, True, LETTERS)
 
 
 def importable() -> bool:

@@ -12,18 +12,16 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.mat.robots.sketches import sketch
 from pigaming_app.scenes.pages.settings_page import SettingsPage
-from pigaming_app.scenes.pages.text_page import TextPage
+from pigaming_app.scenes.pages.wifi import WIFI, wifi_typing, wifi_value
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.draw import BODY, GREEN, MIST
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage
-from pigaming_app.ui.draw.text import fit_text, paragraph, text
+from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-TYPED = {"network": ("phones_wifi", 32), "password": ("phones_wifi_key", 63)}  # settings, as of the phones' Wi-Fi
-ROWS = ("robot", *TYPED, "board", "begin")
-LETTERS = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 -_.!?#$%&@*+=/,;:'\"()"
+ROWS = ("robot", *WIFI, "board", "begin")
 STEPS_Y, STEP = 720, 46  # px: the files that were written
 
 
@@ -68,7 +66,7 @@ class SetUpPage(SettingsPage):
         return self.work is not None and self.work.is_alive()
 
     def value(self, name: str) -> SettingValue:
-        words, settings = self.context.words, self.context.settings
+        words = self.context.words
         if name == "robot":
             return SettingValue("arrows", tuple(str(i + 1) for i in range(ROBOTS)), self.robot - 1, endless=True)
         if name == "board":
@@ -77,9 +75,7 @@ class SetUpPage(SettingsPage):
             return SettingValue("arrows", shown, kinds.index(self.board), endless=True)
         if name == "begin":
             return self.action("board.working" if self.busy else "board.start")
-        typed = getattr(settings, TYPED[name][0])
-        shown_text = "*" * min(12, len(typed)) if name == "password" else fit_text(typed, BODY, 380)[0]
-        return SettingValue("action", (shown_text or words("phones.none_set"),))
+        return wifi_value(self, name)
 
     def apply(self, name: str, chosen: int) -> None:
         if name == "robot":
@@ -93,8 +89,8 @@ class SetUpPage(SettingsPage):
             self.context.sounds.play("refused")
             return None
         self.context.sounds.play("accept")
-        if name in TYPED:
-            return Push(self._typing(name))
+        if name in WIFI:
+            return Push(wifi_typing(self, name))
         settings = self.context.settings
         if not settings.phones_wifi:
             self.show_message(self.context.words("board.no_network"))
@@ -136,14 +132,3 @@ class SetUpPage(SettingsPage):
 
     def picture(self, name: str, chosen: int) -> LitImage:
         return sketch("board")
-
-    def _typing(self, name: str) -> TextPage:
-        settings, (field, most) = self.context.settings, TYPED[name]
-
-        def keep(typed: str) -> str:
-            setattr(settings, field, typed)
-            self.save()
-            self.rewarm()
-            return ""
-
-        return TextPage(self.context, self.label(name), getattr(settings, field), most, keep, True, LETTERS)

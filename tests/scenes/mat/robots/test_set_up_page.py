@@ -38,7 +38,7 @@ def test_the_wifi_is_typed_first_and_is_that_of_the_phones(arcade: Arcade) -> No
     page = opened(arcade)
     waited(arcade, page)
     assert page.message == arcade.context.words("board.no_network")
-    page.focus.move_to("network")
+    page.focus.move_to("wifi")
     arcade.press(Button.FIRE)
     typing = arcade.shown(TextPage)
     arcade.wait(0.5)
