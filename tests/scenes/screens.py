@@ -681,6 +681,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     **{f"options {section}": partial(options, section=section) for section in SECTIONS},
     "remap": lambda arcade: RemapPage(arcade.context),
     "board set-up": lambda arcade: SetUpPage(arcade.context),
+    "guide of the mat": robots_drawn.guide,
     "robots menu": lambda arcade: RobotsMenu(arcade.context),
     "marker sheet written": sheet_written,
     "added games": added_games,

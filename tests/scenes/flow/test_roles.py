@@ -54,6 +54,7 @@ OPERATORS = {
     "widest correction": Right.EVENTS,
     "robots menu": Right.ROBOTS,
     "board set-up": Right.ROBOTS,
+    "guide of the mat": Right.ROBOTS,
     "marker sheet": Right.ROBOTS,
     "options of phones": Right.SETTINGS,
     "all phones": Right.SETTINGS,

@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import pygame
 
+from pigaming_app.hardware.session.guide import SHEET
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.context import Context
@@ -21,9 +22,8 @@ from pigaming_app.ui.i18n import english, with_english
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-ROWS = ("robots", "board", "radio", "calibrate", "check", "things", "blocks", "pin", "sheet")
+ROWS = ("guide", "robots", "board", "radio", "calibrate", "check", "things", "blocks", "pin", "sheet")
 ROS_ROWS = ("robots", "pin")  # a ROS network has cameras and radios of its own
-SHEET = "markers.pdf"
 
 log = logging.getLogger("pigaming")
 
@@ -52,7 +52,7 @@ class RobotsMenu(SettingsPage):
     def activate(self, name: str, event: InputEvent) -> StackOperation:
         self.context.sounds.play("accept")
         if name == "sheet":
-            self._write()
+            self.show_message(self._write())
             return None
         return Push(self._page(name))
 
@@ -73,12 +73,14 @@ class RobotsMenu(SettingsPage):
         from pigaming_app.scenes.mat.calibration.corner_pin_page import CornerPinPage
         from pigaming_app.scenes.mat.calibration.drift_page import DriftPage
         from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
+        from pigaming_app.scenes.mat.guide_page import GuidePage
         from pigaming_app.scenes.mat.radio.page import RadioPage
         from pigaming_app.scenes.mat.robots.fleet_page import FleetPage
         from pigaming_app.scenes.mat.robots.set_up_page import SetUpPage
         from pigaming_app.scenes.mat.things.arena_page import ArenaPage
 
         pages: dict[str, Callable[[Context], Scene]] = {
+            "guide": lambda context: GuidePage(context, self._page, self._write),
             "robots": FleetPage,
             "board": SetUpPage,
             "radio": RadioPage,
@@ -89,8 +91,8 @@ class RobotsMenu(SettingsPage):
         }
         return pages[name](self.context)
 
-    def _write(self) -> None:
-        """Save the marker sheet to the user's folder, and show its path."""
+    def _write(self) -> str:
+        """Save the marker sheet to the user's folder. Returns where it is, or why it is not."""
         from pigaming_app.hardware.calibration.marker_sheet import sheet
 
         path, words = folders().data / SHEET, self.context.words
@@ -99,7 +101,5 @@ class RobotsMenu(SettingsPage):
             drawn = sheet(notes=notes, block_notes=with_english(words.language, "sheet.blocks"))
         except OpenCVMissing as missing:
             log.warning("%s", english().long_sentence(missing.message))
-            self.show_message(words.sentence(missing.message))
-            return
-        if self.save(lambda: write_atomic(path, drawn)):
-            self.show_message(words("robots.written", path=path))
+            return words.sentence(missing.message)
+        return words("robots.written", path=path) if self.save(lambda: write_atomic(path, drawn)) else self.message

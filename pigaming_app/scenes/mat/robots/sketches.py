@@ -56,6 +56,12 @@ def sketch(name: str) -> LitImage:
             _marker(ink, x, y)
         ink.line([(-80, 112), (80, 112)], ICE, LINE).line([(-80, 98), (-80, 126)], ICE, LINE)
         ink.line([(80, 98), (80, 126)], ICE, LINE)
+    elif name == "guide":
+        for y, done in ((-96, True), (0, True), (96, False)):
+            ink.line(cut_box(-140, y - 30, 60, 60, 8), FOCUS if done else STEEL, LINE, True)
+            ink.line([(-44, y), (140, y)], ICE if done else STEEL, LINE)
+            if done:
+                ink.line([(-128, y), (-114, y + 16), (-86, y - 18)], ICE, LINE)
     else:
         raise KeyError(name)
     return LitImage(ink.lit(0.9), (-240, -170))

@@ -6,11 +6,12 @@ import pytest
 
 pytest.importorskip("cv2")
 
+from pigaming_app.hardware.session.guide import SHEET
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.mat.calibration.corner_pin_page import CornerPinPage
 from pigaming_app.scenes.mat.calibration.drift_page import DriftPage
 from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
-from pigaming_app.scenes.mat.robots.menu import SHEET, RobotsMenu
+from pigaming_app.scenes.mat.robots.menu import RobotsMenu
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.input.events import Button
