@@ -75,6 +75,7 @@ from pigaming_app.scenes.options.games_page import NewGame
 from pigaming_app.scenes.options.page import SECTIONS, OptionsPage
 from pigaming_app.scenes.pages.pin_page import DigitsPage, NewPinPage, PinPage
 from pigaming_app.scenes.pages.text_page import TextPage
+from pigaming_app.scenes.pages.wifi import wifi_typing
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import PATIENCE, JoinByPhone
 from pigaming_app.scenes.phones.list_page import PhoneList
@@ -697,7 +698,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "options of phones, crowded": lambda arcade: phones_page(crowded(arcade)),
     "all phones": phone_list,
     **{f"programs, {row}": partial(programs, focus=row) for row in ("enabled", "bot:mmmmmmmmmmmm")},
-    "Wi-Fi password": lambda arcade: PhonesPage(crowded(arcade).context)._typing("wifi_key"),
+    "Wi-Fi password": lambda arcade: wifi_typing(PhonesPage(crowded(arcade).context), "wifi_key"),
     **{f"join by phone, {key}": partial(join_by_phone, trouble=key) for key in ("missing", "network_gone")},
     **{f"options of phones, {key}": partial(phones_page, trouble=key) for key in ("port_taken", "port_forbidden")},
     **{f"lobby {game} with phones": partial(lobby_with_phones, game=game) for game in games()},

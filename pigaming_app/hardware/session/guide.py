@@ -16,7 +16,7 @@ STEPS = ("robots", "sheet", "pin", "calibrate", "mat", "pair", "match")
 SHEET = "markers.pdf"  # in the data folder
 
 
-class Step(NamedTuple):
+class GuideStep(NamedTuple):
     """A step. `problem`: what is wrong; None also for a step that was not begun."""
 
     name: str  # of STEPS
@@ -26,7 +26,7 @@ class Step(NamedTuple):
 
 def steps(
     settings: Settings, data: Path, site: str, projection: str | None, heard: int, fault: OperatorMessage | None
-) -> list[Step]:
+) -> list[GuideStep]:
     """All steps, in order.
 
     `data`: data folder; `site`: `real` or `emulated`; `projection`: `Canvas.projection`, None for any; `heard`: robots
@@ -40,16 +40,16 @@ def steps(
         wrong = error.message
     calibrated, begun = wrong is None, wrong is not None and wrong.key != "none"
     return [
-        Step("robots", problem is None and (heard > 0 or paired), problem or (None if heard else fault)),
-        Step("sheet", (data / SHEET).exists() or paired),
-        Step("pin", bool(settings.corners) or calibrated),
-        Step("calibrate", calibrated, wrong if begun else None),
-        Step("mat", settings.mat),
-        Step("pair", paired),
-        Step("match", settings.mat and bool(settings.real)),
+        GuideStep("robots", problem is None and (heard > 0 or paired), problem or (None if heard else fault)),
+        GuideStep("sheet", (data / SHEET).exists() or paired),
+        GuideStep("pin", bool(settings.corners) or calibrated),
+        GuideStep("calibrate", calibrated, wrong if begun else None),
+        GuideStep("mat", settings.mat),
+        GuideStep("pair", paired),
+        GuideStep("match", settings.mat and bool(settings.real)),
     ]
 
 
-def next_step(found: list[Step]) -> str:
+def next_step(found: list[GuideStep]) -> str:
     """The name of the first step that is not done; empty if all are."""
     return next((step.name for step in found if not step.done), "")

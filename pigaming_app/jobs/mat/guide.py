@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import count
 
-from pigaming_app.hardware.session.guide import Step, next_step, steps
+from pigaming_app.hardware.session.guide import GuideStep, next_step, steps
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.jobs.mat.robots import LISTEN
 from pigaming_app.jobs.mat.sessions import real_session
@@ -52,7 +52,7 @@ def _heard() -> tuple[int, OperatorMessage | None]:
         session.close()
 
 
-def table(found: Sequence[Step]) -> Iterator[str]:
+def table(found: Sequence[GuideStep]) -> Iterator[str]:
     """A line for each step, and what comes next."""
     words, after = english(), next_step(list(found))
     for number, step in zip(count(1), found):

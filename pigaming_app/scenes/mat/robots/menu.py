@@ -73,9 +73,9 @@ class RobotsMenu(SettingsPage):
         from pigaming_app.scenes.mat.calibration.corner_pin_page import CornerPinPage
         from pigaming_app.scenes.mat.calibration.drift_page import DriftPage
         from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
-        from pigaming_app.scenes.mat.guide_page import GuidePage
         from pigaming_app.scenes.mat.radio.page import RadioPage
         from pigaming_app.scenes.mat.robots.fleet_page import FleetPage
+        from pigaming_app.scenes.mat.robots.guide_page import GuidePage
         from pigaming_app.scenes.mat.robots.set_up_page import SetUpPage
         from pigaming_app.scenes.mat.things.arena_page import ArenaPage
 

@@ -12,15 +12,15 @@ from pigaming_app.hardware.radio.packets import LAST_ARENA
 from pigaming_app.hardware.radio.serial_line import radio_message
 from pigaming_app.hardware.robot_kinds import KINDS
 from pigaming_app.hardware.scan.things import Thing, ThingKind, ThingLayout
-from pigaming_app.hardware.session.guide import Step
+from pigaming_app.hardware.session.guide import GuideStep
 from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.mat.before_match import UnplayablePage
-from pigaming_app.scenes.mat.guide_page import GuidePage
 from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.mat.radio.page import RadioPage
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
+from pigaming_app.scenes.mat.robots.guide_page import GuidePage
 from pigaming_app.scenes.mat.robots.menu import RobotsMenu
 from pigaming_app.scenes.mat.things.arena_page import ArenaPage
 from pigaming_app.storage.messages import OperatorMessage
@@ -92,9 +92,9 @@ def guide(arcade: Arcade) -> GuidePage:
     arcade.context.mat = SessionMat(arcade.context, session)
     menu = RobotsMenu(arcade.context)
     page = GuidePage(arcade.context, menu._page, menu._write)
-    page.steps |= {name: Step(name, True) for name in ("robots", "sheet", "pin")}
+    page.steps |= {name: GuideStep(name, True) for name in ("robots", "sheet", "pin")}
     other = OperatorMessage("other_display", theirs="2: 3840 × 2160, in a window", ours="1: 1920 × 1080")
-    page.steps["calibrate"] = Step("calibrate", False, other)
+    page.steps["calibrate"] = GuideStep("calibrate", False, other)
     page.heard = 4
     page.focus.move_to("calibrate")
     return page

@@ -14,9 +14,9 @@ from pigaming_app.hardware.session.guide import SHEET, STEPS
 from pigaming_app.jobs.mat.guide import GuideOptions, run
 from pigaming_app.scenes.mat.calibration.corner_pin_page import CornerPinPage
 from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
-from pigaming_app.scenes.mat.guide_page import GuidePage
 from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.mat.robots.fleet_page import FleetPage
+from pigaming_app.scenes.mat.robots.guide_page import GuidePage
 from pigaming_app.scenes.mat.robots.menu import RobotsMenu
 from pigaming_app.scenes.mat.robots.set_up_page import SetUpPage
 from pigaming_app.storage.settings import Settings, folders

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.hardware.session.guide import STEPS, Step, next_step, steps
+from pigaming_app.hardware.session.guide import STEPS, GuideStep, next_step, steps
 from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Home, Push, Scene, StackOperation
@@ -35,7 +35,7 @@ class GuidePage(SettingsPage):
     def __init__(self, context: Context, page_of: Callable[[str], Scene], write: Callable[[], str]) -> None:
         self.page_of, self.write = page_of, write
         self.fleet = FleetState(session_of(context), context.settings)
-        self.steps = {name: Step(name, False) for name in STEPS}
+        self.steps = {name: GuideStep(name, False) for name in STEPS}
         self.heard, self.since = 0, 0.0
         self.following = True  # the focus goes to the next step by itself, until a button is pressed
         super().__init__(context, STEPS)
