@@ -78,7 +78,10 @@ def played(name, mode, steps, chance, **options):
     reset(None, int(chance.integers(1000)))
     for _ in range(steps):
         action = ours.action_space.sample()
-        ended = compared(ours.step(action), theirs.step(action), mode)
+        found = ours.step(action)
+        ended = compared(found, theirs.step(action), mode)
+        if mode is AutoresetMode.DISABLED:
+            found[0][:] = 9.0  # they belong to whoever got them
         ends += ended.sum()
         some, rare = chance.random(COUNT) < 0.4, chance.random() < 0.06
         seeds = [int(chance.integers(99)) if chance.random() < 0.5 else None for _ in range(COUNT)]
@@ -217,7 +220,7 @@ def step_of_one(env):
     return (found, env.reset()) if found[2] else found
 
 
-@pytest.mark.parametrize("name", one_in(len(GAMES), ["PiTanks-v0", *sorted({*GAMES} - {"PiTanks-v0"})]))
+@pytest.mark.parametrize("name", one_in(len(GAMES), ["RobotRace-v0", *sorted({*GAMES} - {"RobotRace-v0"})]))
 def test_a_pickle_in_the_middle_of_a_match_goes_on_identically(name):
     game = ENVIRONMENTS[name]
     vector = gymnasium.make_vec(name, 3, stagger=True, max_episode_steps=12, **SHORT)
