@@ -47,6 +47,10 @@ class SeatEnv(gymnasium.Env[Any, Any]):
         self._camera.watch()
         return observations[0, 0], float(rewards[0, 0]), bool(over[0]), False, self.matches.result(0)
 
+    def action_masks(self) -> Any:
+        """Whether each choice of each head may have a use in the next decision: bool (choices,). Not for sticks."""
+        return self.matches.masks()[0, 0]
+
     def render(self) -> Any:
         """The present picture (height, width, 3), or None without a render mode."""
         return self._camera.picture() if self.render_mode else None

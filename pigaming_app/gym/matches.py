@@ -17,6 +17,7 @@ from pigaming_app.ai.networks.encoding import UNIT, Encoding
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.tallies import Tallies
 from pigaming_app.games.registry import games
+from pigaming_app.gym.masks import masks_of
 from pigaming_app.gym.options import EnvironmentTask
 from pigaming_app.gym.rewards import TALLIES
 from pigaming_app.sim.action import set_action
@@ -234,6 +235,19 @@ class Matches:
             space = space if self.task.continuous else f"the heads {dict(self.encoding.heads)}"
             raise ValueError(f"action {action} of agent {agent} lies outside {space}")
         return np.ascontiguousarray(found, action_type(self.task)).reshape(shape)
+
+    def masks(self) -> Any:
+        """Whether each choice of the heads, one head after the other, may have a use: bool (count, learners, choices).
+
+        Only those of FIRE and turbo may have none (see masks.py). Raises ValueError for sticks.
+        """
+        if self.task.continuous:
+            raise ValueError("action_masks: sticks have no choices; continuous=True excludes them")
+        found = np.ones((self.count, self.task.learners, self.encoding.outputs), np.bool_)
+        buttons = np.empty((*found.shape[:2], 2), np.bool_)
+        masks_of(self.task.game, self.task.fast)(self.states, buttons, self.task.ticks)
+        found[:, :, [-3, -1]] = buttons  # two choices each: off, on
+        return found
 
     def __getstate__(self) -> dict[str, Any]:
         """Task, arrays and records as bytes: equal for both bodies."""

@@ -92,6 +92,10 @@ class MatchEnv(ParallelEnv[str, Any, Any]):
         """The observations of all agents, one after the other: of a critic that they share."""
         return self._observations.reshape(-1).copy()
 
+    def action_masks(self) -> dict[str, Any]:
+        """For each agent, whether each choice of each head may have a use in the next decision: bool (choices,)."""
+        return self._by_agent(self.matches.masks()[0])
+
     def _by_agent(self, values: Any) -> dict[str, Any]:
         return dict(zip(self.possible_agents, values, strict=True))
 

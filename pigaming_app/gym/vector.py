@@ -180,6 +180,10 @@ class SeatVectorEnv(VectorEnv[Any, Any, Any]):
             last[i] = seen[i].copy()
         return {"final_info": results, "_final_info": mask, "final_obs": last, "_final_obs": mask.copy()}
 
+    def action_masks(self) -> Any:
+        """Whether each choice of each head may have a use in the next decision: bool (num_envs, choices)."""
+        return self.matches.masks().reshape(self.num_envs, -1)
+
     def render(self) -> tuple[Any, ...] | None:
         """The present picture of every match (height, width, 3), or None without a render mode."""
         if not self.render_mode:

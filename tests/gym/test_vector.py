@@ -244,7 +244,8 @@ def test_a_pickle_in_the_middle_of_a_match_goes_on_identically(name):
 
 @pytest.mark.long
 def test_a_pickle_is_the_same_for_both_bodies():
-    plain, fast = (gymnasium.make_vec("PiTanks-v0", 3, **{**SHORT, "compiled": c}) for c in (False, True))
+    options = {**SHORT, "agents": 2, "opponents": ("random",)}  # compiled once, with test_environments.py
+    plain, fast = (gymnasium.make_vec("PiTanks-v0", 6, **{**options, "compiled": c}) for c in (False, True))
     for env in (plain, fast):
         env.reset(seed=3)
         env.action_space.seed(4)
