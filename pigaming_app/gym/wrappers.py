@@ -1,8 +1,8 @@
-"""Wrappers of one seat: a reward as a Python function, and a lidar instead of the game's own observation.
+"""Wrappers of one seat: a reward as a Python function, and a lidar or a picture instead of the game's own observation.
 
     env = Lidar(FunctionReward(gymnasium.make("PiTanks-v0"), lambda before, after: after.tallies["hits"]))
 
-Both read the whole match after each decision, in plain Python: with `compiled=False` it need not be unpacked first.
+They read the whole match after each decision, in plain Python: with `compiled=False` it need not be unpacked first.
 """
 
 from collections.abc import Callable, Mapping
@@ -76,6 +76,52 @@ class Lidar(gymnasium.ObservationWrapper[Any, Any, Any], RecordConstructorArgs):
 
     def observation(self, observation: Any) -> Any:
         return scan(self.env.unwrapped.matches.state(0), 0, self.rays, self.reach)
+
+
+class OwnPicture(gymnasium.ObservationWrapper[Any, Any, Any], RecordConstructorArgs):
+    """A picture of the surroundings, which turns with the robot: uint8 (4, pixels, pixels), 255 where something is.
+
+    The robot is in the middle and looks up. Channels: walls, and all beyond the outer ones; mates; opponents; bullets,
+    in a game that has some. A pixel is `scale` px of the arena wide; its centre decides.
+    """
+
+    def __init__(self, env: Any, pixels: int = 64, scale: float = 16.0) -> None:
+        """Raises OptionError."""
+        RecordConstructorArgs.__init__(self, pixels=pixels, scale=scale)
+        gymnasium.ObservationWrapper.__init__(self, env)
+        number("pixels", pixels, least=2)
+        number("scale", scale, (int, float), least=1)
+        self.pixels, self.scale = pixels, float(scale)
+        self.observation_space = Box(0, 255, (4, pixels, pixels), np.uint8)
+
+    def observation(self, observation: Any) -> Any:
+        return picture_of(self.env.unwrapped.matches.state(0), 0, self.pixels, self.scale)
+
+
+def picture_of(match: MatchState, seat: int, pixels: int, scale: float) -> Any:
+    """What a seat sees from above: see `OwnPicture`."""
+    me, found = match.robots[seat], np.zeros((4, pixels, pixels), np.bool_)
+    middle = 0.5 * (pixels - 1)
+    steps = scale * (np.arange(pixels) - middle)
+    c, s = cos(me.heading), sin(me.heading)
+    ahead, aside = -steps[:, None], steps[None, :]  # rows from above, columns from the left
+    x, y = me.x + c * ahead - s * aside, me.y + s * ahead + c * aside
+    found[0] = (x <= 0.0) | (y <= 0.0) | (x >= WIDTH) | (y >= HEIGHT)
+    for i in range(match.wall_count):
+        if (wall := match.walls[i]).health:
+            ex, ey = wall.bx - wall.ax, wall.by - wall.ay
+            along = ((x - wall.ax) * ex + (y - wall.ay) * ey) / (ex * ex + ey * ey or 1.0)
+            along = along.clip(0.0, 1.0)
+            found[0] |= (x - wall.ax - along * ex) ** 2 + (y - wall.ay - along * ey) ** 2 < wall.half**2
+    for k in range(ROBOTS):
+        if k != seat and (other := match.robots[k]).present:
+            found[1 if other.team == me.team else 2] |= (x - other.x) ** 2 + (y - other.y) ** 2 < RADIUS**2
+    for bullet in getattr(match, "bullets", ()):
+        dx, dy = (bullet.x - me.x) / scale, (bullet.y - me.y) / scale
+        row, column = round(middle - c * dx - s * dy), round(middle + c * dy - s * dx)
+        if bullet.alive and 0 <= row < pixels and 0 <= column < pixels:  # one pixel, however small it is
+            found[3, row, column] = True
+    return found * np.uint8(255)
 
 
 def scan(match: MatchState, seat: int, rays: int, reach: float) -> Any:

@@ -12,7 +12,7 @@ from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import SyncVectorEnv
 
 from pigaming_app.gym import ENVIRONMENTS, OptionError
-from pigaming_app.gym.wrappers import FunctionReward, Lidar
+from pigaming_app.gym.wrappers import FunctionReward, Lidar, OwnPicture
 
 SHORT = {"compiled": False, "minutes": 0.05}
 STEP = 0.25  # px
@@ -72,6 +72,55 @@ def test_a_lidar_is_an_environment_of_its_own():
     for wrong, reason in ({"rays": 0}, "rays: a whole number from 1"), ({"reach": 3}, "reach: a number from 36"):
         with pytest.raises(OptionError, match=reason):
             Lidar(gymnasium.make("PiTanks-v0", **SHORT), **wrong)
+
+
+def test_a_picture_turns_with_the_robot():
+    """By turning the places of things into the frame of the robot, not pixels into that of the arena."""
+    pixels, scale = 64, 50.0
+    options = {"variant": "pickups", "teams": (0, 0, 1, 1), "opponents": ("level3",) * 3}
+    plain = gymnasium.make("PiTanks-v0", compiled=False, **options)
+    env = OwnPicture(plain, pixels, scale)
+    env.reset(seed=2)
+    middle, counts = 0.5 * (pixels - 1), np.zeros(4)
+    for _ in range(60):
+        seen = env.step(env.action_space.sample())[0]
+        assert seen in env.observation_space
+        state = env.unwrapped.matches.state(0)
+        me = state.robots[0]
+
+        def place(x, y, me=me):
+            turned = complex(x - me.x, y - me.y) / complex(np.cos(me.heading), np.sin(me.heading))
+            row, column = middle - turned.real / scale, middle + turned.imag / scale
+            inside = min(row, column) >= 0.0 and max(row, column) <= pixels - 1
+            return (round(row), round(column)) if inside else None
+
+        for k in range(1, 4):
+            if spot := place(state.robots[k].x, state.robots[k].y):
+                assert seen[1 if k == 1 else 2][spot] == 255
+                counts[1 if k == 1 else 2] += 1
+        for bullet in state.bullets:
+            if bullet.alive and (spot := place(bullet.x, bullet.y)):
+                assert seen[3][spot] == 255
+                counts[3] += 1
+        for x, y in ((-40.0, 450.0), (1640.0, 450.0), (800.0, -40.0), (800.0, 940.0)):
+            if spot := place(x, y):
+                assert seen[0][spot] == 255
+                counts[0] += 1
+        assert not seen[0][round(middle), round(middle)]
+        assert (seen[1:3] > 0).sum() <= 3 * 4  # pixels that a robot's circle may hold
+    assert (counts > 0).all()
+    rows, columns = np.indices((pixels, pixels))
+    z = complex(me.x, me.y) + scale * (middle - rows + 1j * (columns - middle)) * np.exp(1j * me.heading)
+    gap = np.minimum(np.minimum(z.real, 1600.0 - z.real), np.minimum(z.imag, 900.0 - z.imag))
+    for wall in state.walls[: state.wall_count]:
+        for point in np.linspace(complex(wall.ax, wall.ay), complex(wall.bx, wall.by), 500):
+            gap = np.minimum(gap, np.abs(z - point) - wall.half) if wall.health else gap
+    sure = np.abs(gap) > 0.5
+    assert np.array_equal(seen[0][sure] > 0, gap[sure] < 0.0)
+    assert ((gap < 0.0) & (z.real > 0.0) & (z.real < 1600.0) & (z.imag > 0.0) & (z.imag < 900.0)).any()
+    for wrong, reason in ({"pixels": 1}, "pixels: a whole number from 2"), ({"scale": 0.0}, "scale: a number from 1"):
+        with pytest.raises(OptionError, match=reason):
+            OwnPicture(plain, **wrong)
 
 
 def shots_and_way(before, after):
