@@ -24,12 +24,13 @@ is the game's `Encoding` (see ai/networks) in [-1, 1]; an action is a choice for
 - starts: number of different matches that are played; 128 by default.
 - compiled: False to run as plain Python. By default compiled if numba is installed; both give the same bits.
 - max_episode_steps: decisions after which an episode is truncated.
+- autoreset_mode, stagger: of vectors, see vector.py.
 - render_mode: "rgb_array" draws with the game's own pictures, 1920 x 1080.
 
 An episode is a match. It is terminated when the match is over, and in the race also when all its agents have finished.
-The clock belongs to the rules and is observed, so the end of the time terminates as well; only max_episode_steps
-truncates. Vector environments start the next match at the next step (AutoresetMode.NEXT_STEP). `reset(seed=...)`
-determines all matches from then on; each is one that `main.py play --seed` plays too, with a seed from -1 to -`starts`.
+The clock belongs to the rules and is observed, so the end of the time terminates as well; only max_episode_steps and
+stagger truncate. `reset(seed=...)` determines all matches from then on; each is one that `main.py play --seed` plays
+too, with a seed from -1 to -`starts`. Environments can be pickled, also in the middle of a match.
 """
 
 import os

@@ -29,24 +29,27 @@ class SeatEnv(gymnasium.Env[Any, Any]):
         self.metadata = {**self.metadata, "render_fps": self.task.decisions_a_second}  # type: ignore[misc]
         self.observation_space, self.action_space = observation_space(self.task), action_space(self.task)
         self.matches = Matches(self.task, 1)
-        self._seeded = False
         self._camera = MatchCamera(self.matches, 0)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Begin the next episode. `seed` determines it and all that follow; `options` is not used."""
         super().reset(seed=seed)
-        if seed is not None or not self._seeded:
-            self.matches.seed([int(self.np_random.integers(SEEDS)) if seed is None else seed])
-            self._seeded = True
-        self.matches.restart(np.ones(1, np.bool_))
-        observations, _, _ = self.matches.advance()
-        return observations[0, 0], {}
+        if seed is None and not self.matches.seeded:
+            seed = int(self.np_random.integers(SEEDS))
+        self.matches.begin([seed], np.ones(1, np.bool_))
+        observation = np.empty((1, 1, *self.observation_space.shape), np.float32)
+        self.matches.observe(observation)
+        return observation[0, 0], {}
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        """Play one decision. Raises ValueError for an action outside the action space."""
+        """Play one decision. Raises ValueError for an action outside the action space, ResetNeeded before `reset`."""
         observations, rewards, over = self.matches.advance(self.matches.checked(action))
         self._camera.watch()
         return observations[0, 0], float(rewards[0, 0]), bool(over[0]), False, self.matches.result(0)
+
+    def action_masks(self) -> Any:
+        """Whether each choice of each head may have a use in the next decision: bool (choices,). Not for sticks."""
+        return self.matches.masks()[0, 0]
 
     def render(self) -> Any:
         """The present picture (height, width, 3), or None without a render mode."""

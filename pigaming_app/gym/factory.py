@@ -1,6 +1,6 @@
 """Rewards of Robot Factory: the tallies of a seat."""
 
-from math import sqrt
+from math import cos, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.tallies import Tallies, sign
@@ -14,6 +14,7 @@ from pigaming_app.games.factory.state import (
     PALLETS,
     RAW,
 )
+from pigaming_app.gym.buttons import has_turbo
 from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.world import CELL, ROBOTS
@@ -81,6 +82,21 @@ def more_work(match: Any, team: int) -> int:
         if match.robots[j].present:
             more += match.loads[j].steps if match.robots[j].team == team else -match.loads[j].steps
     return more
+
+
+@kernel
+def usable(match: Any, seat: int, ticks: int) -> tuple[bool, bool]:
+    """FIRE as it goes down: with a place for pallets in reach of the fork. A robot that is frozen obeys no button."""
+    rules, robot, load = match.rules, match.robots[seat], match.loads[seat]
+    x, y = robot.x + rules.fork * cos(robot.heading), robot.y + rules.fork * sin(robot.heading)
+    fire = False
+    for s in range(match.slot_count):
+        dx, dy = x - match.slots[s].x, y - match.slots[s].y
+        if dx * dx + dy * dy < rules.reach * rules.reach:
+            fire = True
+    if load.pressed or load.frozen:
+        fire = False
+    return fire, load.frozen <= ticks and has_turbo(robot, rules.turbo_drain)
 
 
 TALLIES = Tallies(

@@ -9,6 +9,7 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+from gymnasium.error import ResetNeeded
 
 from pigaming_app.ai.learning.batch import initial_states
 from pigaming_app.ai.learning.cast import Cast, Family, Think, dispatcher
@@ -16,17 +17,20 @@ from pigaming_app.ai.networks.encoding import UNIT, Encoding
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.tallies import Tallies
 from pigaming_app.games.registry import games
+from pigaming_app.gym.masks import masks_of
 from pigaming_app.gym.options import EnvironmentTask
 from pigaming_app.gym.rewards import TALLIES
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled, kernel
-from pigaming_app.sim.record import copy, dtype, packed, unpack
+from pigaming_app.sim.record import copy, dtype, packed, to_bytes, unpack
 from pigaming_app.sim.world import ROBOTS
 
 Loop = Callable[..., None]
 SCALE = 1.0 / UNIT
 
+KEPT = "start_of", "episodes", "seeded", "_streams", "fresh", "totals"  # of a pickle, besides records
+LOWEST = np.array([-1.0, -1.0, 0.0, 0.0])  # continuous action
 STRIDE = np.uint64(0x9E3779B97F4A7C15)  # of a seed's sequence, as in splitmix64
 
 
@@ -42,7 +46,8 @@ def make_loop(judge: Any, think: Think, act: Any, encoding: Encoding, tallies: T
     Of each match (n) and learner (a): `actions` (n, a, choices), `senses` (n, a), `observations` (n, a, inputs),
     `totals` (n, a, tallies), `rewards` (n, a). `minds` (n, opponents) and `weights` are those of the cast, `worth`
     (tallies) the weights of the reward. Learners sit on the first seats, opponents on those after them. A match that is
-    `fresh` (n) is only observed. `over` (n) receives 1 if the match is over, or nothing is at stake for learners.
+    `fresh` (n) is only observed; with `only_fresh` the others are left alone. `over` (n) receives 1 if the match is
+    over, or nothing is at stake for learners.
     """
     encode, size = encoding.encode, encoding.size
     tally, is_done, count = tallies.tally, tallies.is_done, len(tallies.names)
@@ -60,9 +65,12 @@ def make_loop(judge: Any, think: Think, act: Any, encoding: Encoding, tallies: T
         rewards: Any,
         over: Any,
         ticks: int,
+        only_fresh: bool,
     ) -> None:
         learners = rewards.shape[1]
         for i in range(len(matches)):
+            if only_fresh and not fresh[i]:
+                continue
             match, seated = matches[i], minds[i]
             if not fresh[i]:
                 for seat in range(learners):
@@ -112,6 +120,7 @@ class Matches:
         self.loop: Loop = loop_of(task.game, self.cast.families, task.continuous, task.fast)
         self.start_of = np.zeros(count, np.int64)  # number of the match that each plays
         self.episodes = np.zeros(count, np.int64)  # that each has begun
+        self.seeded = False  # all matches have begun
         self._streams = np.zeros(count, np.uint64)
         self._pool: dict[int, Any] = {}  # prepared matches: state, and minds of the opponents
         shape = (count, task.learners)
@@ -126,10 +135,22 @@ class Matches:
             self.states, self.minds = [None] * count, [None] * count
             self.senses = [[None] * task.learners for _ in range(count)]
         self._no_actions = np.zeros((*shape, *action_shape(task)), action_type(task))
+        self._choices = np.array([choices for _, choices in self.encoding.heads])
 
-    def seed(self, seeds: Sequence[int]) -> None:
-        """Seed the choice of matches; the same seed always leads to the same sequence."""
-        self._streams[:] = mixed(np.array([seed & 0xFFFFFFFFFFFFFFFF for seed in seeds], np.uint64))
+    def begin(self, seeds: Sequence[int | None], which: Any) -> None:
+        """Begin the next episode of the matches selected by a mask (count,).
+
+        Each seed determines the episodes of its match from then on; None: it goes on with its sequence.
+        """
+        for i in np.flatnonzero(which).tolist():
+            if (seed := seeds[i]) is not None:
+                self._streams[i : i + 1] = mixed(np.array([seed & 0xFFFFFFFFFFFFFFFF], np.uint64))
+        self.seeded = True
+        self.restart(which)
+
+    def phases(self, decisions: int) -> Any:
+        """A number of decisions for each match (count,), from 1 to `decisions`, that follows from its seed."""
+        return (mixed(self._streams ^ STRIDE) % np.uint64(decisions)).astype(np.int64) + 1
 
     def restart(self, which: Any) -> None:
         """Begin the next episode of the matches selected by a mask (count,)."""
@@ -148,16 +169,23 @@ class Matches:
             self.senses[chosen] = np.zeros((), self.senses.dtype)
         self.fresh[chosen] = True
 
-    def advance(self, actions: Any = None) -> tuple[Any, Any, Any]:
+    def advance(self, actions: Any) -> tuple[Any, Any, Any]:
         """Play one decision; new arrays of observations, rewards and `over`. Fresh matches are only observed.
 
-        `actions`: (count, learners, heads) choices, or (count, learners, 4) if continuous. None: all are fresh.
+        `actions`: (count, learners, heads) choices, or (count, learners, 4) if continuous.
         """
-        task, shape = self.task, (self.count, self.task.learners)
+        shape = (self.count, self.task.learners)
         observations = np.empty((*shape, self.encoding.size), np.float32)
         rewards, over = np.empty(shape), np.empty(self.count, np.bool_)
-        if actions is None:
-            actions = self._no_actions
+        self._run(actions, observations, rewards, over, False)
+        return observations, rewards, over
+
+    def observe(self, observations: Any) -> None:
+        """Write the first observations of fresh matches into an array of observations."""
+        rewards, over = np.empty((self.count, self.task.learners)), np.empty(self.count, np.bool_)
+        self._run(self._no_actions, observations, rewards, over, True)
+
+    def _run(self, actions: Any, observations: Any, rewards: Any, over: Any, only_fresh: bool) -> None:
         self.loop(
             self.states,
             self.minds,
@@ -170,10 +198,10 @@ class Matches:
             observations,
             rewards,
             over,
-            task.ticks,
+            self.task.ticks,
+            only_fresh,
         )
         self.fresh[:] = False
-        return observations, rewards, over
 
     def state(self, i: int) -> Any:
         """Match i as a plain record."""
@@ -184,14 +212,70 @@ class Matches:
         return dict(zip(TALLIES[self.task.game].names, self.totals[i, seat].tolist(), strict=True))
 
     def checked(self, actions: Any) -> Any:
-        """Actions as the array that `advance` takes. Raises ValueError if they do not lie in the action space."""
+        """Actions as the array that `advance` takes.
+
+        Raises ValueError if they do not lie in the action space, ResetNeeded before the first episode.
+        """
+        if not self.seeded:
+            raise ResetNeeded("step before reset: an episode begins with reset")
         shape = (self.count, self.task.learners, *action_shape(self.task))
-        found = np.ascontiguousarray(actions, action_type(self.task)).reshape(shape)
-        if not self.task.continuous:
-            choices = np.array([count for _, count in self.encoding.heads])
-            if (found < 0).any() or (found >= choices).any():
-                raise ValueError(f"an action is no choice of the heads {dict(self.encoding.heads)}")
+        found = np.asarray(actions)
+        if found.size != np.prod(shape):
+            raise ValueError(f"actions have the shape {found.shape}; {shape[2]} numbers are needed for each agent")
+        if self.task.continuous:
+            inside = (found.reshape(shape) >= LOWEST) & (found.reshape(shape) <= 1.0)
+        elif found.dtype.kind not in "iu":
+            raise ValueError(f"actions are whole numbers, one for each of the heads {dict(self.encoding.heads)}")
+        else:
+            inside = (found.reshape(shape) >= 0) & (found.reshape(shape) < self._choices)
+        if not inside.all():
+            agent = int(np.flatnonzero(~inside.all(-1))[0])
+            action = found.reshape(-1, shape[2])[agent].tolist()
+            space = "sticks in [-1, 1], fire and turbo in [0, 1]"
+            space = space if self.task.continuous else f"the heads {dict(self.encoding.heads)}"
+            raise ValueError(f"action {action} of agent {agent} lies outside {space}")
+        return np.ascontiguousarray(found, action_type(self.task)).reshape(shape)
+
+    def masks(self) -> Any:
+        """Whether each choice of the heads, one head after the other, may have a use: bool (count, learners, choices).
+
+        Only those of FIRE and turbo may have none (see masks.py). Raises ValueError for sticks.
+        """
+        if self.task.continuous:
+            raise ValueError("action_masks: sticks have no choices; continuous=True excludes them")
+        found = np.ones((self.count, self.task.learners, self.encoding.outputs), np.bool_)
+        buttons = np.empty((*found.shape[:2], 2), np.bool_)
+        masks_of(self.task.game, self.task.fast)(self.states, buttons, self.task.ticks)
+        found[:, :, [-3, -1]] = buttons  # two choices each: off, on
         return found
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Task, arrays and records as bytes: equal for both bodies."""
+        kept = {name: getattr(self, name) for name in ("task", "count", *KEPT)}
+        if self.seeded:
+            kept["records"] = [self._bytes(rows) for rows in (self.states, self.minds, self.senses)]
+        return kept
+
+    def __setstate__(self, kept: dict[str, Any]) -> None:
+        self.__init__(kept["task"], kept["count"])  # type: ignore[misc]
+        for name in KEPT:
+            setattr(self, name, kept[name])
+        if not self.seeded:
+            return
+        kinds = games()[self.task.game].state, self.cast.mind, self.encoding.senses
+        states, minds, senses = (np.frombuffer(r, dtype(k)) for r, k in zip(kept["records"], kinds, strict=True))
+        if self.task.fast:
+            self.states[:], self.minds[:] = states, minds.reshape(self.minds.shape)
+            self.senses[:] = senses.reshape(self.senses.shape)
+        else:
+            self.states = [unpack(kinds[0], row) for row in states]
+            self.minds = [[unpack(kinds[1], mind) for mind in row] for row in minds.reshape(self.count, -1)]
+            self.senses = [[unpack(kinds[2], one) for one in row] for row in senses.reshape(self.count, -1)]
+
+    def _bytes(self, rows: Any) -> bytes:
+        if self.task.fast:
+            return bytes(rows.tobytes())
+        return b"".join(to_bytes(one) for row in rows for one in (row if isinstance(row, list) else (row,)))
 
     def _prepared(self, start: int) -> Any:
         if start not in self._pool:

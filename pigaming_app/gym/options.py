@@ -1,8 +1,9 @@
 """The options of an environment, checked, as a task: who plays what, and for which reward."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from math import inf, isfinite
+from dataclasses import dataclass, field, replace
+from functools import partial
+from math import ceil, inf, isfinite
 from typing import Any
 
 import numpy as np
@@ -45,6 +46,10 @@ class EnvironmentTask:
     weights: tuple[float, ...]  # of the game's tallies
     starts: int
     fast: bool
+    options: Mapping[str, Any] = field(default_factory=dict, compare=False)  # of `task_of`, from which it follows
+
+    def __reduce__(self) -> Any:
+        return partial(task_of, **self.options), (self.game, self.learners)
 
     @property
     def game(self) -> str:
@@ -55,12 +60,22 @@ class EnvironmentTask:
         """Of the match's time."""
         return HZ / self.ticks
 
+    @property
+    def decisions(self) -> int:
+        """Of a match that lasts to the end of its time."""
+        return ceil(self.setup.minutes * 60.0 * self.decisions_a_second)
+
     def setup_of(self, start: int) -> Setup:
         """The setup of one of the matches: arena and seed follow from its number."""
         return replace(self.setup, arena=self.arenas[start % len(self.arenas)], seed=training_seed(start))
 
 
-def task_of(
+def task_of(game: str, learners: int, **options: Any) -> EnvironmentTask:
+    """A task from the options of an environment (see `pigaming_app.gym`). Raises OptionError."""
+    return replace(_task(game, learners, **options), options=options)
+
+
+def _task(
     game: str,
     learners: int,
     *,
@@ -77,7 +92,6 @@ def task_of(
     compiled: bool | None = None,
     **unknown: Any,
 ) -> EnvironmentTask:
-    """A task from the options of an environment (see `pigaming_app.gym`). Raises OptionError."""
     if unknown:
         raise OptionError(f"no option '{next(iter(unknown))}' here; see help(pigaming_app.gym)")
     if game not in ENCODINGS:

@@ -3,6 +3,7 @@
 from typing import Any, ClassVar
 
 import numpy as np
+from gymnasium.spaces import Box
 from pettingzoo import ParallelEnv
 
 from pigaming_app.gym.environment import SEEDS
@@ -39,7 +40,8 @@ class MatchEnv(ParallelEnv[str, Any, Any]):
         self.observation_spaces = {agent: observation_space(self.task) for agent in self.possible_agents}
         self.action_spaces = {agent: action_space(self.task) for agent in self.possible_agents}
         self.matches = Matches(self.task, 1)
-        self._seeded = False
+        self.state_space = Box(-1.0, 1.0, (agents * self.matches.encoding.size,), np.float32)
+        self._observations = np.zeros((1, agents, self.matches.encoding.size), np.float32)
         self._camera = MatchCamera(self.matches, 0)
 
     def observation_space(self, agent: str) -> Any:
@@ -52,22 +54,25 @@ class MatchEnv(ParallelEnv[str, Any, Any]):
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Any], dict[str, Any]]:
         """Begin the next episode. `seed` determines it and all that follow; `options` is not used."""
-        if seed is not None or not self._seeded:
-            self.matches.seed([int(np.random.default_rng().integers(SEEDS)) if seed is None else seed])
-            self._seeded = True
-        self.matches.restart(np.ones(1, np.bool_))
-        observations, _, _ = self.matches.advance()
+        if seed is None and not self.matches.seeded:
+            seed = int(np.random.default_rng().integers(SEEDS))
+        self.matches.begin([seed], np.ones(1, np.bool_))
+        self._observations = np.empty_like(self._observations)
+        self.matches.observe(self._observations)
         self.agents, self._steps = list(self.possible_agents), 0
-        return self._by_agent(observations[0]), {agent: {} for agent in self.agents}
+        return self._by_agent(self._observations[0]), {agent: {} for agent in self.agents}
 
     def step(self, actions: dict[str, Any]) -> tuple[dict[str, Any], ...]:
-        """Play one decision of all agents. Raises ValueError for actions outside the action space, or missing."""
-        if not self.agents:
+        """Play one decision of all agents.
+
+        Raises ValueError for actions outside the action space, or missing, and ResetNeeded before `reset`.
+        """
+        if self.matches.seeded and not self.agents:
             return {}, {}, {}, {}, {}
         if missing := [agent for agent in self.agents if agent not in actions]:
             raise ValueError(f"no action for {', '.join(missing)}")
         chosen = self.matches.checked([[actions[agent] for agent in self.possible_agents]])
-        observations, rewards, over = self.matches.advance(chosen)
+        self._observations, rewards, over = self.matches.advance(chosen)
         self._camera.watch()
         self._steps += 1
         late = self.max_episode_steps is not None and self._steps >= self.max_episode_steps and not over[0]
@@ -76,12 +81,20 @@ class MatchEnv(ParallelEnv[str, Any, Any]):
         if ended:
             self.agents = []
         return (
-            self._by_agent(observations[0]),
+            self._by_agent(self._observations[0]),
             self._by_agent(rewards[0].tolist()),
             dict.fromkeys(self.possible_agents, bool(over[0])),
             dict.fromkeys(self.possible_agents, bool(late)),
             self._by_agent(results),
         )
+
+    def state(self) -> Any:
+        """The observations of all agents, one after the other: of a critic that they share."""
+        return self._observations.reshape(-1).copy()
+
+    def action_masks(self) -> dict[str, Any]:
+        """For each agent, whether each choice of each head may have a use in the next decision: bool (choices,)."""
+        return self._by_agent(self.matches.masks()[0])
 
     def _by_agent(self, values: Any) -> dict[str, Any]:
         return dict(zip(self.possible_agents, values, strict=True))

@@ -48,6 +48,9 @@ class MatchCamera:
         seconds, self._drawn = (tick - self._drawn) * DT, tick
         return np.frombuffer(bytearray(self._shot.pixels(seconds)), np.uint8).reshape(HEIGHT, WIDTH, 3)
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_shot": None}
+
     def close(self) -> None:
         """Forget the picture."""
         self._shot = None

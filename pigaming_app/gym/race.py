@@ -3,6 +3,7 @@
 from typing import Any
 
 from pigaming_app.ai.tallies import Tallies
+from pigaming_app.gym.buttons import has_turbo
 from pigaming_app.sim.kernel import kernel
 
 
@@ -19,6 +20,18 @@ def tally_race(match: Any, seat: int, senses: Any, totals: Any) -> None:
 def has_finished(match: Any, seat: int) -> int:
     """1 if the match is over, or over for this seat."""
     return 1 if match.over or match.racers[seat].finished else 0
+
+
+@kernel
+def usable(match: Any, seat: int, ticks: int) -> tuple[bool, bool]:
+    """FIRE as it goes down: with an item, which party may give at once, or lost, which may begin at once.
+
+    An item or a slipstream also refills the meter.
+    """
+    rules, racer = match.rules, match.racers[seat]
+    fire = not racer.fire_held and not racer.finished
+    turbo = has_turbo(match.robots[seat], rules.turbo_drain) or rules.party
+    return bool(fire), bool(turbo)
 
 
 TALLIES = Tallies(

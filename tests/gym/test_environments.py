@@ -10,12 +10,11 @@ from pathlib import Path
 import gymnasium
 import numpy as np
 import pytest
+from gymnasium.error import ResetNeeded
 from gymnasium.utils.env_checker import check_env
-from gymnasium.vector import AutoresetMode
 
 import pigaming_app.gym
 from pigaming_app.ai.networks.registry import ENCODINGS
-from pigaming_app.games.arenas import arenas
 from pigaming_app.gym import ENVIRONMENTS, OptionError, parallel_env
 from pigaming_app.gym.rewards import TALLIES
 from tests.cases import repeated
@@ -23,6 +22,8 @@ from tests.cases import repeated
 with warnings.catch_warnings():
     warnings.simplefilter("ignore", DeprecationWarning)  # of PettingZoo's own games, which its tests import
     from pettingzoo.test import parallel_api_test, parallel_seed_test
+    from pettingzoo.test.state_test import state_test
+    from pettingzoo.utils import parallel_to_aec
 
 GAMES = list(ENVIRONMENTS.items())
 SHORT = {"compiled": False, "minutes": 0.05}  # of pure Python: 30 decisions
@@ -49,29 +50,7 @@ def test_the_checkers_of_the_libraries_pass(name, game):
     check_env(gymnasium.make(name, **SHORT).unwrapped, skip_render_check=True)
     parallel_api_test(parallel_env(game, **SHORT), 100)
     parallel_seed_test(lambda: parallel_env(game, **SHORT), 30)
-
-
-@pytest.mark.parametrize(("name", "game"), GAMES)
-def test_a_vector_plays_the_episodes_of_single_environments(name, game):
-    options = {**SHORT, "opponents": ("level1",), "arena": arenas(game)[:2]}
-    options["variant"] = "pickups" if game == "pitanks" else None  # without overtime, but in Robot Football
-    many, one = gymnasium.make_vec(name, num_envs=3, **options), gymnasium.make(name, **options)
-    assert many.metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
-    many.action_space.seed(1)
-    steps_played = 1400 if game == "football" else 70  # a level match goes on for up to a minute
-    actions = [many.action_space.sample() for _ in range(steps_played)]
-    first, _ = many.reset(seed=5)
-    steps = [(first, np.zeros(3), np.zeros(3, bool)), *(many.step(action)[:3] for action in actions)]
-    ends = sum(ended.sum() for _, _, ended in steps)
-    assert ends >= 3 * 2 if game == "football" else ends == 3 * 2
-    for i in range(3):
-        mine = [action[i] for action, (_, _, ended) in zip(actions, steps, strict=False) if not ended[i]]
-        alone = played(one, 5 + i, mine)
-        assert len(alone) == len(steps)
-        for (observations, rewards, ended), (observation, _, reward, over) in zip(steps, alone, strict=True):
-            assert observations[i] in many.single_observation_space
-            assert np.array_equal(observations[i], observation)
-            assert (rewards[i], ended[i]) == (reward, over)
+    state_test(parallel_to_aec(parallel_env(game, **SHORT)), parallel_env(game, **SHORT), 20)
 
 
 @pytest.mark.long
@@ -218,15 +197,71 @@ def test_a_wrong_option_is_one_line(options, reason):
     assert "\n" not in str(caught.value)
 
 
-def test_actions_outside_the_space_are_refused():
-    env = gymnasium.make_vec("PiTanks-v0", num_envs=2, **SHORT)
+FACES = {
+    "one": lambda **options: gymnasium.make("PiTanks-v0", **options).unwrapped,
+    "vector": lambda **options: gymnasium.make_vec("PiTanks-v0", num_envs=2, **options),
+    "match": lambda **options: parallel_env("pitanks", **options),
+}
+
+
+@pytest.mark.parametrize("face", FACES)
+@pytest.mark.parametrize(
+    ("continuous", "action", "reason"),
+    [
+        (
+            False,
+            [0, 7, 0, 0],
+            r"action \[0, 7, 0, 0\] of agent {last} lies outside the heads {{'drive': 3, 'turn': 7",
+        ),
+        (False, [-1, 0, 0, 0], r"action \[-1, 0, 0, 0\] of agent {last} lies outside"),
+        (False, [0.5, 0, 0, 0], "actions are whole numbers"),
+        (False, [1, 0, 0], "numbers are needed for each agent"),
+        (True, [0.0, 1.01, 0.0, 0.0], r"of agent {last} lies outside sticks in \[-1, 1\], fire and turbo in \[0, 1\]"),
+        (True, [0.0, 0.0, -0.5, 0.0], "of agent {last} lies outside sticks"),
+        (True, [float("nan"), 0.0, 0.0, 0.0], "of agent {last} lies outside sticks"),
+        (True, [0.0, 1.0], "numbers are needed for each agent"),
+    ],
+)
+def test_actions_outside_the_space_are_refused_by_every_face(face, continuous, action, reason):
+    env = FACES[face](continuous=continuous, **SHORT)
+    last, good = 0 if face == "one" else 1, [0] * 4
+
+    def step(action):
+        mine = action if len(action) == 4 else [*action]
+        other = good if len(action) == 4 else mine
+        given = {"one": mine, "vector": [other, mine], "match": {"player_0": other, "player_1": mine}}
+        return env.step(given[face])
+
+    with pytest.raises(ResetNeeded, match=r"^step before reset: an episode begins with reset$"):
+        step(good)
     env.reset(seed=1)
-    with pytest.raises(ValueError, match="no choice of the heads"):
-        env.step([[0, 7, 0, 0], [0, 0, 0, 0]])
+    with pytest.raises(ValueError, match=reason.format(last=last)) as caught:
+        step(action)
+    assert "\n" not in str(caught.value)
+    if continuous:
+        step(np.array([-1.0, 1.0, 0.0, 1.0], np.float32))
+    else:
+        step(np.array([2, 6, 1, 1], np.uint8))
+
+
+def test_every_agent_of_a_match_needs_an_action():
     match = parallel_env("pitanks", **SHORT)
     match.reset(seed=1)
     with pytest.raises(ValueError, match="player_1"):
         match.step({"player_0": (1, 3, 0, 0)})
+
+
+@pytest.mark.parametrize("game", ENVIRONMENTS.values())
+def test_the_state_is_what_all_agents_see(game):
+    match = parallel_env(game, agents=2, **SHORT)
+    seen, _ = match.reset(seed=1)
+    while match.agents:
+        assert np.array_equal(match.state(), np.concatenate([seen["player_0"], seen["player_1"]]))
+        assert match.state() in match.state_space
+        state, before = match.state(), match.state()
+        seen = match.step({agent: match.action_space(agent).sample() for agent in match.agents})[0]
+        assert np.array_equal(state, before)
+        assert not np.array_equal(match.state(), before)
 
 
 def test_without_the_extra_one_line_says_how_to_install_it():

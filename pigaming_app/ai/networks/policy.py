@@ -92,7 +92,10 @@ def mind_record(encoding: Encoding) -> type[NetworkMind]:
 
 
 def _forward_loops(mind: NetworkMind, weights: Any) -> None:
-    """`forward` in compiled code: no sum over a row, so that the inner loops are vectorised as they stand."""
+    """`forward` in compiled code: no sum over a row, so that the inner loops are vectorised as they stand.
+
+    Each adds four inputs at once, which saves most loads and stores of the sums; whole numbers allow any order.
+    """
     inputs, hidden, logits = mind.inputs, mind.hidden, mind.logits
     size, outputs = len(inputs), len(logits)
     for unit in range(HIDDEN):
@@ -100,23 +103,34 @@ def _forward_loops(mind: NetworkMind, weights: Any) -> None:
         hidden[HIDDEN + unit] = weights.second_bias[unit]
     for unit in range(outputs):
         logits[unit] = weights.last_bias[unit]
-    for i in range(size):
-        value = inputs[i]
-        if value != 0.0:
+    for i in range(0, size - 3, 4):
+        a, b, c, d = inputs[i], inputs[i + 1], inputs[i + 2], inputs[i + 3]
+        if a != 0.0 or b != 0.0 or c != 0.0 or d != 0.0:
             for unit in range(HIDDEN):
-                hidden[unit] += value * weights.first[i * HIDDEN + unit]
+                k = i * HIDDEN + unit
+                near = a * weights.first[k] + b * weights.first[k + HIDDEN]
+                far = c * weights.first[k + 2 * HIDDEN] + d * weights.first[k + 3 * HIDDEN]
+                hidden[unit] += near + far
+    for i in range(size - size % 4, size):
+        a = inputs[i]
+        for unit in range(HIDDEN):
+            hidden[unit] += a * weights.first[i * HIDDEN + unit]
     for unit in range(HIDDEN):
         hidden[unit] = squash(hidden[unit])
-    for i in range(HIDDEN):
-        value = hidden[i]
+    for i in range(0, HIDDEN, 4):
+        a, b, c, d = hidden[i], hidden[i + 1], hidden[i + 2], hidden[i + 3]
         for unit in range(HIDDEN):
-            hidden[HIDDEN + unit] += value * weights.second[i * HIDDEN + unit]
+            k = i * HIDDEN + unit
+            near = a * weights.second[k] + b * weights.second[k + HIDDEN]
+            far = c * weights.second[k + 2 * HIDDEN] + d * weights.second[k + 3 * HIDDEN]
+            hidden[HIDDEN + unit] += near + far
     for unit in range(HIDDEN, 2 * HIDDEN):
         hidden[unit] = squash(hidden[unit])
-    for i in range(HIDDEN):
-        value = hidden[HIDDEN + i]
+    for i in range(0, HIDDEN, 2):
+        a, b = hidden[HIDDEN + i], hidden[HIDDEN + i + 1]
         for unit in range(outputs):
-            logits[unit] += value * weights.last[i * outputs + unit]
+            k = i * outputs + unit
+            logits[unit] += a * weights.last[k] + b * weights.last[k + outputs]
     for unit in range(2 * HIDDEN):
         hidden[unit] = 0.0
 

@@ -8,12 +8,25 @@ import pytest
 
 from pigaming_app.ai.learning.rollout import Batch, cast_with_baselines
 from pigaming_app.ai.networks.encoding import UNIT, saturating, whole
+from pigaming_app.ai.networks.files import policy_of
 from pigaming_app.ai.networks.layers import EXACT, Layers, squash_all
 from pigaming_app.ai.networks.pitanks import ENCODING
-from pigaming_app.ai.networks.policy import HIDDEN, Handicap, Policy, mind_record, network_brain, odds, squash
+from pigaming_app.ai.networks.policy import (
+    HIDDEN,
+    Handicap,
+    Policy,
+    _forward_loops,
+    mind_record,
+    network_brain,
+    odds,
+    packed_layers,
+    squash,
+)
+from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.setup import make_setup
-from pigaming_app.sim.record import digest
+from pigaming_app.sim.record import digest, dtype
+from tests.ai.networks.random_network import random_network
 from tests.test_every_game import company
 
 
@@ -55,6 +68,19 @@ def test_the_forward_pass_is_exact():
         x = [int(squash(float(total))) for total in sums] if k < 2 else sums
     assert layers.logits(inputs) == x
     assert layers.largest_sum() < EXACT
+
+
+@pytest.mark.parametrize("game", ENCODINGS)
+def test_the_loops_of_compiled_code_are_the_matrices_of_numpy(game):
+    """Plain, on NumPy records: inputs of every length, none, some or all of them at work."""
+    chance, encoding = np.random.default_rng(2), ENCODINGS[game]
+    layers = policy_of(random_network(3, game)).layers
+    weights, mind = packed_layers(layers).view(np.recarray)[0], np.recarray(1, dtype(mind_record(encoding)))[0]
+    for share in (0.0, 0.1, 0.5, 1.0):
+        mind.inputs[:] = chance.integers(-256, 257, encoding.size) * (chance.random(encoding.size) < share)
+        _forward_loops(mind, weights)
+        assert mind.logits.tolist() == layers.logits(mind.inputs.tolist())
+        assert not mind.hidden.any()
 
 
 def test_squash_is_the_exact_value_rounded():
