@@ -1,9 +1,10 @@
 """Steering help in Robot Race: a person's stick, blended with the stick that follows the fastest line.
 
-The share of the line is small in the middle of the course and large near its edge. It grows with the forward stick, so
-that a released stick stays released. Along the course, reverse is slow and a turn without forward stick rolls on, so
-that whoever presses keys at random gets round; across it, both are as they are. The way back to a missed line is never
-changed.
+The share of the line is small in the middle of the course and large near its edge, and large for a stick that turns a
+robot still farther from the course when it strays. It grows with the forward stick, so that a released stick stays
+released. Along the course, reverse slows a rolling robot down and drives back one that stands, and a turn without
+forward stick rolls on, so that whoever presses keys at random gets round; across it, both are as they are. The way back
+to a missed line is never changed.
 """
 
 from math import atan2, cos, sin, sqrt
@@ -22,7 +23,10 @@ NEAR = 80.0  # px inside the edge at which the share begins to grow
 INSIDE = 45.0  # px between the edge and the line that is steered for, as the fastest line touches the edge
 SLOWEST = 0.45  # of full speed, to which it slows down before a bend
 ALONG = 0.9  # rad between robot and course, below which a robot drives along it
-BACK, ROLL = 0.3, 0.6  # share of the reverse stick along the course, and forward stick of a turn there
+STRAY = 0.45  # rad between robot and course from which a turn away from it counts less, none at ALONG
+ROLL = 1.0  # forward stick of a turn along the course
+COAST, ROLLING = 0.5, 0.15  # forward stick of reverse along it, and share of full speed from which a robot rolls
+BACK = 0.3  # share of the reverse stick of a robot that stands there
 TURNED = 1.75  # rad between robot and course above which a person is turning round and is left alone
 
 
@@ -38,13 +42,15 @@ def with_help(driving: Driving) -> Driving:
 def helped_stick(match: Race, seat: int, linear: float, angular: float) -> tuple[float, float]:
     """The stick of `seat`, both axes in [-1, 1], after the help in this tick. Reads the match only."""
     robot, racer = match.robots[seat], match.racers[seat]
-    if racer.missed or racer.lines_reversed or racer.finished:
+    if racer.missed or racer.finished:
         return linear, angular
     place = CoursePosition()
     locate(match.course, robot.x, robot.y, place)
-    off = abs(turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x)))
+    turned = turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x))
+    off = abs(turned)
     if off < ALONG and linear <= 0.0:
-        linear = BACK * linear if linear else ROLL * abs(angular)
+        back = -COAST if robot.linear > ROLLING * match.rules.speed else BACK
+        linear = back * linear if linear else ROLL * abs(angular)
     if linear <= 0.0 or off > TURNED:
         return linear, angular
     ideal_linear, ideal_angular = _stick_to_line(match, seat, place)
@@ -55,9 +61,10 @@ def helped_stick(match: Race, seat: int, linear: float, angular: float) -> tuple
         robot.y + SOON * robot.linear * sin(robot.heading),
         soon,
     )
-    share = linear * max(_share(place), _share(soon))
-    slowed = min(linear, ideal_linear)
-    return linear + share * (slowed - linear), angular + share * (ideal_angular - angular)
+    stray = min(1.0, max(0.0, (off - STRAY) / (ALONG - STRAY))) if turned * angular > 0.0 else 0.0
+    share = linear * max(_share(place), _share(soon), stray)
+    ahead = min(linear, ideal_linear)
+    return linear + share * (ahead - linear), angular + share * (ideal_angular - angular)
 
 
 def _share(place: CoursePosition) -> float:
