@@ -4,7 +4,7 @@
 
 from collections.abc import Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -54,6 +54,11 @@ class Hyper:
     def entropy_at(self, share: float) -> float:
         """The weight of the entropy after a share of the training."""
         return self.entropy + (self.last_entropy - self.entropy) * share
+
+    @property
+    def continued(self) -> "Hyper":
+        """The same for a network that has been trained before: slower, and as certain as at the end."""
+        return replace(self, rate=0.5 * self.rate, entropy=self.last_entropy)
 
 
 STANDARD = Hyper()
@@ -198,19 +203,21 @@ class Learner:
         self.policy = PolicyNetwork(inputs, sum(counts), 0.01, random)
         self.value = PolicyNetwork(inputs, 1, 1.0, random)
 
-    def update(self, data: Sequence[Any], share: float, threads: Executor) -> float:
-        """Improve both networks on a set of decisions; returns the mean entropy of the policy.
+    def update(self, data: Sequence[Any], share: float, threads: Executor, held: bool = False) -> float:
+        """Improve both networks on a set of decisions, or the value function alone, while the policy is `held`.
+
+        Returns the mean entropy of the policy.
 
         `data`: inputs (n, inputs + 1), choices (n, heads), log odds (n,), advantages (n,), returns (n,).
         """
         orders = [self.random.permutation(len(data[0])) for _ in range(self.hyper.epochs)]
         estimating = threads.submit(self._estimate, data[0], data[4], orders, share)
-        entropy = self._improve(data, orders, share)
+        entropy = self._improve(data, orders, share, held)
         estimating.result()
         return entropy
 
-    def _improve(self, data: Sequence[Any], orders: list[Any], share: float) -> float:
-        """Improve the policy; returns its mean entropy."""
+    def _improve(self, data: Sequence[Any], orders: list[Any], share: float, held: bool) -> float:
+        """Improve the policy unless it is held; returns its mean entropy."""
         inputs, choices, before, gains, _ = data
         hyper, found = self.hyper, 0.0
         for order in orders:
@@ -228,7 +235,8 @@ class Learner:
                     hyper.clip,
                     hyper.entropy_at(share),
                 )
-                self.policy.descend(self.policy.gradient(slopes, trail), hyper.rate_at(share), hyper.steepest)
+                if not held:
+                    self.policy.descend(self.policy.gradient(slopes, trail), hyper.rate_at(share), hyper.steepest)
         return found
 
     def _estimate(self, inputs: np.ndarray, returns: np.ndarray, orders: list[Any], share: float) -> None:

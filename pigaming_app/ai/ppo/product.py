@@ -40,6 +40,7 @@ def recipe(training: Training) -> dict[str, Any]:
         "learner": "ppo",
         "planned_updates": training.planned if training.minutes is None else None,
         "planned_minutes": training.minutes,
+        "start": training.start and training.start.name,
         **asdict(training.hyper),
         **constants(task),
         "arenas": list(task.arenas),

@@ -6,6 +6,8 @@ from typing import Any, NamedTuple
 
 from pigaming_app.ai.networks.encoding import Encoding
 from pigaming_app.ai.ppo.learner import STANDARD, Hyper
+from pigaming_app.games.arenas import shipped_arenas
+from pigaming_app.games.registry import games
 from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.kernel import kernel
 
@@ -59,6 +61,7 @@ class Task:
     cut: float = 0.0  # probability that a match is replaced by a fresh one after each update
     hyper: Hyper = STANDARD
     sharpness: float = 1.0  # of the trained network as a brain; see Handicap
+    pairs: bool = False  # rivals are measured two against two
 
     @property
     def game(self) -> str:
@@ -69,6 +72,20 @@ class Task:
         """Those of the LEARNERS that play."""
         return tuple(name for name in LEARNERS if any(name in line_up.seats for line_up in self.line_ups))
 
-    def against(self, rival: str) -> "Task":
-        """The same task with duels against one brain only: what it takes to beat that one."""
-        return replace(self, line_ups=(LineUp(1, (LEARNER, rival, OFF, OFF)),), rivals=(rival,))
+    def against(self, rival: str, variant: str) -> "Task":
+        """The same task against one brain only, by one set of rules: what it takes to beat that one.
+
+        Two against two where there are two teams, else duels, on the arenas of the game.
+        """
+        teams = games()[self.game].variants[variant].teams
+        pairs = len({*teams}) == 2
+        seats = tuple(LEARNER if team == teams[0] else rival for team in teams) if pairs else (LEARNER, rival, OFF, OFF)
+        return replace(
+            self,
+            arenas=tuple(shipped_arenas(self.game)),
+            variants=(variant,),
+            line_ups=(LineUp(1, seats),),
+            rivals=(rival,),
+            habits=no_habits,
+            pairs=pairs,
+        )

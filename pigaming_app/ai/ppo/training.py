@@ -7,21 +7,25 @@ shards. With a planned time it also depends on the speed of the machine.
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from time import perf_counter
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain_files import stem_of
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
 from pigaming_app.ai.ppo.learner import Hyper, Learner, PolicyNetwork, advantages
-from pigaming_app.ai.ppo.shard import Experience, Shard, ShardState
+from pigaming_app.ai.ppo.shard import LEARNING, Experience, Shard, ShardState
 from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
 from pigaming_app.ai.ppo.win_rates import DuelScore, win_rates
+from pigaming_app.ai.registry import find_brain
+from pigaming_app.games.setup import ChoiceError
 
 POOL = 40  # earlier copies of a learner at most
 POOLED_EVERY = (15, 60)  # updates between two copies, by learner: the exploiter's finds must not be forgotten
+HELD = 20  # updates in which a network that was trained before stays as it is, while its value function is learned
 LARGEST = 32767  # of a 16-bit weight
 NUMBERS = ("updates", "decisions", "entropy", "seconds")  # counted by a training
 Gather = Callable[[Sequence[Any], Any, int], list[Experience]]  # policies, pool, decisions
@@ -31,14 +35,36 @@ class Diverged(ValueError):
     """The weights have grown beyond what a network can hold; the message is one line."""
 
 
+class Origin(NamedTuple):
+    """A trained network, to continue."""
+
+    name: str
+    layers: Layers
+
+
+def start_of(game: str, name: str) -> Origin:
+    """The network of a brain's name, or of the path of a file. Raises ChoiceError."""
+    layers = find_brain(game, name).weights(False)[0]
+    if not isinstance(layers, Layers):
+        raise ChoiceError(f"{stem_of(name)} is not a network, which has weights to start from")
+    return Origin(stem_of(name), layers)
+
+
 class Training:
     """A network in training."""
 
     def __init__(
-        self, task: Task, seed: int, updates: int, hyper: Hyper | None = None, minutes: float | None = None
+        self,
+        task: Task,
+        seed: int,
+        updates: int,
+        hyper: Hyper | None = None,
+        minutes: float | None = None,
+        start: Origin | None = None,
     ) -> None:
         """`updates`: of the whole training, unless its time, `minutes`, is planned. `hyper`: None for the task's.
 
+        `start`: what it continues, with the rewards of the end of a training; None for a fresh network.
         Raises ImportError without numba, ValueError for too few matches.
         """
         hyper = hyper or task.hyper
@@ -48,15 +74,27 @@ class Training:
         counts = [choices for _, choices in task.encoding.heads]
         random = np.random.default_rng(seeds[-1])
         self.learners = [Learner(task.encoding.size, counts, hyper, random) for _ in task.learners]
+        self.start = start
+        if start:
+            self._take_over(start.layers)
         self.pools = [packed_layers(whole_layers(learner.policy.weights)) for learner in self.learners]
         self.updates, self.decisions, self.seconds = 0, 0, 0.0
         self.entropy = float(np.log(counts).sum())  # of an even choice
         self.points: list[tuple[float, ...]] = []  # progress, by `columns`
 
+    def _take_over(self, layers: Layers) -> None:
+        for own, matrix, bias in zip(self.learner.policy.weights, layers.matrices, layers.biases, strict=True):
+            own[:-1], own[-1] = matrix / UNIT, bias / UNIT**2
+
     @property
     def finished(self) -> bool:
         """True at the end of the plan."""
         return self.share >= 1.0
+
+    @property
+    def decisions_of_update(self) -> int:
+        """Decisions of the network in one update; less where matches end."""
+        return self.hyper.decisions * sum(int((shard.minds["family"] == LEARNING).sum()) for shard in self.shards)
 
     @property
     def share(self) -> float:
@@ -86,7 +124,8 @@ class Training:
         """Improve one of the learners."""
         data = threads.map(lambda experience: self._digested(player, experience, share), experiences)
         joined = [np.concatenate(parts) for parts in zip(*data, strict=True)]
-        self.entropy = self.learners[player].update(joined, share, threads)
+        held = player == 0 and self.start is not None and self.updates < HELD
+        self.entropy = self.learners[player].update(joined, share, threads, held)
         self.decisions += len(joined[0])
 
     def measure(self, matches: int, threads: Executor) -> dict[str, DuelScore]:
@@ -106,7 +145,8 @@ class Training:
             experience = Experience(*(part[own] if part.ndim == 1 else part[:, own] for part in experience))
         inputs, choices, log_odds, gauges, valid, over, results, _ = experience
         gains = np.diff(gauges, axis=0)
-        rewards = np.where(valid, self.task.reward(gains, inputs[:-1], choices, share), np.float32(0))
+        rewards = self.task.reward(gains, inputs[:-1], choices, share if self.start is None else 1.0)
+        rewards = np.where(valid, rewards, np.float32(0))
         last = np.maximum(valid.sum(0) - 1, 0)
         rewards[last, np.arange(len(last))] += np.where(over, results, np.float32(0))
         values = learner.value.forward(inputs.reshape(-1, inputs.shape[-1]))[0].reshape(inputs.shape[:2])

@@ -2,15 +2,15 @@
 
 import json
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from time import monotonic
+from typing import Any, NamedTuple
 
 from pigaming_app.ai.brain.archive import BrainFileError
-from pigaming_app.ai.learning.league import wilson
 from pigaming_app.ai.learning.rollout import rehearse
 from pigaming_app.ai.networks.files import encode as encode_network
 from pigaming_app.ai.ppo.product import encode, restore, trained_network
@@ -18,12 +18,12 @@ from pigaming_app.ai.ppo.ray_workers import NoCluster, RayShards
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import is_compiled
 from pigaming_app.ai.ppo.task import SHARDS, Task
-from pigaming_app.ai.ppo.training import Diverged, Gather, Training, columns, in_threads
+from pigaming_app.ai.ppo.training import Diverged, Gather, Origin, Training, columns, in_threads, start_of
 from pigaming_app.ai.ppo.win_rates import DuelScore
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import ChoiceError, require_game
+from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
 from pigaming_app.jobs.learning.train.options import DEFAULT_WORKERS, PpoOptions, changed
 from pigaming_app.jobs.learning.train.outputs import csv_of, png_of, two_plots
 from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
@@ -33,7 +33,16 @@ from pigaming_app.storage.safe_files import NotSaved, write_all_atomic, write_at
 
 MEASURED_EVERY = 25  # updates
 MEASURED, MEASURED_AT_END = 10, 40  # matches against each rival
+CURVE, MEASURED_AGAINST = 10, 200  # points of the curve of a best response, and matches for each
 SAVED_EVERY = 60.0  # s
+
+
+class Measures(NamedTuple):
+    """How often progress is measured, in updates, by how many matches, and by how many at the end."""
+
+    every: int
+    matches: int
+    at_end: int
 
 
 def train_and_save(options: PpoOptions, beside: Path) -> int:
@@ -47,15 +56,16 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
         ThreadPoolExecutor(min(SHARDS, os.cpu_count() or 1)) as threads,
         _players(training, threads, options) as (gather, sync),
     ):
-        scores = training.measure(MEASURED, threads)  # also compiles
+        measures = _measures(training, options)
+        scores = training.measure(measures.matches, threads)  # also compiles
         with interrupts() as stopped:
             note("Ctrl-C ends the training after the current update and saves the result")
             save = partial(_save, training, sync, options.out, beside)
-            _train(training, scores, gather, threads, save, stopped)
-            scores = training.measure(MEASURED_AT_END, threads)
+            _train(training, measures, scores, gather, threads, save, stopped)
+            scores = training.measure(measures.at_end, threads)
             save()
             if options.csv:
-                write_atomic(options.csv, csv_of(columns(training.task), training.points))
+                write_atomic(options.csv, _numbers_of(training))
             if options.curve:
                 write_atomic(options.curve, _curve_of(training))
     _print(training, scores, options, bool(stopped))
@@ -71,11 +81,14 @@ def _begin(options: PpoOptions, beside: Path) -> Training:
         raise Refusal(f"--workers: {options.workers}; the matches are divided among {SHARDS} at most")
     task = _task(options)
     _rehearse(task)
+    start = _start(options)
     try:
-        hyper = changed(task.hyper, options.set)
-        training = Training(task, options.seed, options.updates or 0, hyper, options.minutes)
+        hyper = changed(task.hyper.continued if start else task.hyper, options.set)
+        training = Training(task, options.seed, options.updates or 0, hyper, options.minutes, start)
     except ValueError as wrong:
         raise Refusal(f"--set: {wrong}" if options.set else str(wrong)) from None
+    if options.decisions is not None:
+        training.planned = -(-options.decisions // training.decisions_of_update)
     if options.resume:
         restore(training, beside)
     return training
@@ -96,7 +109,25 @@ def _task(options: PpoOptions) -> Task:
     if options.against is None:
         return task
     find_brain(options.game, options.against)
-    return task.against(options.against)
+    variant = options.variant or games()[options.game].default.name
+    require_one_of("variant", variant, list(games()[options.game].variants))
+    return task.against(options.against, variant)
+
+
+def _start(options: PpoOptions) -> Origin | None:
+    """The network to continue: with `against`, that one if it is a network. Raises ChoiceError."""
+    if options.base is not None:
+        return start_of(options.game, options.base)
+    if options.against is not None:
+        with suppress(ChoiceError):
+            return start_of(options.game, options.against)
+    return None
+
+
+def _measures(training: Training, options: PpoOptions) -> Measures:
+    if options.against is None:
+        return Measures(MEASURED_EVERY, MEASURED, MEASURED_AT_END)
+    return Measures(training.planned // CURVE or MEASURED_EVERY, MEASURED_AGAINST, MEASURED_AGAINST)
 
 
 @contextmanager
@@ -111,6 +142,7 @@ def _players(training: Training, threads: Executor, options: PpoOptions) -> Iter
 
 def _train(
     training: Training,
+    measures: Measures,
     scores: Mapping[str, DuelScore],
     gather: Gather,
     threads: Executor,
@@ -121,9 +153,9 @@ def _train(
     saved = monotonic()
     while not training.finished and not stopped:
         training.update(gather, threads)
-        measured = training.updates % MEASURED_EVERY == 0
+        measured = training.updates % measures.every == 0
         if measured:
-            scores = training.measure(MEASURED, threads)
+            scores = training.measure(measures.matches, threads)
         show(_line(training, scores), milestone=measured)
         if monotonic() - saved > SAVED_EVERY:
             saved = monotonic()
@@ -151,13 +183,31 @@ def _line(training: Training, scores: Mapping[str, DuelScore]) -> str:
     return f"{bar(training.share)} {done}  {training.decisions / training.seconds:,.0f} decisions/s  {ends}"
 
 
+def _scores_of(training: Training, point: Sequence[float]) -> dict[str, DuelScore]:
+    """The scores of a point of the training, by rival."""
+    ends = [int(count) for count in point[-3 * len(training.task.rivals) :]]
+    return {rival: DuelScore(*ends[3 * k : 3 * k + 3]) for k, rival in enumerate(training.task.rivals)}
+
+
+def _numbers_of(training: Training) -> bytes:
+    """The learning curve as a CSV file, with the share of each rival and its interval."""
+    shares = [f"{rival}_{name}" for rival in training.task.rivals for name in ("share", "low", "high")]
+    rows = [
+        [*point, *(f"{x:.4f}" for one in _scores_of(training, point).values() for x in (one.share, *one.interval))]
+        for point in training.points
+    ]
+    return csv_of([*columns(training.task), *shares], rows)
+
+
 def _curve_of(training: Training) -> bytes:
     """The learning curve as a PNG file: wins against the rivals, and the policy's entropy."""
     figure, upper, lower = two_plots()
     millions = [point[1] / 1e6 for point in training.points]
-    for k, rival in enumerate(training.task.rivals):
-        ends = [point[4 + 3 * k : 7 + 3 * k] for point in training.points]
-        upper.plot(millions, [end[0] / sum(end) for end in ends], label=f"wins against {rival}")
+    for rival in training.task.rivals:
+        scores = [_scores_of(training, point)[rival] for point in training.points]
+        low, high = zip(*(score.interval for score in scores), strict=True)
+        upper.plot(millions, [score.share for score in scores], label=f"wins against {rival}")
+        upper.fill_between(millions, low, high, alpha=0.2)
     upper.set(title=f"{training.task.game}, seed {training.seed}", ylabel="share of wins", ylim=(-0.03, 1.03))
     upper.legend()
     lower.plot(millions, [point[3] for point in training.points], color="tab:orange")
@@ -177,7 +227,12 @@ def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOpti
             "seconds": training.seconds,
             "decisions_per_second": speed,
             "entropy": training.entropy,
-            "rivals": {rival: score._asdict() for rival, score in scores.items()},
+            "rivals": {rival: _described(score) for rival, score in scores.items()},
+            "curve": [
+                {"decisions": point[1], **{rival: _described(score) for rival, score in found.items()}}
+                for point in training.points
+                for found in [_scores_of(training, point)]
+            ],
             "finished": not stopped,
             "out": str(options.out),
         }
@@ -185,6 +240,17 @@ def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOpti
         return
     print(f"{training.updates} updates, {training.decisions:,} decisions: {options.out}")
     print(f"trained in {training.seconds:.1f} s, {speed:,.0f} decisions/s")
+    if options.against is not None:
+        for point in training.points[:-1]:
+            print(f"{point[1] / 1e6:6.2f} million  {_sentence(_scores_of(training, point)[options.against])}")
     for rival, score in scores.items():
-        low, high = wilson(score.wins, sum(score))
-        print(f"against {rival}: {score.wins}-{score.ties}-{score.losses} (wins: {low:.0%} to {high:.0%})")
+        print(f"against {rival}: {_sentence(score)}")
+
+
+def _described(score: DuelScore) -> dict[str, Any]:
+    return {**score._asdict(), "share": score.share, "wilson95": score.interval}
+
+
+def _sentence(score: DuelScore) -> str:
+    low, high = score.interval
+    return f"{score.wins}-{score.ties}-{score.losses}, {score.share:.1%} with ties for half ({low:.0%} to {high:.0%})"
