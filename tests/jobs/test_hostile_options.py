@@ -54,7 +54,7 @@ OPTIONS = {
     tuple(TRAIN): ("--reward", "--matches", "--minutes", "--seed", "--arena", "--out", "--set", "--curve", "--csv", ""),
     tuple(PPO): (
         "--updates", "--decisions", "--minutes", "--from", "--against", "--variant", "--seed", "--out", "--set",
-        "--curve", "--csv", "--ray", "--workers", "",
+        "--curve", "--csv", "--population", "--ray", "--workers", "",
     ),
     ("replay", "--verify"): ("",),
     ("bench",): ("",),

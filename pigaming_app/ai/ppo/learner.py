@@ -125,6 +125,14 @@ class PolicyNetwork:
             square += SMOOTHNESS * (gradient * gradient - square)
             matrix -= step * mean / (np.sqrt(square) + TINY)
 
+    def restart(self, weights: Sequence[Any]) -> None:
+        """Go on from other weights, as if they were the first."""
+        self.steps = 0
+        for own, other, *moments in zip(self.weights, weights, self.means, self.squares, strict=True):
+            own[:] = other
+            for moment in moments:
+                moment.fill(0)
+
     @property
     def arrays(self) -> list[Any]:
         """All that changes but `steps`: weights and moments."""

@@ -47,6 +47,7 @@ def recipe(training: Training) -> dict[str, Any]:
         "variants": list(task.variants),
         "match_minutes": list(task.minutes),
         "line_ups": [described(line_up) for line_up in task.line_ups],
+        "population": task.population,
         "cut": task.cut,
         "sharpness": task.sharpness,
     }

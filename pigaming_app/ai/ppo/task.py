@@ -62,6 +62,7 @@ class Task:
     hyper: Hyper = STANDARD
     sharpness: float = 1.0  # of the trained network as a brain; see Handicap
     pairs: bool = False  # rivals are measured two against two
+    population: bool = False  # exploiters start from the network in training, and the pool is met by chances
 
     @property
     def game(self) -> str:
@@ -77,15 +78,29 @@ class Task:
 
         Two against two where there are two teams, else duels, on the arenas of the game.
         """
-        teams = games()[self.game].variants[variant].teams
-        pairs = len({*teams}) == 2
-        seats = tuple(LEARNER if team == teams[0] else rival for team in teams) if pairs else (LEARNER, rival, OFF, OFF)
+        line_up, game = self._versus(rival, variant), self.game
         return replace(
             self,
-            arenas=tuple(shipped_arenas(self.game)),
+            arenas=tuple(shipped_arenas(game)),
             variants=(variant,),
-            line_ups=(LineUp(1, seats),),
+            line_ups=(line_up,),
             rivals=(rival,),
             habits=no_habits,
-            pairs=pairs,
+            pairs=OFF not in line_up.seats,
         )
+
+    def populated(self) -> "Task":
+        """The same task in a population: a quarter of the matches against its exploiter, and one against the pool."""
+        replaced = {LEARNER, EXPLOITER}, {LEARNER, POOL}
+        kept = [line_up for line_up in self.line_ups if {*line_up.seats} - {OFF} not in replaced]
+        total = sum(line_up.share for line_up in kept)
+        variant = games()[self.game].default.name
+        against = [self._versus(other, variant)._replace(share=total) for other in (EXPLOITER, POOL)]
+        return replace(self, line_ups=(*(one._replace(share=2 * one.share) for one in kept), *against), population=True)
+
+    def _versus(self, other: str, variant: str) -> LineUp:
+        """The learner against somebody: two against two where there are two teams, else a duel."""
+        teams = games()[self.game].variants[variant].teams
+        if len({*teams}) == 2:
+            return LineUp(1, tuple(LEARNER if team == teams[0] else other for team in teams))
+        return LineUp(1, (LEARNER, other, OFF, OFF))

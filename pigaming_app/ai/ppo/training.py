@@ -17,6 +17,7 @@ from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
 from pigaming_app.ai.ppo.learner import Hyper, Learner, PolicyNetwork, advantages
+from pigaming_app.ai.ppo.population import SELF_EVERY, Pool, Population, restored
 from pigaming_app.ai.ppo.shard import LEARNING, Experience, Shard, ShardState
 from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
 from pigaming_app.ai.ppo.win_rates import DuelScore, win_rates
@@ -28,7 +29,7 @@ POOLED_EVERY = (15, 60)  # updates between two copies, by learner: the exploiter
 HELD = 20  # updates in which a network that was trained before stays as it is, while its value function is learned
 LARGEST = 32767  # of a 16-bit weight
 NUMBERS = ("updates", "decisions", "entropy", "seconds")  # counted by a training
-Gather = Callable[[Sequence[Any], Any, int], list[Experience]]  # policies, pool, decisions
+Gather = Callable[[Sequence[Any], Pool, int], list[Experience]]  # policies, pool, decisions
 
 
 class Diverged(ValueError):
@@ -77,7 +78,12 @@ class Training:
         self.start = start
         if start:
             self._take_over(start.layers)
+        self.population = Population() if task.population else None
+        if self.population:
+            self._renew_exploiter()
         self.pools = [packed_layers(whole_layers(learner.policy.weights)) for learner in self.learners]
+        if self.population:
+            del self.pools[1:]
         self.updates, self.decisions, self.seconds = 0, 0, 0.0
         self.entropy = float(np.log(counts).sum())  # of an even choice
         self.points: list[tuple[float, ...]] = []  # progress, by `columns`
@@ -85,6 +91,10 @@ class Training:
     def _take_over(self, layers: Layers) -> None:
         for own, matrix, bias in zip(self.learner.policy.weights, layers.matrices, layers.biases, strict=True):
             own[:-1], own[-1] = matrix / UNIT, bias / UNIT**2
+
+    def _renew_exploiter(self) -> None:
+        """Start an exploiter from the present weights. It keeps what the last one expected of the same matches."""
+        self.learners[1].policy.restart(self.learner.policy.weights)
 
     @property
     def finished(self) -> bool:
@@ -110,21 +120,49 @@ class Training:
         """Gather experience and learn from it."""
         began, share = perf_counter(), min(1.0, self.share)
         policies = [np.stack(layer) for layer in zip(*(one.policy.weights for one in self.learners), strict=True)]
-        experiences = gather(policies, np.concatenate(self.pools), self.hyper.decisions)
+        chances = self.population.chances if self.population else None
+        experiences = gather(policies, Pool(np.concatenate(self.pools), chances), self.hyper.decisions)
         for player in range(len(self.learners) - 1, -1, -1):
             self._learn(player, experiences, share, threads)
         self.updates += 1
+        if self.population:
+            self._renew(self.population, experiences)
+        else:
+            self._pool()
+        self.seconds += perf_counter() - began
+
+    def _renew(self, population: Population, experiences: Sequence[Experience]) -> None:
+        """Note how matches ended, let copies join the population, and replace an exploiter that is done."""
+        for experience in experiences:
+            population.note(experience.outcomes.tolist())
+        if self.updates % SELF_EVERY == 0:
+            self._join(population, 0)
+        if population.exploiter_is_done(self.updates):
+            self._join(population, 1)
+            population.next_exploiter(self.updates)
+            self._renew_exploiter()
+
+    def _join(self, population: Population, learner: int) -> None:
+        """Let a copy of a learner join the population."""
+        copy = packed_layers(whole_layers(self.learners[learner].policy.weights))
+        place = population.place_of(learner, self.updates, POOL)
+        (members,) = self.pools
+        self.pools = [np.concatenate([members[:place], copy, members[place + 1 :]])]
+
+    def _pool(self) -> None:
+        """Add copies of the learners to their pools, now and then."""
         for k, (learner, every) in enumerate(zip(self.learners, POOLED_EVERY, strict=False)):
             if self.updates % every == 0:
                 copy = packed_layers(whole_layers(learner.policy.weights))
                 self.pools[k] = np.concatenate([self.pools[k], copy])[-POOL:]
-        self.seconds += perf_counter() - began
 
     def _learn(self, player: int, experiences: Sequence[Experience], share: float, threads: Executor) -> None:
         """Improve one of the learners."""
         data = threads.map(lambda experience: self._digested(player, experience, share), experiences)
         joined = [np.concatenate(parts) for parts in zip(*data, strict=True)]
-        held = player == 0 and self.start is not None and self.updates < HELD
+        held = self.start is not None and self.updates < HELD and (player == 0 or self.task.population)
+        if player and self.population:
+            share = 0.0  # each exploiter is at its begin
         self.entropy = self.learners[player].update(joined, share, threads, held)
         self.decisions += len(joined[0])
 
@@ -142,8 +180,9 @@ class Training:
         learner = self.learners[player]
         if len(self.learners) > 1:
             own = experience.players == player
-            experience = Experience(*(part[own] if part.ndim == 1 else part[:, own] for part in experience))
-        inputs, choices, log_odds, gauges, valid, over, results, _ = experience
+            parts = (part[own] if part.ndim == 1 else part[:, own] for part in experience[:-1])
+            experience = Experience._make([*parts, experience.outcomes])
+        inputs, choices, log_odds, gauges, valid, over, results, *_ = experience
         gains = np.diff(gauges, axis=0)
         rewards = self.task.reward(gains, inputs[:-1], choices, share if self.start is None else 1.0)
         rewards = np.where(valid, rewards, np.float32(0))
@@ -171,6 +210,7 @@ class Training:
             "steps": [network.steps for network in networks.values()],
             "random": [self.learner.random.bit_generator.state, *(state.random for state in states)],
             "points": self.points,
+            "population": self.population and self.population.state(),
         }
         arrays = {f"{name}_{k}": one for name, network in networks.items() for k, one in enumerate(network.arrays)}
         for k, state in enumerate(states):
@@ -196,6 +236,8 @@ class Training:
             shard.restore(ShardState(arrays[f"matches{k}"], arrays[f"minds{k}"], random))
         self.pools = [arrays[f"pool{k}"] for k in range(len(self.pools))]
         self.points = [tuple(point) for point in numbers["points"]]
+        if self.population:
+            self.population = restored(numbers["population"])
 
 
 def columns(task: Task) -> tuple[str, ...]:
@@ -207,7 +249,7 @@ def columns(task: Task) -> tuple[str, ...]:
 def in_threads(training: Training, threads: Executor) -> Gather:
     """Gather experience in the threads of this process."""
 
-    def gather(policies: Sequence[Any], pool: Any, decisions: int) -> list[Experience]:
+    def gather(policies: Sequence[Any], pool: Pool, decisions: int) -> list[Experience]:
         return list(threads.map(lambda shard: shard.collect(policies, pool, decisions), training.shards))
 
     return gather

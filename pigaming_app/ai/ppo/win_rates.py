@@ -91,7 +91,7 @@ def _duels(task: Task, network: Any, rival: str, numbers: range) -> DuelScore:
         weights,
         np.full((len(numbers), ROBOTS), -1),
         *policies,
-        *nothing,
+        *nothing[:-1],
     )
     ends: list[Any] = [unpack(rules.state, state) for state in states]
     check(task.game, ends)

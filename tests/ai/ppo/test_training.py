@@ -161,6 +161,14 @@ def test_a_network_loses_to_itself_as_often_as_it_wins(game, variant, seats, mon
     assert all(sum(seat.brain == "ai" for seat in setup.seats) == 2 * seats for setup in seen)
 
 
+@pytest.mark.parametrize(("game", "variant"), [("pitanks", "party"), ("football", "standard")])
+def test_a_network_beats_who_stands_still_on_either_side(game, variant):
+    task = replace(TASKS[game].against("idle", variant), minutes=(0.25,))
+    with ThreadPoolExecutor(2) as threads:
+        (score,) = win_rates(task, find_brain(game, "net").weights(True), 2, threads).values()
+    assert score.wins == 2
+
+
 def test_no_match_of_a_training_has_the_seed_of_a_measurement(monkeypatch):
     seen = begun(monkeypatch, "shard")
     Training(TASK, 5, 4, TINY)

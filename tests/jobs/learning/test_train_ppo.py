@@ -125,6 +125,7 @@ def test_a_full_disk_leaves_the_network_and_the_checkpoint_before(tmp_path, caps
         (["--against", "nobody"], "no brain 'nobody'"),
         (["--against", "net", "--variant", "chess"], "no variant 'chess'"),
         (["--variant", "party"], "only with --against"),
+        (["--population", "--against", "net"], "--population: not with --against"),
         (["--from", "nobody"], "no brain 'nobody'"),
         (["--from", "hand3"], "hand3 is not a network"),
         (["--from", str(BRAINS / "race.npz")], "race.npz: it plays race, not pitanks"),

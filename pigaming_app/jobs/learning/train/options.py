@@ -97,6 +97,7 @@ class PpoOptions(OutputOptions, JsonOption, SeedOption, GameOption):
     against: str | None = option(
         "learn to beat this one alone, from its own weights if it is a network, and print the curve", metavar="AI"
     )
+    population: bool = flag("against exploiters that start from its present weights, and members of a pool that win")
     variant: str | None = option("with --against: set of rules; default: the game's first")
     ray: str | None = option("Ray cluster, auto, or local (extra `ray`)", word, metavar="ADDRESS")
     workers: int | None = option(f"processes that play; default {DEFAULT_WORKERS}", integer(), metavar="NUMBER")

@@ -20,6 +20,8 @@ def run(options: PpoOptions) -> int:
         require("ray")
     checkpoint = options.out.with_suffix(".checkpoint.npz")
     check_outputs(options, "network", beside=[checkpoint])
+    if options.population and options.against is not None:
+        raise Refusal("--population: not with --against, which has one opponent")
     if options.variant is not None and options.against is None:
         raise Refusal("--variant: only with --against")
     if options.updates is None and options.decisions is None and options.minutes is None:

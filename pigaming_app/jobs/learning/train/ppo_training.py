@@ -107,7 +107,7 @@ def _task(options: PpoOptions) -> Task:
     """The game as it is to be learned. Raises ChoiceError."""
     task = TASKS[options.game]
     if options.against is None:
-        return task
+        return task.populated() if options.population else task
     find_brain(options.game, options.against)
     variant = options.variant or games()[options.game].default.name
     require_one_of("variant", variant, list(games()[options.game].variants))
