@@ -16,7 +16,7 @@ from pigaming_app.ai.brain_files import stem_of
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
-from pigaming_app.ai.ppo.learner import Hyper, Learner, PolicyNetwork, advantages
+from pigaming_app.ai.ppo.learner import Hyper, Learner, LearnerFigures, PolicyNetwork, advantages
 from pigaming_app.ai.ppo.population import SELF_EVERY, Pool, Population, restored
 from pigaming_app.ai.ppo.shard import LEARNING, Experience, Shard, ShardState
 from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
@@ -85,6 +85,7 @@ class Training:
         if self.population:
             del self.pools[1:]
         self.updates, self.decisions, self.seconds = 0, 0, 0.0
+        self.telemetry = dict[int, LearnerFigures]()  # of the last update, by learner
         self.entropy = float(np.log(counts).sum())  # of an even choice
         self.points: list[tuple[float, ...]] = []  # progress, by `columns`
 
@@ -124,6 +125,7 @@ class Training:
         experiences = gather(policies, Pool(np.concatenate(self.pools), chances), self.hyper.decisions)
         for player in range(len(self.learners) - 1, -1, -1):
             self._learn(player, experiences, share, threads)
+        self.entropy = self.telemetry[0].entropy
         self.updates += 1
         if self.population:
             self._renew(self.population, experiences)
@@ -163,7 +165,7 @@ class Training:
         held = self.start is not None and self.updates < HELD and (player == 0 or self.task.population)
         if player and self.population:
             share = 0.0  # each exploiter is at its begin
-        self.entropy = self.learners[player].update(joined, share, threads, held)
+        self.telemetry[player] = self.learners[player].update(joined, share, threads, held)
         self.decisions += len(joined[0])
 
     def measure(self, matches: int, threads: Executor) -> dict[str, DuelScore]:
@@ -244,6 +246,12 @@ def columns(task: Task) -> tuple[str, ...]:
     """The numbers of a training's points."""
     ends = (f"{rival}_{end}" for rival in task.rivals for end in DuelScore._fields)
     return "updates", "decisions", "seconds", "entropy", *ends
+
+
+def scores_at(task: Task, point: Sequence[float]) -> dict[str, DuelScore]:
+    """The scores of a training's point, by rival."""
+    ends = [int(count) for count in point[-3 * len(task.rivals) :]]
+    return {rival: DuelScore(*ends[3 * k : 3 * k + 3]) for k, rival in enumerate(task.rivals)}
 
 
 def in_threads(training: Training, threads: Executor) -> Gather:

@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from functools import partial
@@ -18,15 +18,16 @@ from pigaming_app.ai.ppo.ray_workers import NoCluster, RayShards
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import is_compiled
 from pigaming_app.ai.ppo.task import SHARDS, Task
-from pigaming_app.ai.ppo.training import Diverged, Gather, Origin, Training, columns, in_threads, start_of
+from pigaming_app.ai.ppo.training import Diverged, Gather, Origin, Training, in_threads, scores_at, start_of
 from pigaming_app.ai.ppo.win_rates import DuelScore
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
 from pigaming_app.jobs.learning.train.options import DEFAULT_WORKERS, PpoOptions, changed
-from pigaming_app.jobs.learning.train.outputs import csv_of, png_of, two_plots
+from pigaming_app.jobs.learning.train.outputs import png_of, two_plots
 from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
+from pigaming_app.jobs.learning.train.telemetry import TrainingTable
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic, write_atomic
@@ -60,12 +61,11 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
         scores = training.measure(measures.matches, threads)  # also compiles
         with interrupts() as stopped:
             note("Ctrl-C ends the training after the current update and saves the result")
-            save = partial(_save, training, sync, options.out, beside)
-            _train(training, measures, scores, gather, threads, save, stopped)
+            table = TrainingTable(training, options.csv if options.resume else None)
+            save = partial(_save, table, sync, options, beside)
+            _train(table, measures, scores, gather, threads, save, stopped)
             scores = training.measure(measures.at_end, threads)
             save()
-            if options.csv:
-                write_atomic(options.csv, _numbers_of(training))
             if options.curve:
                 write_atomic(options.curve, _curve_of(training))
     _print(training, scores, options, bool(stopped))
@@ -141,7 +141,7 @@ def _players(training: Training, threads: Executor, options: PpoOptions) -> Iter
 
 
 def _train(
-    training: Training,
+    table: TrainingTable,
     measures: Measures,
     scores: Mapping[str, DuelScore],
     gather: Gather,
@@ -150,9 +150,10 @@ def _train(
     stopped: list[int],
 ) -> None:
     """Train to the end of the plan, or until stopped. `scores`: of the network as it is."""
-    saved = monotonic()
+    saved, training = monotonic(), table.training
     while not training.finished and not stopped:
         training.update(gather, threads)
+        table.note()
         measured = training.updates % measures.every == 0
         if measured:
             scores = training.measure(measures.matches, threads)
@@ -167,10 +168,13 @@ def _train(
     end_line()
 
 
-def _save(training: Training, sync: Callable[[], None], out: Path, beside: Path) -> None:
-    """Write network and checkpoint. Raises NotSaved or NoCluster."""
+def _save(table: TrainingTable, sync: Callable[[], None], options: PpoOptions, beside: Path) -> None:
+    """Write network, checkpoint and table. Raises NotSaved or NoCluster."""
     sync()
+    training, out = table.training, options.out
     write_all_atomic({out: encode_network(trained_network(training, out.stem)), beside: encode(training)})
+    if options.csv:
+        write_atomic(options.csv, table.csv())
 
 
 def _line(training: Training, scores: Mapping[str, DuelScore]) -> str:
@@ -183,28 +187,12 @@ def _line(training: Training, scores: Mapping[str, DuelScore]) -> str:
     return f"{bar(training.share)} {done}  {training.decisions / training.seconds:,.0f} decisions/s  {ends}"
 
 
-def _scores_of(training: Training, point: Sequence[float]) -> dict[str, DuelScore]:
-    """The scores of a point of the training, by rival."""
-    ends = [int(count) for count in point[-3 * len(training.task.rivals) :]]
-    return {rival: DuelScore(*ends[3 * k : 3 * k + 3]) for k, rival in enumerate(training.task.rivals)}
-
-
-def _numbers_of(training: Training) -> bytes:
-    """The learning curve as a CSV file, with the share of each rival and its interval."""
-    shares = [f"{rival}_{name}" for rival in training.task.rivals for name in ("share", "low", "high")]
-    rows = [
-        [*point, *(f"{x:.4f}" for one in _scores_of(training, point).values() for x in (one.share, *one.interval))]
-        for point in training.points
-    ]
-    return csv_of([*columns(training.task), *shares], rows)
-
-
 def _curve_of(training: Training) -> bytes:
     """The learning curve as a PNG file: wins against the rivals, and the policy's entropy."""
     figure, upper, lower = two_plots()
     millions = [point[1] / 1e6 for point in training.points]
     for rival in training.task.rivals:
-        scores = [_scores_of(training, point)[rival] for point in training.points]
+        scores = [scores_at(training.task, point)[rival] for point in training.points]
         low, high = zip(*(score.interval for score in scores), strict=True)
         upper.plot(millions, [score.share for score in scores], label=f"wins against {rival}")
         upper.fill_between(millions, low, high, alpha=0.2)
@@ -231,7 +219,7 @@ def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOpti
             "curve": [
                 {"decisions": point[1], **{rival: _described(score) for rival, score in found.items()}}
                 for point in training.points
-                for found in [_scores_of(training, point)]
+                for found in [scores_at(training.task, point)]
             ],
             "finished": not stopped,
             "out": str(options.out),
@@ -242,7 +230,7 @@ def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOpti
     print(f"trained in {training.seconds:.1f} s, {speed:,.0f} decisions/s")
     if options.against is not None:
         for point in training.points[:-1]:
-            print(f"{point[1] / 1e6:6.2f} million  {_sentence(_scores_of(training, point)[options.against])}")
+            print(f"{point[1] / 1e6:6.2f} million  {_sentence(scores_at(training.task, point)[options.against])}")
     for rival, score in scores.items():
         print(f"against {rival}: {_sentence(score)}")
 
