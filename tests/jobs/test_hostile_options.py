@@ -53,7 +53,8 @@ OPTIONS = {
     tuple(LEAGUE): ("--matches", "--seed", "--minutes", "--arena", "--variant", "--laps", "--pallets", ""),
     tuple(TRAIN): ("--reward", "--matches", "--minutes", "--seed", "--arena", "--out", "--set", "--curve", "--csv", ""),
     tuple(PPO): (
-        "--updates", "--minutes", "--against", "--seed", "--out", "--set", "--curve", "--csv", "--ray", "--workers", "",
+        "--updates", "--decisions", "--minutes", "--from", "--against", "--variant", "--seed", "--out", "--set",
+        "--curve", "--csv", "--population", "--ray", "--workers", "",
     ),
     ("replay", "--verify"): ("",),
     ("bench",): ("",),

@@ -175,7 +175,7 @@ def shorten_trainings(patch: pytest.MonkeyPatch) -> None:
         patch.setitem(TASKS, name, tiny)
     for module in (shard, win_rates):
         patch.setattr(module, "loop_of", plain_loop)
-    for measured in ("MEASURED", "MEASURED_AT_END"):
+    for measured in ("MEASURED", "MEASURED_AT_END", "MEASURED_AGAINST"):
         patch.setattr(ppo_training, measured, 2)
 
 

@@ -277,8 +277,8 @@ def _score(state: MatchState, seat: int) -> int:
     return sum(robot.score for robot in state.robots if robot.present and robot.team == team)
 
 
-def wilson(wins: int, matches: int, z: float = 1.959964) -> tuple[float, float]:
-    """Wilson score interval for a share, given `wins` out of `matches`; 95 % for the default `z`."""
+def wilson(wins: float, matches: int, z: float = 1.959964) -> tuple[float, float]:
+    """Wilson score interval for a share, given `wins` out of `matches`, ties perhaps for half; 95 % by default."""
     share = wins / matches
     centre = share + z * z / (2 * matches)
     spread = z * sqrt(share * (1 - share) / matches + z * z / (4 * matches * matches))

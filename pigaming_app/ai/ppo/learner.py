@@ -4,8 +4,8 @@
 
 from collections.abc import Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass, fields, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -55,8 +55,32 @@ class Hyper:
         """The weight of the entropy after a share of the training."""
         return self.entropy + (self.last_entropy - self.entropy) * share
 
+    @property
+    def continued(self) -> "Hyper":
+        """The same for a network that has been trained before: slower, and as certain as at the end."""
+        return replace(self, rate=0.5 * self.rate, entropy=self.last_entropy)
+
 
 STANDARD = Hyper()
+
+
+class PolicyFigures(NamedTuple):
+    """Means over some decisions."""
+
+    entropy: float  # of the policy, nats
+    kl: float  # divergence from the policy that made them: (r - 1) - log r for the ratio r of the probabilities
+    clipped: float  # share of those whose ratio has left the limits
+
+
+class LearnerFigures(NamedTuple):
+    """An update of a learner. What changes in its course is a mean over the last epoch."""
+
+    mean_return: float  # of the decisions, as the value function is to learn it
+    kl: float  # see PolicyFigures
+    clipped: float
+    entropy: float
+    value_loss: float  # half the mean squared error
+    explained: float  # share of the variance of the returns that the value function knew before; NaN without any
 
 
 class PolicyNetwork:
@@ -120,6 +144,14 @@ class PolicyNetwork:
             square += SMOOTHNESS * (gradient * gradient - square)
             matrix -= step * mean / (np.sqrt(square) + TINY)
 
+    def restart(self, weights: Sequence[Any]) -> None:
+        """Go on from other weights, as if they were the first."""
+        self.steps = 0
+        for own, other, *moments in zip(self.weights, weights, self.means, self.squares, strict=True):
+            own[:] = other
+            for moment in moments:
+                moment.fill(0)
+
     @property
     def arrays(self) -> list[Any]:
         """All that changes but `steps`: weights and moments."""
@@ -158,8 +190,8 @@ def policy_slopes(
     gains: np.ndarray,
     clip: float,
     entropy: float,
-) -> tuple[Any, float]:
-    """Derivative of the clipped objective less the entropy's share by the logits (outputs, n), and mean entropy.
+) -> tuple[Any, PolicyFigures]:
+    """Derivative of the clipped objective less the entropy's share by the logits (outputs, n), and its figures.
 
     `choices`: (heads, n); `before`: (n,) log odds of the choices when they were made; `gains`: (n,) advantages.
     """
@@ -175,7 +207,8 @@ def policy_slopes(
         odds[head] /= sums
         logs[head] -= np.log(sums)
     rows = [head.start + choice for head, choice in zip(heads, choices, strict=True)]
-    ratio = np.exp(sum(logs[row, columns] for row in rows) - before)
+    change = sum(logs[row, columns] for row in rows) - before
+    ratio = np.exp(change)
     clipped = ((gains > 0) & (ratio > 1 + clip)) | ((gains < 0) & (ratio < 1 - clip))
     pull = np.where(clipped, F(0), gains * ratio / F(n))
     slopes, mean = pull * odds, 0.0
@@ -187,7 +220,8 @@ def policy_slopes(
         part += odds[head] * disorder
         part *= F(entropy / n)
         slopes[head] += part
-    return slopes, mean
+    kl, left = (ratio - F(1) - change).mean(), (np.abs(ratio - F(1)) > clip).mean()
+    return slopes, PolicyFigures(mean, float(kl), float(left))
 
 
 class Learner:
@@ -198,28 +232,32 @@ class Learner:
         self.policy = PolicyNetwork(inputs, sum(counts), 0.01, random)
         self.value = PolicyNetwork(inputs, 1, 1.0, random)
 
-    def update(self, data: Sequence[Any], share: float, threads: Executor) -> float:
-        """Improve both networks on a set of decisions; returns the mean entropy of the policy.
+    def update(self, data: Sequence[Any], share: float, threads: Executor, held: bool = False) -> LearnerFigures:
+        """Improve both networks on a set of decisions, or the value function alone, while the policy is `held`.
 
         `data`: inputs (n, inputs + 1), choices (n, heads), log odds (n,), advantages (n,), returns (n,).
         """
         orders = [self.random.permutation(len(data[0])) for _ in range(self.hyper.epochs)]
         estimating = threads.submit(self._estimate, data[0], data[4], orders, share)
-        entropy = self._improve(data, orders, share)
-        estimating.result()
-        return entropy
+        figures = self._improve(data, orders, share, held)
+        _, _, _, gains, returns = data
+        spread = float(returns.var(dtype=float))
+        explained = 1.0 - float(gains.var(dtype=float)) / spread if spread else float("nan")
+        mean_return, loss = float(returns.mean(dtype=float)), estimating.result()
+        return LearnerFigures(mean_return, figures.kl, figures.clipped, figures.entropy, loss, explained)
 
-    def _improve(self, data: Sequence[Any], orders: list[Any], share: float) -> float:
-        """Improve the policy; returns its mean entropy."""
+    def _improve(self, data: Sequence[Any], orders: list[Any], share: float, held: bool) -> PolicyFigures:
+        """Improve the policy unless it is held; returns the figures of the last epoch."""
         inputs, choices, before, gains, _ = data
-        hyper, found = self.hyper, 0.0
+        hyper, found, sizes = self.hyper, list[PolicyFigures](), list[int]()
         for order in orders:
+            found, sizes = [], []
             for first in range(0, len(order), hyper.minibatch):
                 rows = order[first : first + hyper.minibatch]
                 gain = gains[rows]
                 gain = (gain - gain.mean()) / (gain.std() + F(1e-8))
                 logits, trail = self.policy.forward(inputs[rows])
-                slopes, found = policy_slopes(
+                slopes, figures = policy_slopes(
                     logits,
                     self.counts,
                     choices[rows].T,
@@ -228,15 +266,22 @@ class Learner:
                     hyper.clip,
                     hyper.entropy_at(share),
                 )
-                self.policy.descend(self.policy.gradient(slopes, trail), hyper.rate_at(share), hyper.steepest)
-        return found
+                found.append(figures)
+                sizes.append(len(rows))
+                if not held:
+                    self.policy.descend(self.policy.gradient(slopes, trail), hyper.rate_at(share), hyper.steepest)
+        return PolicyFigures(*np.average(found, axis=0, weights=sizes).tolist())
 
-    def _estimate(self, inputs: np.ndarray, returns: np.ndarray, orders: list[Any], share: float) -> None:
-        """Improve the value function."""
+    def _estimate(self, inputs: np.ndarray, returns: np.ndarray, orders: list[Any], share: float) -> float:
+        """Improve the value function; returns its loss in the last epoch."""
+        squares = 0.0
         for order in orders:
+            squares = 0.0
             for first in range(0, len(order), self.hyper.minibatch):
                 rows = order[first : first + self.hyper.minibatch]
                 errors, trail = self.value.forward(inputs[rows])
                 errors -= returns[rows]
+                squares += float(np.vdot(errors, errors))
                 errors /= F(len(rows))
                 self.value.descend(self.value.gradient(errors, trail), self.hyper.rate_at(share), self.hyper.steepest)
+        return 0.5 * squares / len(returns)

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from pigaming_app import INSTALLED, ROOT
+from pigaming_app.ai.ppo.population import Pool
 from pigaming_app.ai.ppo.shard import Experience, Shard, ShardState
 from pigaming_app.ai.ppo.task import LineUp, Task
 from pigaming_app.ai.ppo.training import Training
@@ -25,7 +26,7 @@ SYNCED_EVERY = 10  # updates
 REACHED = 10.0  # s, for the head of a cluster to answer
 ATTEMPTS = 5  # to replace a worker, in a row
 NOT_SENT = [".git", ".venv", "docs", "tests"]  # to other machines
-Chunk = tuple[Sequence[Any], Any, int]  # policies, pool and number of decisions of a call of `collect`
+Chunk = tuple[Sequence[Any], Pool, int]  # policies, pool and number of decisions of a call of `collect`
 
 
 class NoCluster(Exception):
@@ -56,7 +57,8 @@ class ShardWorker:
     def collect(self, number: int, chunk: Chunk) -> Experience:
         """Play on. Ray hands over arrays that cannot be written, which compiled code takes for another type."""
         policies, pool, decisions = chunk
-        return self._shards[number].collect([np.array(matrices) for matrices in policies], np.array(pool), decisions)
+        pool = pool._replace(rows=np.array(pool.rows))
+        return self._shards[number].collect([np.array(matrices) for matrices in policies], pool, decisions)
 
     def replay(self, number: int, chunk: Chunk) -> None:
         """Play on, for the state alone."""
@@ -100,7 +102,7 @@ class RayShards:
     ) -> None:
         self._ray.shutdown()
 
-    def gather(self, policies: Sequence[Any], pool: Any, decisions: int) -> list[Experience]:
+    def gather(self, policies: Sequence[Any], pool: Pool, decisions: int) -> list[Experience]:
         """Play `decisions` decisions in every shard. Raises NoCluster."""
         chunk = self._ray.put((policies, pool, decisions))
         experiences = self._ask(lambda worker, number: worker.collect.remote(number, chunk))

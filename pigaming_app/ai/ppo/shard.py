@@ -17,13 +17,14 @@ from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.policy import HIDDEN, Policy, network_brain
 from pigaming_app.ai.plugin_faults import bound, late
 from pigaming_app.ai.ppo.forward import bend, make_layer, sample
+from pigaming_app.ai.ppo.population import EXPLOITED, Pool
 from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, LEARNERS, OFF, POOL, LineUp, Task
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled, compiled_before
-from pigaming_app.sim.record import packed
+from pigaming_app.sim.record import packed, unpack
 from pigaming_app.sim.rng import SEEDS, seeded, training_seed
 from pigaming_app.sim.world import HZ, ROBOTS
 from pigaming_app.storage.plugins.endless import overseer
@@ -46,6 +47,7 @@ class Experience(NamedTuple):
     over: np.ndarray  # (S,) bool; the match has ended
     results: np.ndarray  # (S,) float32, reward of its end
     players: np.ndarray  # (S,) int64, the learner: its place in `Task.learners`
+    outcomes: np.ndarray  # (n, 2), ends of matches against a member of the population: its place, the learner's score
 
 
 class ShardState(NamedTuple):
@@ -156,6 +158,7 @@ def empty_experience(task: Task, streams: int, decisions: int) -> Experience:
         np.zeros(streams, np.bool_),
         np.zeros(streams, np.float32),
         np.zeros(streams, np.int64),
+        np.zeros((0, 2)),
     )
 
 
@@ -177,16 +180,15 @@ class Shard:
         self.streams: Any = np.full((count, ROBOTS), -1)
         self._played = np.zeros(count, np.int64)  # ticks of each match, at least
         for i in range(count):
-            self._begin(i, pool=1)
+            self._begin(i, Pool(self.cast.weights[self._number]))
             ticks = int(self.matches["rules"]["ticks"][i])
             self.matches["tick"][i] = self.random.integers(max(1, ticks))  # so that not all end at the same time
         self._count_streams()
 
-    def collect(self, policies: Sequence[Any], pool: Any, decisions: int) -> Experience:
+    def collect(self, policies: Sequence[Any], pool: Pool, decisions: int) -> Experience:
         """Play `decisions` decisions and begin the matches that have ended anew. The next call overwrites the result.
 
-        `policies`: three float32 arrays (learners, inputs + 1, units), whose last rows are the biases. `pool`: earlier
-        copies as a row of weights.
+        `policies`: three float32 arrays (learners, inputs + 1, units), whose last rows are the biases.
         """
         experience = self._experience
         if experience is None or len(experience.choices) != decisions:
@@ -194,18 +196,35 @@ class Shard:
         for array in experience[2:]:
             array.fill(0)
         experience.players[:] = LEARNING - self.minds["family"][self.streams >= 0]
-        networks = np.concatenate([self.cast.weights[self._number], pool])
+        networks = np.concatenate([self.cast.weights[self._number], pool.rows])
         weights = tuple(networks if k == self._number else row for k, row in enumerate(self.cast.weights))
-        arguments = self.matches, self.minds, weights, self.streams, *policies, *experience
+        arguments = self.matches, self.minds, weights, self.streams, *policies, *experience[:-1]
         overseer.run(self.task.game, self.matches["tick"].sum, loop_of(self.task), *arguments)
         ended = self.matches["over"] > 0
         self._check_length(ended, decisions * PERIOD)
+        outcomes = self._outcomes() if self.task.population else experience.outcomes
         if self.task.cut:
             ended |= self.random.random(len(ended)) < self.task.cut
         for i in np.flatnonzero(ended):
-            self._begin(int(i), len(pool))
+            self._begin(int(i), pool)
         self._count_streams()
-        return experience
+        return experience._replace(outcomes=outcomes)
+
+    def _outcomes(self) -> Any:
+        """The ends of matches against the exploiter or one member of the pool."""
+        rules, found = games()[self.task.game], []
+        for i in np.flatnonzero(self.matches["over"]):
+            others = {*self.line_ups[i].seats} - {OFF, LEARNER}
+            if others not in ({EXPLOITER}, {POOL}):
+                continue
+            end: Any = unpack(rules.state, self.matches[i])
+            families = self.minds["family"][i]
+            own = int(np.flatnonzero(families == LEARNING)[0])
+            seat = next(k for k in range(ROBOTS) if families[k] not in (LEARNING, NOBODY))
+            lead = rules.ranking_key(end, own) - rules.ranking_key(end, seat)
+            row = int(self.minds["row"][i, seat]) - len(self.cast.weights[self._number])
+            found.append((EXPLOITED if EXPLOITER in others else row, 0.5 * (1 + (lead > 0) - (lead < 0))))
+        return np.array(found, float).reshape(-1, 2)
 
     def _check_length(self, ended: np.ndarray, ticks: int) -> None:
         """Count the ticks of matches that go on. Raises GameFault for a plug-in's match that does not end."""
@@ -221,7 +240,7 @@ class Shard:
         encoding = self.task.encoding
         sizes = ((encoding.size, HIDDEN), (HIDDEN, HIDDEN), (HIDDEN, encoding.outputs))
         policies = [np.zeros((len(self.task.learners), inputs + 1, units), np.float32) for inputs, units in sizes]
-        self.collect(policies, self.cast.weights[self._number], 0)
+        self.collect(policies, Pool(self.cast.weights[self._number]), 0)
 
     @property
     def width(self) -> int:
@@ -238,19 +257,21 @@ class Shard:
         self.random.bit_generator.state = state.random
         self._count_streams()
 
-    def _begin(self, i: int, pool: int) -> None:
+    def _begin(self, i: int, pool: Pool) -> None:
         """Begin match i of its line-up anew."""
         line_up, random = self.line_ups[i], self.random
         self.matches[i] = self._start(line_up)[0]
         self.matches["random"][i] = _state(random)
         taken = [name for name in line_up.seats if name != OFF]
         shift = int(random.integers(len(taken)))
+        member = None if pool.chances is None else random.choice(len(pool.rows), p=pool.chances)
         for seat in range(ROBOTS):
             name = taken[(seat + shift) % len(taken)] if seat < len(taken) else OFF
             prepared = self._minds[name]
             self.minds[i, seat] = prepared[random.integers(len(prepared))]
             if name == POOL:
-                self.minds["row"][i, seat] = len(self.cast.weights[self._number]) + random.integers(pool)
+                place = random.integers(len(pool.rows)) if member is None else member
+                self.minds["row"][i, seat] = len(self.cast.weights[self._number]) + place
             if name != OFF:
                 family = self._number if name in LEARNERS else int(self.minds["family"][i, seat])
                 drawn, mind = _state(random), self.minds[f"mind{family}"]

@@ -6,6 +6,8 @@ from typing import Any, NamedTuple
 
 from pigaming_app.ai.networks.encoding import Encoding
 from pigaming_app.ai.ppo.learner import STANDARD, Hyper
+from pigaming_app.games.arenas import shipped_arenas
+from pigaming_app.games.registry import games
 from pigaming_app.games.simple import MatchState
 from pigaming_app.sim.kernel import kernel
 
@@ -59,6 +61,8 @@ class Task:
     cut: float = 0.0  # probability that a match is replaced by a fresh one after each update
     hyper: Hyper = STANDARD
     sharpness: float = 1.0  # of the trained network as a brain; see Handicap
+    pairs: bool = False  # rivals are measured two against two
+    population: bool = False  # exploiters start from the network in training, and the pool is met by chances
 
     @property
     def game(self) -> str:
@@ -69,6 +73,34 @@ class Task:
         """Those of the LEARNERS that play."""
         return tuple(name for name in LEARNERS if any(name in line_up.seats for line_up in self.line_ups))
 
-    def against(self, rival: str) -> "Task":
-        """The same task with duels against one brain only: what it takes to beat that one."""
-        return replace(self, line_ups=(LineUp(1, (LEARNER, rival, OFF, OFF)),), rivals=(rival,))
+    def against(self, rival: str, variant: str) -> "Task":
+        """The same task against one brain only, by one set of rules: what it takes to beat that one.
+
+        Two against two where there are two teams, else duels, on the arenas of the game.
+        """
+        line_up, game = self._versus(rival, variant), self.game
+        return replace(
+            self,
+            arenas=tuple(shipped_arenas(game)),
+            variants=(variant,),
+            line_ups=(line_up,),
+            rivals=(rival,),
+            habits=no_habits,
+            pairs=OFF not in line_up.seats,
+        )
+
+    def populated(self) -> "Task":
+        """The same task in a population: a quarter of the matches against its exploiter, and one against the pool."""
+        replaced = {LEARNER, EXPLOITER}, {LEARNER, POOL}
+        kept = [line_up for line_up in self.line_ups if {*line_up.seats} - {OFF} not in replaced]
+        total = sum(line_up.share for line_up in kept)
+        variant = games()[self.game].default.name
+        against = [self._versus(other, variant)._replace(share=total) for other in (EXPLOITER, POOL)]
+        return replace(self, line_ups=(*(one._replace(share=2 * one.share) for one in kept), *against), population=True)
+
+    def _versus(self, other: str, variant: str) -> LineUp:
+        """The learner against somebody: two against two where there are two teams, else a duel."""
+        teams = games()[self.game].variants[variant].teams
+        if len({*teams}) == 2:
+            return LineUp(1, tuple(LEARNER if team == teams[0] else other for team in teams))
+        return LineUp(1, (LEARNER, other, OFF, OFF))

@@ -7,38 +7,65 @@ shards. With a planned time it also depends on the speed of the machine.
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from time import perf_counter
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from pigaming_app.ai.brain.kind import BrainKind
+from pigaming_app.ai.brain_files import stem_of
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
-from pigaming_app.ai.ppo.learner import Hyper, Learner, PolicyNetwork, advantages
-from pigaming_app.ai.ppo.shard import Experience, Shard, ShardState
+from pigaming_app.ai.ppo.learner import Hyper, Learner, LearnerFigures, PolicyNetwork, advantages
+from pigaming_app.ai.ppo.population import SELF_EVERY, Pool, Population, restored
+from pigaming_app.ai.ppo.shard import LEARNING, Experience, Shard, ShardState
 from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
 from pigaming_app.ai.ppo.win_rates import DuelScore, win_rates
+from pigaming_app.ai.registry import find_brain
+from pigaming_app.games.setup import ChoiceError
 
 POOL = 40  # earlier copies of a learner at most
 POOLED_EVERY = (15, 60)  # updates between two copies, by learner: the exploiter's finds must not be forgotten
+HELD = 20  # updates in which a network that was trained before stays as it is, while its value function is learned
 LARGEST = 32767  # of a 16-bit weight
 NUMBERS = ("updates", "decisions", "entropy", "seconds")  # counted by a training
-Gather = Callable[[Sequence[Any], Any, int], list[Experience]]  # policies, pool, decisions
+Gather = Callable[[Sequence[Any], Pool, int], list[Experience]]  # policies, pool, decisions
 
 
 class Diverged(ValueError):
     """The weights have grown beyond what a network can hold; the message is one line."""
 
 
+class Origin(NamedTuple):
+    """A trained network, to continue."""
+
+    name: str
+    layers: Layers
+
+
+def start_of(game: str, name: str) -> Origin:
+    """The network of a brain's name, or of the path of a file. Raises ChoiceError."""
+    layers = find_brain(game, name).weights(False)[0]
+    if not isinstance(layers, Layers):
+        raise ChoiceError(f"{stem_of(name)} is not a network, which has weights to start from")
+    return Origin(stem_of(name), layers)
+
+
 class Training:
     """A network in training."""
 
     def __init__(
-        self, task: Task, seed: int, updates: int, hyper: Hyper | None = None, minutes: float | None = None
+        self,
+        task: Task,
+        seed: int,
+        updates: int,
+        hyper: Hyper | None = None,
+        minutes: float | None = None,
+        start: Origin | None = None,
     ) -> None:
         """`updates`: of the whole training, unless its time, `minutes`, is planned. `hyper`: None for the task's.
 
+        `start`: what it continues, with the rewards of the end of a training; None for a fresh network.
         Raises ImportError without numba, ValueError for too few matches.
         """
         hyper = hyper or task.hyper
@@ -48,15 +75,37 @@ class Training:
         counts = [choices for _, choices in task.encoding.heads]
         random = np.random.default_rng(seeds[-1])
         self.learners = [Learner(task.encoding.size, counts, hyper, random) for _ in task.learners]
+        self.start = start
+        if start:
+            self._take_over(start.layers)
+        self.population = Population() if task.population else None
+        if self.population:
+            self._renew_exploiter()
         self.pools = [packed_layers(whole_layers(learner.policy.weights)) for learner in self.learners]
+        if self.population:
+            del self.pools[1:]
         self.updates, self.decisions, self.seconds = 0, 0, 0.0
+        self.telemetry = dict[int, LearnerFigures]()  # of the last update, by learner
         self.entropy = float(np.log(counts).sum())  # of an even choice
         self.points: list[tuple[float, ...]] = []  # progress, by `columns`
+
+    def _take_over(self, layers: Layers) -> None:
+        for own, matrix, bias in zip(self.learner.policy.weights, layers.matrices, layers.biases, strict=True):
+            own[:-1], own[-1] = matrix / UNIT, bias / UNIT**2
+
+    def _renew_exploiter(self) -> None:
+        """Start an exploiter from the present weights. It keeps what the last one expected of the same matches."""
+        self.learners[1].policy.restart(self.learner.policy.weights)
 
     @property
     def finished(self) -> bool:
         """True at the end of the plan."""
         return self.share >= 1.0
+
+    @property
+    def decisions_of_update(self) -> int:
+        """Decisions of the network in one update; less where matches end."""
+        return self.hyper.decisions * sum(int((shard.minds["family"] == LEARNING).sum()) for shard in self.shards)
 
     @property
     def share(self) -> float:
@@ -72,21 +121,51 @@ class Training:
         """Gather experience and learn from it."""
         began, share = perf_counter(), min(1.0, self.share)
         policies = [np.stack(layer) for layer in zip(*(one.policy.weights for one in self.learners), strict=True)]
-        experiences = gather(policies, np.concatenate(self.pools), self.hyper.decisions)
+        chances = self.population.chances if self.population else None
+        experiences = gather(policies, Pool(np.concatenate(self.pools), chances), self.hyper.decisions)
         for player in range(len(self.learners) - 1, -1, -1):
             self._learn(player, experiences, share, threads)
+        self.entropy = self.telemetry[0].entropy
         self.updates += 1
+        if self.population:
+            self._renew(self.population, experiences)
+        else:
+            self._pool()
+        self.seconds += perf_counter() - began
+
+    def _renew(self, population: Population, experiences: Sequence[Experience]) -> None:
+        """Note how matches ended, let copies join the population, and replace an exploiter that is done."""
+        for experience in experiences:
+            population.note(experience.outcomes.tolist())
+        if self.updates % SELF_EVERY == 0:
+            self._join(population, 0)
+        if population.exploiter_is_done(self.updates):
+            self._join(population, 1)
+            population.next_exploiter(self.updates)
+            self._renew_exploiter()
+
+    def _join(self, population: Population, learner: int) -> None:
+        """Let a copy of a learner join the population."""
+        copy = packed_layers(whole_layers(self.learners[learner].policy.weights))
+        place = population.place_of(learner, self.updates, POOL)
+        (members,) = self.pools
+        self.pools = [np.concatenate([members[:place], copy, members[place + 1 :]])]
+
+    def _pool(self) -> None:
+        """Add copies of the learners to their pools, now and then."""
         for k, (learner, every) in enumerate(zip(self.learners, POOLED_EVERY, strict=False)):
             if self.updates % every == 0:
                 copy = packed_layers(whole_layers(learner.policy.weights))
                 self.pools[k] = np.concatenate([self.pools[k], copy])[-POOL:]
-        self.seconds += perf_counter() - began
 
     def _learn(self, player: int, experiences: Sequence[Experience], share: float, threads: Executor) -> None:
         """Improve one of the learners."""
         data = threads.map(lambda experience: self._digested(player, experience, share), experiences)
         joined = [np.concatenate(parts) for parts in zip(*data, strict=True)]
-        self.entropy = self.learners[player].update(joined, share, threads)
+        held = self.start is not None and self.updates < HELD and (player == 0 or self.task.population)
+        if player and self.population:
+            share = 0.0  # each exploiter is at its begin
+        self.telemetry[player] = self.learners[player].update(joined, share, threads, held)
         self.decisions += len(joined[0])
 
     def measure(self, matches: int, threads: Executor) -> dict[str, DuelScore]:
@@ -103,10 +182,12 @@ class Training:
         learner = self.learners[player]
         if len(self.learners) > 1:
             own = experience.players == player
-            experience = Experience(*(part[own] if part.ndim == 1 else part[:, own] for part in experience))
-        inputs, choices, log_odds, gauges, valid, over, results, _ = experience
+            parts = (part[own] if part.ndim == 1 else part[:, own] for part in experience[:-1])
+            experience = Experience._make([*parts, experience.outcomes])
+        inputs, choices, log_odds, gauges, valid, over, results, *_ = experience
         gains = np.diff(gauges, axis=0)
-        rewards = np.where(valid, self.task.reward(gains, inputs[:-1], choices, share), np.float32(0))
+        rewards = self.task.reward(gains, inputs[:-1], choices, share if self.start is None else 1.0)
+        rewards = np.where(valid, rewards, np.float32(0))
         last = np.maximum(valid.sum(0) - 1, 0)
         rewards[last, np.arange(len(last))] += np.where(over, results, np.float32(0))
         values = learner.value.forward(inputs.reshape(-1, inputs.shape[-1]))[0].reshape(inputs.shape[:2])
@@ -131,6 +212,7 @@ class Training:
             "steps": [network.steps for network in networks.values()],
             "random": [self.learner.random.bit_generator.state, *(state.random for state in states)],
             "points": self.points,
+            "population": self.population and self.population.state(),
         }
         arrays = {f"{name}_{k}": one for name, network in networks.items() for k, one in enumerate(network.arrays)}
         for k, state in enumerate(states):
@@ -156,6 +238,8 @@ class Training:
             shard.restore(ShardState(arrays[f"matches{k}"], arrays[f"minds{k}"], random))
         self.pools = [arrays[f"pool{k}"] for k in range(len(self.pools))]
         self.points = [tuple(point) for point in numbers["points"]]
+        if self.population:
+            self.population = restored(numbers["population"])
 
 
 def columns(task: Task) -> tuple[str, ...]:
@@ -164,10 +248,16 @@ def columns(task: Task) -> tuple[str, ...]:
     return "updates", "decisions", "seconds", "entropy", *ends
 
 
+def scores_at(task: Task, point: Sequence[float]) -> dict[str, DuelScore]:
+    """The scores of a training's point, by rival."""
+    ends = [int(count) for count in point[-3 * len(task.rivals) :]]
+    return {rival: DuelScore(*ends[3 * k : 3 * k + 3]) for k, rival in enumerate(task.rivals)}
+
+
 def in_threads(training: Training, threads: Executor) -> Gather:
     """Gather experience in the threads of this process."""
 
-    def gather(policies: Sequence[Any], pool: Any, decisions: int) -> list[Experience]:
+    def gather(policies: Sequence[Any], pool: Pool, decisions: int) -> list[Experience]:
         return list(threads.map(lambda shard: shard.collect(policies, pool, decisions), training.shards))
 
     return gather

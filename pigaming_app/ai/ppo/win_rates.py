@@ -7,6 +7,7 @@ import numpy as np
 
 from pigaming_app.ai.learning.batch import matches as new_matches
 from pigaming_app.ai.learning.cast import family_of
+from pigaming_app.ai.learning.league import wilson
 from pigaming_app.ai.networks.encoding import PERIOD
 from pigaming_app.ai.plugin_faults import bound, check
 from pigaming_app.ai.ppo.shard import cast_of, empty_experience, loop_of, nobody
@@ -19,6 +20,7 @@ from pigaming_app.sim.world import HZ, ROBOTS
 from pigaming_app.storage.plugins.endless import overseer
 
 SEED = 1_000_000  # of the first match; no training plays it
+PARTS = 4  # of the matches against a rival, for as many threads
 
 
 class DuelScore(NamedTuple):
@@ -28,33 +30,51 @@ class DuelScore(NamedTuple):
     ties: int
     losses: int
 
+    @property
+    def share(self) -> float:
+        """Share of the wins, a tie for half of one."""
+        return (self.wins + 0.5 * self.ties) / sum(self)
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Wilson's interval of that share, 95 %."""
+        return wilson(self.wins + 0.5 * self.ties, sum(self))
+
 
 def win_rates(task: Task, network: Any, matches: int, threads: Executor) -> dict[str, DuelScore]:
     """Ends of `matches` duels against each rival of a task, for a network as a row of packed weights.
 
     Arenas and variants take turns, and every other match is played with the sides swapped.
     """
-    results = threads.map(lambda rival: _duels(task, network, rival, matches), task.rivals)
-    return dict(zip(task.rivals, results, strict=True))
+    parts = [range(k, matches, PARTS) for k in range(PARTS)]
+    parts = [part for part in parts if part]
+    jobs = [(rival, part) for rival in task.rivals for part in parts]
+    scores = [*threads.map(lambda job: _duels(task, network, *job), jobs)]
+    return {
+        rival: DuelScore(*map(sum, zip(*scores[k * len(parts) : (k + 1) * len(parts)], strict=True)))
+        for k, rival in enumerate(task.rivals)
+    }
 
 
-def _duels(task: Task, network: Any, rival: str, matches: int) -> DuelScore:
+def _duels(task: Task, network: Any, rival: str, numbers: range) -> DuelScore:
+    """Ends of some of the duels, by their numbers."""
     rules, arenas = games()[task.game], [*dict.fromkeys(task.arenas)]
     variants = [rules.variants[name] for name in dict.fromkeys(task.variants)]
     cast, player = cast_of(task)
     kinds, number = (player, find_brain(task.game, rival)), cast.families.index(family_of(player))
-    setups, seated = [], []
-    for i in range(matches):
+    setups, seated, players = [], [], ROBOTS if task.pairs else 2
+    for i in numbers:
         lap, stop = divmod(i // 2, len(arenas))
         variant, arena = variants[(lap + stop) % len(variants)], arenas[stop]
-        one, two, three, four = (Seat("ai" if k < 2 else OFF, variant.teams[k]) for k in range(ROBOTS))
+        one, two, three, four = (Seat("ai" if k < players else OFF, variant.teams[k]) for k in range(ROBOTS))
         seed, minutes = SEED + i // 2, task.minutes[0]
         setups.append(
             Setup(task.game, arena, (one, two, three, four), minutes, seed, variant.name, variant.default_goal)
         )
-        minds = [cast.mind_of(kinds[k ^ i % 2], seed * ROBOTS + k) for k in range(2)]
-        getattr(minds[i % 2], f"mind{number}").sharpness = task.sharpness
-        seated.append([*minds, nobody(cast), nobody(cast)])
+        minds = [cast.mind_of(kinds[(k + i) % 2], seed * ROBOTS + k) for k in range(players)]
+        for mind in minds[i % 2 :: 2]:
+            getattr(mind, f"mind{number}").sharpness = task.sharpness
+        seated.append([*minds, *(nobody(cast) for _ in range(players, ROBOTS))])
     states = new_matches(setups)
     networks = cast.weights[number].copy()
     networks[cast.mind_of(player, 0).row] = network[0]
@@ -69,12 +89,13 @@ def _duels(task: Task, network: Any, rival: str, matches: int) -> DuelScore:
         states,
         packed([mind for row in seated for mind in row]).reshape(-1, ROBOTS),
         weights,
-        np.full((matches, ROBOTS), -1),
+        np.full((len(numbers), ROBOTS), -1),
         *policies,
-        *nothing,
+        *nothing[:-1],
     )
     ends: list[Any] = [unpack(rules.state, state) for state in states]
     check(task.game, ends)
-    leads = [rules.ranking_key(end, i % 2) - rules.ranking_key(end, 1 - i % 2) for i, end in enumerate(ends)]
+    own = [i % 2 for i in numbers]
+    leads = [rules.ranking_key(end, k) - rules.ranking_key(end, 1 - k) for k, end in zip(own, ends, strict=True)]
     wins, losses = sum(lead > 0 for lead in leads), sum(lead < 0 for lead in leads)
-    return DuelScore(wins, matches - wins - losses, losses)
+    return DuelScore(wins, len(ends) - wins - losses, losses)

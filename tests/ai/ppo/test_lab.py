@@ -7,6 +7,7 @@ import pytest
 
 from pigaming_app.ai.networks.pitanks import GUN, OTHERS, SIZE
 from pigaming_app.ai.networks.policy import packed_layers
+from pigaming_app.ai.ppo import training
 from pigaming_app.ai.ppo.lab import lesson
 from pigaming_app.ai.ppo.lab.lesson import SECTORS, LabTraining, Situations
 from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin
@@ -78,7 +79,7 @@ def test_a_network_from_a_file_stays_as_it_is_until_its_value_function_is_learne
     before = LabTraining(Begin(0, 3), threads)
     before.learn(NetworkRecipe())
     state = before.report().state._replace(matches=12.5, updates=40)
-    monkeypatch.setattr(lesson, "HELD", 3)
+    monkeypatch.setattr(training, "HELD", 3)
     taught = LabTraining(Begin(1, 4, state), threads)
     values = [matrix.copy() for matrix in taught.training.learner.value.weights]
     for _ in range(3):

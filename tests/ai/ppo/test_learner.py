@@ -53,8 +53,8 @@ def test_the_slopes_of_the_policy_are_those_of_the_clipped_objective():
         objective = np.minimum(ratio * gains, np.clip(ratio, 1 - clip, 1 + clip) * gains).mean()
         return -objective - entropy * -sum((np.exp(log) * log).sum(0).mean() for log in logs())
 
-    slopes, disorder = policy_slopes(logits, counts, choices, before, gains, clip, entropy)
-    assert disorder == pytest.approx(-sum((np.exp(log) * log).sum(0).mean() for log in logs()), rel=1e-5)
+    slopes, figures = policy_slopes(logits, counts, choices, before, gains, clip, entropy)
+    assert figures.entropy == pytest.approx(-sum((np.exp(log) * log).sum(0).mean() for log in logs()), rel=1e-5)
     for _ in range(30):
         index = tuple(RANDOM.integers(logits.shape))
         assert slopes[index] == pytest.approx(numeric(loss, logits, index, 1e-6), rel=1e-3, abs=1e-6)
@@ -70,6 +70,55 @@ def test_advantages_stop_at_the_end_of_a_match_and_look_ahead_elsewhere():
     first = 1 + 0.5 * 20 - 10 + 0.25 * middle
     ended = 2 - 20
     assert found.tolist() == [[first, 1 + 0.5 * 20 - 10 + 0.25 * ended], [middle, ended], [last, 0]]
+
+
+def exact(weights, inputs):
+    """The outputs (n, units) in double precision; tanh by Padé."""
+    x = inputs.astype(float)
+    for k, matrix in enumerate(weights):
+        x = x @ matrix.astype(float)
+        if k < 2:
+            x = x.clip(-3, 3)
+            x = np.hstack([x * (27 + x * x) / (27 + 9 * x * x), np.ones((len(x), 1))])
+    return x
+
+
+def test_telemetry_is_that_of_the_definitions_in_double_precision():
+    """Of the second of two epochs, from the weights that a learner of the same seed has then; batches by their size."""
+    random, n = np.random.default_rng(7), 300
+    inputs = np.ones((n, 6), np.float32)
+    inputs[:, :5] = random.normal(size=(n, 5))
+    choices = np.stack([random.integers(count, size=n) for count in (3, 2)], axis=1)
+    returns, gains = (random.normal(size=n).astype(np.float32) for _ in range(2))
+    before = (np.log(1 / 6) + 0.3 * random.normal(size=n)).astype(np.float32)
+    data = [inputs, choices, before, gains, returns]
+    with ThreadPoolExecutor(1) as threads:
+
+        def learned(epochs, minibatch=n, held=False):
+            hyper = Hyper(epochs=epochs, minibatch=minibatch, rate=0.02, last_rate=0.02)
+            learner = Learner(5, (3, 2), hyper, np.random.default_rng(2))
+            learner.policy.weights[2] *= 50.0  # far from even choices
+            return learner, learner.update(data, 0.0, threads, held)
+
+        first, _ = learned(1)
+        _, found = learned(2)
+        (_, whole), (_, parted) = learned(1, held=True), learned(1, 200, held=True)
+    logs = [
+        part - np.log(np.exp(part).sum(1, keepdims=True))
+        for part in np.split(exact(first.policy.weights, inputs), [3], 1)
+    ]
+    ratio = np.exp(sum(log[np.arange(n), choices[:, k]] for k, log in enumerate(logs)) - before)
+    assert found.kl == pytest.approx((ratio - 1 - np.log(ratio)).mean(), rel=1e-4)
+    assert found.kl > 0.01
+    assert found.clipped == ((ratio < 0.8) | (ratio > 1.2)).mean()
+    assert found.entropy == pytest.approx(-sum((np.exp(log) * log).sum(1).mean() for log in logs), rel=1e-5)
+    errors = exact(first.value.weights, inputs)[:, 0] - returns
+    assert found.value_loss == pytest.approx((errors**2).mean() / 2, rel=1e-4)
+    known = returns.astype(float) - gains
+    assert found.explained == pytest.approx(1 - (returns - known).var() / returns.astype(float).var(), rel=1e-6)
+    assert found.mean_return == pytest.approx(returns.astype(float).mean(), rel=1e-6)
+    assert parted[:4] == pytest.approx(whole[:4], rel=1e-5)
+    assert whole.kl != pytest.approx(found.kl, rel=0.01)
 
 
 def test_it_learns_to_do_as_it_is_told():

@@ -2,18 +2,24 @@
 
 import json
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from pigaming_app.ai.brain.archive import BrainFileError
-from pigaming_app.ai.networks.files import brain_of, decode, encode
+from pigaming_app.ai.learning.batch import matches as new_matches
+from pigaming_app.ai.networks.files import BRAINS, brain_of, decode, encode
 from pigaming_app.ai.networks.policy import packed_layers
 from pigaming_app.ai.ppo import product
 from pigaming_app.ai.ppo import training as training_module
 from pigaming_app.ai.ppo.product import trained_network
-from pigaming_app.ai.ppo.training import Training, in_threads, whole_layers
-from pigaming_app.ai.ppo.win_rates import win_rates
+from pigaming_app.ai.ppo.registry import TASKS
+from pigaming_app.ai.ppo.training import Training, in_threads, start_of, whole_layers
+from pigaming_app.ai.ppo.win_rates import DuelScore, win_rates
+from pigaming_app.ai.registry import find_brain
+from pigaming_app.games.game import Setup
+from pigaming_app.games.setup import ChoiceError
 from tests.ai.ppo.plain import TASK, TINY, play_plain, same
 
 
@@ -102,6 +108,80 @@ def test_progress_is_measured_from_both_sides(halfway):
         (score,) = win_rates(TASK, packed_layers(halfway.layers()), 4, threads).values()
     assert sum(score) == 4
     assert score.losses == 0
+
+
+def begun(monkeypatch, module):
+    """The matches that a module of the learner begins from now on."""
+    seen: list[Setup] = []
+
+    def noted(setups):
+        seen.extend(setups)
+        return new_matches(setups)
+
+    monkeypatch.setattr(f"pigaming_app.ai.ppo.{module}.new_matches", noted)
+    return seen
+
+
+def test_what_continues_a_network_begins_with_its_weights_and_values_them_before_it_changes_them(monkeypatch):
+    monkeypatch.setattr(training_module, "HELD", 2)
+    shipped = decode((BRAINS / "pitanks.npz").read_bytes(), "pitanks.npz")
+    training = Training(TASK, 5, 4, TINY, start=start_of("pitanks", "net"))
+    values = training.learner.value.weights[0].copy()
+    trained(2, training=training)
+    held = trained_network(training, "held")
+    for one, other in zip((*held.matrices, *held.biases), (*shipped.matrices, *shipped.biases), strict=True):
+        assert np.array_equal(one, other)
+    assert held.recipe["start"] == "net"
+    assert not np.array_equal(training.learner.value.weights[0], values)
+    trained(1, training=training)
+    assert not np.array_equal(trained_network(training, "later").matrices[0], shipped.matrices[0])
+
+
+def test_who_has_no_weights_cannot_be_continued():
+    with pytest.raises(ChoiceError, match=r"^hand3 is not a network"):
+        start_of("pitanks", "hand3")
+    with pytest.raises(ChoiceError, match=r"^race.npz: it plays race, not pitanks$"):
+        start_of("pitanks", str(BRAINS / "race.npz"))
+
+
+@pytest.mark.parametrize(("game", "variant", "seats"), [("pitanks", "party", 1), ("football", "standard", 2)])
+def test_a_network_loses_to_itself_as_often_as_it_wins(game, variant, seats, monkeypatch):
+    """Matches come in pairs, with the same seeds and the sides swapped, so one is the other seen by the opponent."""
+    seen = begun(monkeypatch, "win_rates")
+    task = replace(TASKS[game].against("net", variant), minutes=(0.06,))
+    (line_up,) = task.line_ups
+    assert line_up.seats.count("learner") == line_up.seats.count("net") == seats
+    network = find_brain(game, "net").weights(True)
+    with ThreadPoolExecutor(2) as threads:
+        (score,) = win_rates(task, network, 4, threads).values()
+    assert score.wins == score.losses
+    assert sum(score) == 4
+    assert {setup.variant for setup in seen} == {variant}
+    assert {setup.seed for setup in seen} == {1_000_000, 1_000_001}
+    assert all(sum(seat.brain == "ai" for seat in setup.seats) == 2 * seats for setup in seen)
+
+
+@pytest.mark.parametrize(("game", "variant"), [("pitanks", "party"), ("football", "standard")])
+def test_a_network_beats_who_stands_still_on_either_side(game, variant):
+    task = replace(TASKS[game].against("idle", variant), minutes=(0.25,))
+    with ThreadPoolExecutor(2) as threads:
+        (score,) = win_rates(task, find_brain(game, "net").weights(True), 2, threads).values()
+    assert score.wins == 2
+
+
+def test_no_match_of_a_training_has_the_seed_of_a_measurement(monkeypatch):
+    seen = begun(monkeypatch, "shard")
+    Training(TASK, 5, 4, TINY)
+    assert max(setup.seed for setup in seen) < 0
+
+
+@pytest.mark.parametrize("score", [DuelScore(7, 0, 3), DuelScore(120, 31, 49), DuelScore(0, 0, 5)])
+def test_the_interval_is_where_the_share_is_two_standard_deviations_off(score):
+    """E. B. Wilson, 1927: of a true share p, that found in n matches is sqrt(p (1 - p) / n) off."""
+    n = sum(score)
+    for end in score.interval:
+        assert abs(end - score.share) == pytest.approx(1.959964 * (end * (1 - end) / n) ** 0.5, abs=1e-9)
+    assert score.share == (score.wins + score.ties / 2) / n
 
 
 def test_too_few_matches_are_refused():

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from pigaming_app.ai.networks.files import decode
+from pigaming_app.ai.networks.files import BRAINS, decode
 from pigaming_app.ai.ppo.training import Training
 from pigaming_app.jobs.cli import main
 from tests.ai.ppo.plain import SET, play_plain
@@ -41,12 +41,41 @@ def test_the_job_trains_and_prints_its_result(tmp_path, capsys):
     assert train(out, "--csv", str(log), "--json", updates="2") == 0
     result = json.loads(capsys.readouterr().out)
     assert (result["updates"], result["finished"]) == (2, True)
-    assert sum(result["rivals"]["idle"].values()) == 2
+    assert sum(result["rivals"]["idle"][end] for end in ("wins", "ties", "losses")) == 2
+    assert [point["decisions"] for point in result["curve"]] == [0, result["decisions"]]
+    assert result["curve"][-1]["idle"] == result["rivals"]["idle"]
     rows = list(csv.DictReader(log.read_text().splitlines()))
-    assert [row["updates"] for row in rows] == ["0", "2"]
+    assert [row["updates"] for row in rows] == ["0", "1", "2"]
+    assert [row["pool"] for row in rows] == ["", "2", "2"]
+    assert rows[1]["idle_wins"] == ""
+    assert sum(int(rows[2][f"idle_{end}"]) for end in ("wins", "ties", "losses")) == 2
+    for figure in ("mean_return", "kl", "clipped", "entropy", "value_loss", "explained"):
+        assert rows[0][figure] == ""
+        assert rows[1][figure] != rows[2][figure]
+        assert float(rows[2][f"exploiter_{figure}"]) >= 0.0 or figure in ("mean_return", "explained")
+    assert rows[2]["exploiter_entropy"] != rows[2]["entropy"]
+    assert float(rows[2]["decisions_per_second"]) > 0
     network = decode(out.read_bytes(), out.name)
     assert (network.name, network.seed, network.decisions) == ("a", 5, result["decisions"])
     assert len(network.curve.rows) == 2
+
+
+@pytest.mark.usefixtures("_plain")
+def test_a_best_response_begins_with_the_weights_of_the_network_and_its_curve_is_printed(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("pigaming_app.jobs.learning.train.ppo_training.MEASURED_AGAINST", 2)
+    out, log = tmp_path / "rival.npz", tmp_path / "a.csv"
+    job = ["train", "ppo", "pitanks", *SET, "--out", str(out), "--csv", str(log), "--against", "net"]
+    assert main([*job, "--decisions", "60", "--variant", "pickups"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == ["2", "trained", "0.00", "against"], "60 of 8 × 4 an update"
+    assert lines[2].split()[2] in ("0-2-0,", "1-0-1,"), "at first it is its equal"
+    rows = list(csv.DictReader(log.read_text().splitlines()))
+    assert [row["updates"] for row in rows] == ["0", "1", "2"]
+    assert rows[0]["net_share"] == "0.5000"
+    assert float(rows[0]["net_low"]) < 0.5 < float(rows[0]["net_high"])
+    rival = decode(out.read_bytes(), out.name)
+    assert (rival.recipe["start"], rival.recipe["variants"]) == ("net", ["pickups"])
+    assert rival.recipe["line_ups"] == ["1 learner net off off"]
 
 
 @pytest.mark.usefixtures("_plain")
@@ -58,17 +87,24 @@ def test_ctrl_c_keeps_the_training_and_it_goes_on_bit_for_bit(tmp_path, capsys, 
             signal.raise_signal(signal.SIGTERM)  # noted like Ctrl-C, and in this thread
         update(training, *more)
 
-    whole, part = tmp_path / "whole.npz", tmp_path / "part.npz"
-    assert train(whole, updates="2") == 0
+    whole, part, tables = tmp_path / "whole.npz", tmp_path / "part.npz", [tmp_path / "whole.csv", tmp_path / "part.csv"]
+    assert train(whole, "--population", "--csv", str(tables[0]), updates="2") == 0
     with monkeypatch.context() as patch:
         patch.setattr(Training, "update", interrupted)
-        assert train(part, updates="2") == 130
+        assert train(part, "--population", "--csv", str(tables[1]), updates="2") == 130
     assert "continue with --resume" in capsys.readouterr().err
     assert decode(part.read_bytes(), part.name).updates == 1
     assert weights(part) != weights(whole)
-    assert train(part, "--resume", updates="2") == 0
+    assert train(part, "--population", "--resume", "--csv", str(tables[1]), updates="2") == 0
     assert weights(part) == weights(whole)
-    assert train(part, "--resume", "--seed", "6") == 2
+    for row, again in zip(*(csv.DictReader(table.read_text().splitlines()) for table in tables), strict=True):
+        timed = {"seconds", "decisions_per_second"}
+        measured = {name for name in row if name.startswith("idle_")}  # also where it was interrupted
+        assert {name: row[name] for name in row.keys() - timed - measured} == {
+            name: again[name] for name in row.keys() - timed - measured
+        }
+    assert again["pool"].startswith("learner@0:")
+    assert train(part, "--population", "--resume", "--seed", "6") == 2
     assert capsys.readouterr().err.splitlines()[-1].endswith("it is from a training with another seed")
 
 
@@ -103,6 +139,13 @@ def test_a_full_disk_leaves_the_network_and_the_checkpoint_before(tmp_path, caps
         (["--workers", "0"], "less than 1"),
         (["--workers", "2"], "only with --ray"),
         (["--against", "nobody"], "no brain 'nobody'"),
+        (["--against", "net", "--variant", "chess"], "no variant 'chess'"),
+        (["--variant", "party"], "only with --against"),
+        (["--population", "--against", "net"], "--population: not with --against"),
+        (["--from", "nobody"], "no brain 'nobody'"),
+        (["--from", "hand3"], "hand3 is not a network"),
+        (["--from", str(BRAINS / "race.npz")], "race.npz: it plays race, not pitanks"),
+        (["--decisions", "1000"], "--decisions"),
         (["--out", "nowhere/a.npz"], "no such folder"),
         (["nonsense"], "no game 'nonsense'"),
         (["factory"], "learns pitanks, race, football only"),

@@ -1,7 +1,6 @@
 """The training of the Lab's network, step by step: updates, measured win rates, and its habits by direction."""
 
 from concurrent.futures import Executor
-from copy import deepcopy
 from math import log
 from time import monotonic
 from typing import Any
@@ -9,12 +8,13 @@ from typing import Any
 import numpy as np
 
 from pigaming_app.ai.networks.encoding import PERIOD, UNIT
+from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.pitanks import ENCODING, GUN, OTHERS, TURNS
 from pigaming_app.ai.networks.policy import packed_layers
 from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin, Habit, Report, State, Weights
 from pigaming_app.ai.ppo.lab.task import HYPER, MINUTES, RELOADED, RIVAL, STAND, TASK, NetworkRecipe, task_of
 from pigaming_app.ai.ppo.learner import PolicyNetwork
-from pigaming_app.ai.ppo.training import Training, in_threads
+from pigaming_app.ai.ppo.training import Origin, Training, in_threads
 from pigaming_app.ai.ppo.win_rates import win_rates
 from pigaming_app.sim.world import HZ
 
@@ -24,7 +24,6 @@ ACTIONS = ("shoot", "turn_left", "turn_right", "ahead", "behind", "stay")
 CHANCES = np.array([1 / 2, 3 / 7, 3 / 7, 1 / 3, 1 / 3, 1 / 21])  # of the actions in random play
 CLEAR = 0.15  # excess over random play, relative to certainty, that counts as a preference
 KEPT = 32  # situations of each direction
-HELD = 20  # updates in which a network from a file is not changed, while its value function is learned
 MATCHES = 20  # in a measurement
 GRAIN, INTERVAL = 25, 0.5  # measurements over the length of the curve, about; s between two of them at least
 MOST = sum(log(choices) for _, choices in ENCODING.heads)  # entropy of random play
@@ -36,9 +35,9 @@ class LabTraining:
     def __init__(self, begin: Begin, threads: Executor) -> None:
         """Raises ImportError without numba."""
         self.number, self.threads = begin.number, threads
-        self.training = Training(TASK, begin.seed, updates=2**31, hyper=HYPER)
+        start = begin.state and Origin("", Layers(*begin.state.weights))
+        self.training = Training(TASK, begin.seed, updates=2**31, hyper=HYPER, start=start)
         self.before = begin.state
-        self.opened = self._restored(begin.state) if begin.state else None
         self.situations = Situations()
         self.entropy = MOST
         self._measured, self._measured_at = -1.0, 0.0
@@ -56,8 +55,6 @@ class LabTraining:
         training.task = task_of(recipe)
         training.update(self._gather, self.threads)
         self.entropy += 0.1 * (training.entropy - self.entropy)
-        if self.opened and training.updates <= HELD:
-            training.learner.policy = deepcopy(self.opened)
 
     def report(self, measured: bool = True) -> Report:
         """The state, with a measurement if one is due. `measured`: it may be."""
@@ -76,9 +73,9 @@ class LabTraining:
     def _share(self) -> float:
         self._measured = self.matches
         row = packed_layers(self.training.layers())
-        wins, ties, _ = win_rates(TASK, row, MATCHES, self.threads)[RIVAL]
+        score = win_rates(TASK, row, MATCHES, self.threads)[RIVAL]
         self._measured_at = monotonic()
-        return (wins + 0.5 * ties) / MATCHES
+        return score.share
 
     def _gather(self, policy: Any, pool: Any, decisions: int) -> Any:
         experiences = self._play(policy, pool, decisions)
@@ -92,13 +89,6 @@ class LabTraining:
             tuple(matrix.astype("<i2") for matrix in layers.matrices),
             tuple((bias / UNIT).astype("<i2") for bias in layers.biases),
         )
-
-    def _restored(self, state: State) -> Any:
-        """Take over a network; returns a copy of it."""
-        policy = self.training.learner.policy
-        for own, matrix, bias in zip(policy.weights, state.weights.matrices, state.weights.biases, strict=True):
-            own[:-1], own[-1] = matrix / UNIT, bias / UNIT
-        return deepcopy(policy)
 
 
 class Situations:

@@ -24,7 +24,7 @@ from pigaming_app.storage.safe_files import require_writable
 
 T = TypeVar("T")
 
-DEFAULT_MINUTES, DEFAULT_WORKERS = 10.0, 2
+DEFAULT_MINUTES, DEFAULT_WORKERS, DEFAULT_DECISIONS = 10.0, 2, 5_000_000
 
 
 def changed(recipe: T, settings: Iterable[str]) -> T:
@@ -80,14 +80,24 @@ class PpoOptions(OutputOptions, JsonOption, SeedOption, GameOption):
     """What is learned, for how long, and by which machines."""
 
     GROUPS: ClassVar[Groups] = {
-        ONE_OF: ("updates", "minutes"),
+        ONE_OF: ("updates", "decisions", "minutes"),
         ("several machines", "The same network, bit for bit, as without them."): ("ray", "workers"),
     }
 
     updates: int | None = option(
         "length; the same seed gives the same network", integer(high=1_000_000), metavar="NUMBER"
     )
+    decisions: int | None = option(
+        f"length, in decisions of the network; default with --against {DEFAULT_DECISIONS}",
+        integer(high=10**12),
+        metavar="NUMBER",
+    )
     minutes: float | None = option(f"length; default {DEFAULT_MINUTES:g}", decimal(0.01, 10_000.0), metavar="NUMBER")
-    against: str | None = option("learn duels against this one alone, to exploit it", metavar="AI")
+    base: str | None = option("network to continue, a name or a file", name=("--from",), metavar="AI")
+    against: str | None = option(
+        "learn to beat this one alone, from its own weights if it is a network, and print the curve", metavar="AI"
+    )
+    population: bool = flag("against exploiters that start from its present weights, and members of a pool that win")
+    variant: str | None = option("with --against: set of rules; default: the game's first")
     ray: str | None = option("Ray cluster, auto, or local (extra `ray`)", word, metavar="ADDRESS")
     workers: int | None = option(f"processes that play; default {DEFAULT_WORKERS}", integer(), metavar="NUMBER")

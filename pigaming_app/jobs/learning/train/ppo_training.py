@@ -4,13 +4,13 @@ import json
 import os
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from time import monotonic
+from typing import Any, NamedTuple
 
 from pigaming_app.ai.brain.archive import BrainFileError
-from pigaming_app.ai.learning.league import wilson
 from pigaming_app.ai.learning.rollout import rehearse
 from pigaming_app.ai.networks.files import encode as encode_network
 from pigaming_app.ai.ppo.product import encode, restore, trained_network
@@ -18,22 +18,32 @@ from pigaming_app.ai.ppo.ray_workers import NoCluster, RayShards
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import is_compiled
 from pigaming_app.ai.ppo.task import SHARDS, Task
-from pigaming_app.ai.ppo.training import Diverged, Gather, Training, columns, in_threads
+from pigaming_app.ai.ppo.training import Diverged, Gather, Origin, Training, in_threads, scores_at, start_of
 from pigaming_app.ai.ppo.win_rates import DuelScore
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.games.setup import ChoiceError, require_game
+from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
 from pigaming_app.jobs.learning.train.options import DEFAULT_WORKERS, PpoOptions, changed
-from pigaming_app.jobs.learning.train.outputs import csv_of, png_of, two_plots
+from pigaming_app.jobs.learning.train.outputs import png_of, two_plots
 from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
+from pigaming_app.jobs.learning.train.telemetry import TrainingTable
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic, write_atomic
 
 MEASURED_EVERY = 25  # updates
 MEASURED, MEASURED_AT_END = 10, 40  # matches against each rival
+CURVE, MEASURED_AGAINST = 10, 200  # points of the curve of a best response, and matches for each
 SAVED_EVERY = 60.0  # s
+
+
+class Measures(NamedTuple):
+    """How often progress is measured, in updates, by how many matches, and by how many at the end."""
+
+    every: int
+    matches: int
+    at_end: int
 
 
 def train_and_save(options: PpoOptions, beside: Path) -> int:
@@ -47,15 +57,15 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
         ThreadPoolExecutor(min(SHARDS, os.cpu_count() or 1)) as threads,
         _players(training, threads, options) as (gather, sync),
     ):
-        scores = training.measure(MEASURED, threads)  # also compiles
+        measures = _measures(training, options)
+        scores = training.measure(measures.matches, threads)  # also compiles
         with interrupts() as stopped:
             note("Ctrl-C ends the training after the current update and saves the result")
-            save = partial(_save, training, sync, options.out, beside)
-            _train(training, scores, gather, threads, save, stopped)
-            scores = training.measure(MEASURED_AT_END, threads)
+            table = TrainingTable(training, options.csv if options.resume else None)
+            save = partial(_save, table, sync, options, beside)
+            _train(table, measures, scores, gather, threads, save, stopped)
+            scores = training.measure(measures.at_end, threads)
             save()
-            if options.csv:
-                write_atomic(options.csv, csv_of(columns(training.task), training.points))
             if options.curve:
                 write_atomic(options.curve, _curve_of(training))
     _print(training, scores, options, bool(stopped))
@@ -71,11 +81,14 @@ def _begin(options: PpoOptions, beside: Path) -> Training:
         raise Refusal(f"--workers: {options.workers}; the matches are divided among {SHARDS} at most")
     task = _task(options)
     _rehearse(task)
+    start = _start(options)
     try:
-        hyper = changed(task.hyper, options.set)
-        training = Training(task, options.seed, options.updates or 0, hyper, options.minutes)
+        hyper = changed(task.hyper.continued if start else task.hyper, options.set)
+        training = Training(task, options.seed, options.updates or 0, hyper, options.minutes, start)
     except ValueError as wrong:
         raise Refusal(f"--set: {wrong}" if options.set else str(wrong)) from None
+    if options.decisions is not None:
+        training.planned = -(-options.decisions // training.decisions_of_update)
     if options.resume:
         restore(training, beside)
     return training
@@ -94,9 +107,27 @@ def _task(options: PpoOptions) -> Task:
     """The game as it is to be learned. Raises ChoiceError."""
     task = TASKS[options.game]
     if options.against is None:
-        return task
+        return task.populated() if options.population else task
     find_brain(options.game, options.against)
-    return task.against(options.against)
+    variant = options.variant or games()[options.game].default.name
+    require_one_of("variant", variant, list(games()[options.game].variants))
+    return task.against(options.against, variant)
+
+
+def _start(options: PpoOptions) -> Origin | None:
+    """The network to continue: with `against`, that one if it is a network. Raises ChoiceError."""
+    if options.base is not None:
+        return start_of(options.game, options.base)
+    if options.against is not None:
+        with suppress(ChoiceError):
+            return start_of(options.game, options.against)
+    return None
+
+
+def _measures(training: Training, options: PpoOptions) -> Measures:
+    if options.against is None:
+        return Measures(MEASURED_EVERY, MEASURED, MEASURED_AT_END)
+    return Measures(training.planned // CURVE or MEASURED_EVERY, MEASURED_AGAINST, MEASURED_AGAINST)
 
 
 @contextmanager
@@ -110,7 +141,8 @@ def _players(training: Training, threads: Executor, options: PpoOptions) -> Iter
 
 
 def _train(
-    training: Training,
+    table: TrainingTable,
+    measures: Measures,
     scores: Mapping[str, DuelScore],
     gather: Gather,
     threads: Executor,
@@ -118,12 +150,13 @@ def _train(
     stopped: list[int],
 ) -> None:
     """Train to the end of the plan, or until stopped. `scores`: of the network as it is."""
-    saved = monotonic()
+    saved, training = monotonic(), table.training
     while not training.finished and not stopped:
         training.update(gather, threads)
-        measured = training.updates % MEASURED_EVERY == 0
+        table.note()
+        measured = training.updates % measures.every == 0
         if measured:
-            scores = training.measure(MEASURED, threads)
+            scores = training.measure(measures.matches, threads)
         show(_line(training, scores), milestone=measured)
         if monotonic() - saved > SAVED_EVERY:
             saved = monotonic()
@@ -135,10 +168,13 @@ def _train(
     end_line()
 
 
-def _save(training: Training, sync: Callable[[], None], out: Path, beside: Path) -> None:
-    """Write network and checkpoint. Raises NotSaved or NoCluster."""
+def _save(table: TrainingTable, sync: Callable[[], None], options: PpoOptions, beside: Path) -> None:
+    """Write network, checkpoint and table. Raises NotSaved or NoCluster."""
     sync()
+    training, out = table.training, options.out
     write_all_atomic({out: encode_network(trained_network(training, out.stem)), beside: encode(training)})
+    if options.csv:
+        write_atomic(options.csv, table.csv())
 
 
 def _line(training: Training, scores: Mapping[str, DuelScore]) -> str:
@@ -155,9 +191,11 @@ def _curve_of(training: Training) -> bytes:
     """The learning curve as a PNG file: wins against the rivals, and the policy's entropy."""
     figure, upper, lower = two_plots()
     millions = [point[1] / 1e6 for point in training.points]
-    for k, rival in enumerate(training.task.rivals):
-        ends = [point[4 + 3 * k : 7 + 3 * k] for point in training.points]
-        upper.plot(millions, [end[0] / sum(end) for end in ends], label=f"wins against {rival}")
+    for rival in training.task.rivals:
+        scores = [scores_at(training.task, point)[rival] for point in training.points]
+        low, high = zip(*(score.interval for score in scores), strict=True)
+        upper.plot(millions, [score.share for score in scores], label=f"wins against {rival}")
+        upper.fill_between(millions, low, high, alpha=0.2)
     upper.set(title=f"{training.task.game}, seed {training.seed}", ylabel="share of wins", ylim=(-0.03, 1.03))
     upper.legend()
     lower.plot(millions, [point[3] for point in training.points], color="tab:orange")
@@ -177,7 +215,12 @@ def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOpti
             "seconds": training.seconds,
             "decisions_per_second": speed,
             "entropy": training.entropy,
-            "rivals": {rival: score._asdict() for rival, score in scores.items()},
+            "rivals": {rival: _described(score) for rival, score in scores.items()},
+            "curve": [
+                {"decisions": point[1], **{rival: _described(score) for rival, score in found.items()}}
+                for point in training.points
+                for found in [scores_at(training.task, point)]
+            ],
             "finished": not stopped,
             "out": str(options.out),
         }
@@ -185,6 +228,17 @@ def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOpti
         return
     print(f"{training.updates} updates, {training.decisions:,} decisions: {options.out}")
     print(f"trained in {training.seconds:.1f} s, {speed:,.0f} decisions/s")
+    if options.against is not None:
+        for point in training.points[:-1]:
+            print(f"{point[1] / 1e6:6.2f} million  {_sentence(scores_at(training.task, point)[options.against])}")
     for rival, score in scores.items():
-        low, high = wilson(score.wins, sum(score))
-        print(f"against {rival}: {score.wins}-{score.ties}-{score.losses} (wins: {low:.0%} to {high:.0%})")
+        print(f"against {rival}: {_sentence(score)}")
+
+
+def _described(score: DuelScore) -> dict[str, Any]:
+    return {**score._asdict(), "share": score.share, "wilson95": score.interval}
+
+
+def _sentence(score: DuelScore) -> str:
+    low, high = score.interval
+    return f"{score.wins}-{score.ties}-{score.losses}, {score.share:.1%} with ties for half ({low:.0%} to {high:.0%})"
