@@ -212,11 +212,13 @@ class PhoneCapture:
         return {cv.CAP_PROP_EXPOSURE: link.exposure, cv.CAP_PROP_GAIN: link.gain}.get(what, 0.0)
 
     def set(self, what: int, value: float) -> bool:
-        """Ask the phone for a setting of its camera; whether it follows, it reports."""
+        """Ask the phone for a setting of its camera. An exposure or gain counts as set until it reports another one."""
         link = self._feed.link
         wanted = next((make(value) for name, make in SETTINGS.items() if getattr(self._cv, name) == what), {})
         if link is not None and wanted:
             link.send(json.dumps({"set": wanted}))
+            link.exposure = value if what == self._cv.CAP_PROP_EXPOSURE and link.exposure else link.exposure
+            link.gain = value if what == self._cv.CAP_PROP_GAIN and link.gain else link.gain
         return bool(wanted)
 
     def getBackendName(self) -> str:  # noqa: N802

@@ -102,4 +102,6 @@ async def closed(request: web.Request, code: int, most: int) -> web.WebSocketRes
     await socket.answer.prepare(request)
     stop_reading(request)
     await socket.close(code)
+    if request.transport:
+        request.transport.abort()  # over TLS, the peer would wait for a farewell that is not read
     return socket.answer
