@@ -21,7 +21,7 @@ from tests.ui.web.client import LONG, running
 pytestmark = pytest.mark.usefixtures("_no_threads_stay")
 TOKEN, PHONE = "abcdefghjk", "0123456789abcdef" * 2
 HERE = "127.0.0.1"
-CLOSING = 0.25  # s for TLS, see "Graceful shutdown" in the manual of aiohttp's client
+CLOSING = 0.5  # s until the last connection is cut
 
 
 class Session:
