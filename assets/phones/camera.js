@@ -4,12 +4,12 @@
 (() => {
   const texts = JSON.parse(document.getElementById("texts").textContent);
   const element = (id) => document.getElementById(id), video = element("video"), token = location.pathname.split("/")[1];
-  const PICTURE = 1, ECHO = 2, TRACK = 3, QUALITY = 0.85, ALIVE_MS = 500, RETRY_MS = 500, STALLED_MS = 1500, LATE_MS = 3000;
+  const PICTURE = 1, ECHO = 2, TRACK = 3, QUALITY = 0.8, ALIVE_MS = 500, RETRY_MS = 500, STALLED_MS = 1500, LATE_MS = 3000;
   const WANTED = { facingMode: { ideal: "environment" }, width: { ideal: 1280, min: 1280 }, height: { ideal: 720, min: 720 }, frameRate: { ideal: 30 }, resizeMode: { ideal: "none" } };
   const CLOSED = { 4000: "refused", 4001: "refused", 4003: "elsewhere" };
 
   let socket = null, stream = null, track = null, lock = null, opening = false, final = "", trouble = "", everOpen = false, failures = 0;
-  let encoding = false, inTransit = false, ready = null, sent = 0, seenAt = 0, arrivedAt = 0, since = performance.now(), rate = 0;
+  let newest = -1, inTransit = false, ready = null, sent = 0, seenAt = 0, arrivedAt = 0, since = performance.now(), rate = 0;
 
   const phone = name();
 
@@ -119,24 +119,28 @@
     send(TRACK, [now.exposureTime || 0, now.iso || 0]);
   }
 
-  const encoder = new Worker(`/${token}/encoder.js`);
-  encoder.onmessage = ({ data }) => {
-    encoding = false;
-    if (data.jpeg) ready = data;
-    forward();
-  };
+  // Two, since a picture may take longer to encode than the camera to take the next one.
+  const idle = [0, 1].map(() => new Worker(`/${token}/encoder.js`));
+  idle.forEach((encoder) => {
+    encoder.onmessage = ({ data }) => {
+      idle.push(encoder);
+      if (!data.jpeg || data.captured <= newest) return; // a newer one was quicker
+      newest = data.captured;
+      ready = data;
+      forward();
+    };
+  });
 
   // `captureTime`: when the camera took it, of the clock of performance.now(); not all browsers tell.
   async function frame(now, metadata) {
     video.requestVideoFrameCallback(frame);
     seenAt = performance.now();
-    if (encoding || !socket) return;
-    encoding = true;
-    const captured = metadata.captureTime || metadata.presentationTime || now;
+    if (!idle.length || !socket) return;
+    const captured = metadata.captureTime || metadata.presentationTime || now, encoder = idle.pop();
     try {
-      const bitmap = await createImageBitmap(video);
-      encoder.postMessage({ bitmap, captured, quality: QUALITY }, [bitmap]);
-    } catch (error) { encoding = false; }
+      const picture = window.VideoFrame ? new VideoFrame(video, { timestamp: 0 }) : await createImageBitmap(video); // the former is not copied
+      encoder.postMessage({ picture, captured, quality: QUALITY }, [picture]);
+    } catch (error) { idle.push(encoder); }
   }
 
   // ---- the screen stays on, and says in words what is wrong

@@ -3,13 +3,13 @@
 let canvas = null, context = null;
 
 onmessage = async ({ data }) => {
-  const { bitmap, captured, quality } = data;
-  if (!canvas || canvas.width !== bitmap.width || canvas.height !== bitmap.height) {
-    canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-    context = canvas.getContext("2d", { alpha: false, desynchronized: true });
+  const { picture, captured, quality } = data, width = picture.displayWidth || picture.width, height = picture.displayHeight || picture.height;
+  if (!canvas || canvas.width !== width || canvas.height !== height) {
+    canvas = new OffscreenCanvas(width, height);
+    context = canvas.getContext("2d", { alpha: false });
   }
-  context.drawImage(bitmap, 0, 0);
-  bitmap.close();
+  context.drawImage(picture, 0, 0, width, height);
+  picture.close();
   try {
     const jpeg = await (await canvas.convertToBlob({ type: "image/jpeg", quality })).arrayBuffer();
     postMessage({ jpeg, captured }, [jpeg]);

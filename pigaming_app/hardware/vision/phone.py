@@ -78,7 +78,7 @@ class PhoneFeed:
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self.clock = clock
         self.trusted = ""
-        self.link: PhoneLink | None = None
+        self.link: PictureLink | None = None
         self.seen: PhonePicture | None = None  # the newest, whether or not it was read
         self.dropped = 0  # pictures that were none, or too old
         self.delay = 0.0  # s from capture to arrival, mean of the last pictures
@@ -86,9 +86,9 @@ class PhoneFeed:
         self._waiting: PhonePicture | None = None
         self._arrived = threading.Condition()
 
-    def join(self, phone: str, send: Callable[[str], None], close: Callable[[int], None]) -> "PhoneLink":
+    def join(self, phone: str, send: Callable[[str], None], close: Callable[[int], None]) -> "PictureLink":
         """A phone connects and becomes the camera; the former one is closed. May be called by any thread."""
-        before, self.link = self.link, PhoneLink(self, phone, send, close)
+        before, self.link = self.link, PictureLink(self, phone, send, close)
         if before is not None:
             before.close(REPLACED)
         return self.link
@@ -131,7 +131,7 @@ class PhoneFeed:
 FEED = PhoneFeed()  # of this computer
 
 
-class PhoneLink:
+class PictureLink:
     """The connection of a phone; `phone` is its name for itself. The server calls `receive` and `gone`."""
 
     def __init__(self, feed: PhoneFeed, phone: str, send: Callable[[str], None], close: Callable[[int], None]) -> None:

@@ -21,7 +21,7 @@ from pigaming_app.hardware.vision import discovery
 from pigaming_app.hardware.vision import phone as phones
 from pigaming_app.hardware.vision.camera import Camera
 from pigaming_app.hardware.vision.exposure import LONGEST
-from pigaming_app.hardware.vision.phone import PHONE, PhoneCapture, PhoneClock, PhoneFeed, PhoneLink, decoded, size_of
+from pigaming_app.hardware.vision.phone import PHONE, PhoneCapture, PhoneClock, PhoneFeed, PictureLink, decoded, size_of
 
 ONE, OTHER = "1" * 32, "2" * 32  # phones
 LEAD = 5000.0  # s by which a phone's clock is ahead
@@ -39,7 +39,7 @@ class Phone:
 
     def __init__(self, feed: PhoneFeed, name: str = ONE) -> None:
         self.feed, self.told, self.code = feed, list[dict[str, Any]](), 0
-        self.link: PhoneLink = feed.join(name, lambda text: self.told.append(json.loads(text)), self._close)
+        self.link: PictureLink = feed.join(name, lambda text: self.told.append(json.loads(text)), self._close)
         self.echo()
 
     def _close(self, code: int) -> None:

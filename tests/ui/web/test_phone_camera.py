@@ -135,6 +135,7 @@ def test_the_page_and_its_files_come_with_the_token_only(served: Served) -> None
 def test_sockets_need_token_origin_and_a_name(served: Served) -> None:
     async def story(session: ClientSession) -> None:
         right = {"Origin": f"https://{served.server.host}"}
+        wrong: tuple[dict[str, str], ...]
         wrong = {"Origin": f"http://{served.server.host}"}, {"Origin": "https://evil.example"}, {"Origin": "null"}, {}
         stranger = served.server.url.replace(TOKEN, "zzzzzzzzzz")
         for url, headers in ((stranger, right), *((served.server.url, one) for one in wrong)):

@@ -19,6 +19,7 @@ CODE = pygame.Rect(LEFT, 206, 726, 726)
 TEXT_X = CODE.right + 72
 ROOM = RIGHT - TEXT_X
 STEPS_Y, STEP, ADDRESS_Y, STATE_Y = 246, 92, 640, 790  # px
+PATIENCE = 20.0  # s without a phone, after which network and firewall are named
 STEPS = ("scan", "warning", "allow", "hang")
 
 
@@ -53,6 +54,10 @@ class PhoneCameraPage(Page):
         screen.blit(code, code.get_rect(center=CODE.center))
         steps(tuple(words(f"phone_camera.step_{name}") for name in STEPS)).draw(screen)
         address(words("phone_camera.type"), host.url).draw(screen)
+        if not host.feed.live and self.age > PATIENCE:
+            for i, line in enumerate(paragraph(words("phones.firewall", port=host.port), ROOM, 3, kit.MIST)):
+                line.draw(screen, TEXT_X, STATE_Y + 48 * i)
+            return
         state, live = self._state()
         shown, size = fit_text(state, kit.BODY, ROOM, "body")
         text(shown, size, kit.GREEN if live else kit.MIST, "body", "l").draw(screen, TEXT_X, STATE_Y)
