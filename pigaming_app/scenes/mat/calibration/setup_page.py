@@ -64,7 +64,7 @@ class CalibrationPage(SettingsPage):
     def __init__(self, context: Context, site: CalibrationSite | None = None, camera: CameraId | None = None) -> None:
         self.context, self.site = context, site or site_of(context)
         self.number: CameraId = context.settings.camera if camera is None else camera
-        if camera == PHONE:
+        if camera == PHONE and self.site.name == "real":
             context.settings.camera = PHONE  # it is served from now on
         self.measures = self._initial_measures()
         self.preview: CameraPreview | None = None

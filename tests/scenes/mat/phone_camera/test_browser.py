@@ -213,6 +213,7 @@ def test_lock_loss_and_return_are_told_to_the_arcade_and_to_the_holder(served: S
     served.play(story)
 
 
+@pytest.mark.again
 def test_another_phone_takes_over_and_the_first_takes_back(served: Served) -> None:
     async def story(browser: Browser) -> None:
         one = await browser.phone(served.host.url)
