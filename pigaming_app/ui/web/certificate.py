@@ -31,9 +31,8 @@ class Certificate:
             raise ServerUnavailable("missing") from None
         if not _holds(path, address):
             path.parent.mkdir(parents=True, exist_ok=True)
-            if not path.exists():
-                path.touch(0o600)  # which stays
-            os.chmod(path, 0o600)
+            path.touch()
+            os.chmod(path, 0o600)  # which stays
             write_atomic(path, _made(address))
         self.context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
         self.context.minimum_version = ssl.TLSVersion.TLSv1_2
