@@ -66,8 +66,8 @@ Short = Annotated[str, PRINTABLE, Meta(max_length=MAX_NAME)]  # a name of someth
 Seat = Annotated[int, between(1, 4)]
 Volume = Annotated[int, between(0, 10)]
 STREAM = Meta(
-    pattern=r"^(https?|rtsp)://[!-.0-Z^-~]+(/[!-~]*)?\Z", max_length=200
-)  # address of a camera in the network
+    pattern=r"^(phone|(https?|rtsp)://[!-.0-Z^-~]+(/[!-~]*)?)\Z", max_length=200
+)  # address of a camera in the network, or a phone
 HEX_KEY = Meta(pattern=r"^([0-9a-f]{32})?\Z")
 Functions = Annotated[dict[Short, Annotated[int, Meta(ge=0, lt=1024)]], Meta(min_length=1, max_length=MAX_DEVICES)]
 

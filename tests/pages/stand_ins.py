@@ -112,6 +112,7 @@ ELSEWHERE = (
     Elsewhere(
         r".*tests\.bench\.(detection|makespan|reference_lap|network_races|levels)\b.*", MINUTES_LONG, "tests/bench"
     ),
+    Elsewhere(r".*tests\.bench\.phone_camera.*", "aiortc", "tests/scenes/mat/phone_camera/test_browser.py"),
     Elsewhere(r".*tests\.bench\.marker_ids.*", MINUTES_LONG, "tests/hardware/calibration/test_quality.py"),
     Elsewhere(r".*tests\.bench\.reproduce_table.*", MINUTES_LONG, "tests/bench/test_reproduce_table.py"),
     Elsewhere(r".*tests\.bench\.figures.*", MINUTES_LONG, "tests/pages/test_figures.py"),

@@ -109,6 +109,7 @@ from tests.matches import setup_of
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.events import drawn
 from tests.scenes.mat.calibration import drawn as calibration_drawn
+from tests.scenes.mat.phone_camera import drawn as phone_drawn
 from tests.scenes.mat.robots import drawn as robots_drawn
 
 FACTS: dict[str, dict[str, float]] = {
@@ -656,6 +657,10 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "calibration inaccurate": partial(calibration_drawn.result_page, picture="sharp", mm=123.4),
     "calibration of a wrong width": partial(calibration_drawn.result_page, picture="small", marker=148.8),
     "calibration failed": calibration_drawn.failed_page,
+    "phone as camera": phone_drawn.code_page,
+    "phone as camera, live": partial(phone_drawn.code_page, live=True),
+    "phone as camera, none": partial(phone_drawn.code_page, age=99.0),
+    **{f"phone as camera, {key}": partial(phone_drawn.code_page, trouble=key) for key in phone_drawn.TROUBLES},
     "arena and radio": robots_drawn.radio_page,
     **{f"radio {reason}": partial(robots_drawn.radio_page, message=f"setup_{reason}") for reason in RADIO_REFUSALS},
     "event podium": event_podium,

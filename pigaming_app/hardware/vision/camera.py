@@ -8,6 +8,7 @@ because automatic corrections look to the tracker like changes of the arena; see
 import threading
 import time
 from collections.abc import Callable
+from math import inf
 from typing import Any, Self
 
 from pigaming_app.hardware.signals import CameraFrame, Clock, ExposureKept, ExposureState, Image
@@ -15,6 +16,7 @@ from pigaming_app.hardware.vision import stream
 from pigaming_app.hardware.vision.discovery import CameraId, unavailable_reason
 from pigaming_app.hardware.vision.exposure import ExposureControl
 from pigaming_app.hardware.vision.markers import opencv
+from pigaming_app.hardware.vision.phone import PHONE, PhoneCapture
 from pigaming_app.storage.messages import OperatorMessage
 
 WIDTH, HEIGHT, FPS = 1920, 1080, 30  # requested format, px and frames/s; the camera may deliver another
@@ -27,7 +29,7 @@ PATIENCE = 0.8  # s for which `close` waits for a hanging driver
 
 
 class Camera:
-    """The camera with this device number, or at this address; a context manager. `fault`: its present one, or None.
+    """The camera with this device number, or at this address, or PHONE; a context manager. `fault`: the present one.
 
     `open_capture` returns a `cv2.VideoCapture` for a number. Raises OpenCVMissing.
     """
@@ -84,7 +86,10 @@ class Camera:
 
     def _opened(self) -> Any:
         try:
-            if isinstance(self.number, str):
+            capture: Any
+            if self.number == PHONE:
+                capture = PhoneCapture(self._cv, stranger=self.settle == inf, trusts=self.fresh)
+            elif isinstance(self.number, str):
                 capture = stream.opened(self._cv, self.number)
             else:
                 capture = self._open_capture(self.number)
@@ -137,6 +142,7 @@ class Camera:
         now = self.clock()
         stamp = float(capture.get(self._cv.CAP_PROP_POS_MSEC)) / 1000.0  # V4L2: same clock as time.monotonic
         plausible = isinstance(self.number, int) and 0.0 < now - stamp < PLAUSIBLE  # streams have clocks of their own
+        plausible = plausible or self.number == PHONE  # as it is measured
         captured = stamp if plausible else now - ASSUMED
         with self._lock:
             self._count += 1
@@ -145,5 +151,5 @@ class Camera:
 
 
 def shown(number: CameraId) -> CameraId:
-    """A camera in messages: its number, or the host of its stream."""
-    return stream.host_of(number) if isinstance(number, str) else number
+    """A camera in messages: its number, or the host of its stream, or PHONE."""
+    return stream.host_of(number) if isinstance(number, str) and number != PHONE else number

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
+from pigaming_app.hardware.vision.phone import FEED, PHONE
 from pigaming_app.hardware.vision.stream import host_of
 from pigaming_app.storage.messages import OperatorMessage
 
@@ -13,7 +14,7 @@ DEVICES = Path("/sys/class/video4linux")
 NODES = Path("/dev")
 
 
-CameraId = int | str  # its number, or the address of its stream
+CameraId = int | str  # its number, or the address of its stream, or PHONE
 
 
 class CameraInfo(NamedTuple):
@@ -37,6 +38,8 @@ def cameras() -> list[CameraInfo]:
 
 def unavailable_reason(number: CameraId) -> OperatorMessage:
     """Operator message for a camera that could not be opened."""
+    if number == PHONE:
+        return FEED.fault
     if isinstance(number, str):
         return OperatorMessage("no_stream", host=host_of(number))
     if not sys.platform.startswith("linux"):

@@ -1,5 +1,7 @@
 """The robots of a job: the real ones of the settings, or the emulated arena in simulated time."""
 
+import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -9,12 +11,14 @@ from pigaming_app.hardware.drivers.registry import DRIVERS
 from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.hardware.session.robot_session import settings_problem as settings_problem
+from pigaming_app.hardware.vision.phone import PHONE
 from pigaming_app.jobs.terminal.options import RigOptions
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.storage.parsing import quote
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import english
 
+PATIENCE = 20.0  # s for a phone to send its first image
 EXPOSURE_JITTER = 0.15  # size of the exposure steps of the emulated camera, as a share
 
 
@@ -58,10 +62,33 @@ def robots_of(options: RigOptions, radio: str | None = None) -> Iterator[RobotSe
     """The emulated session of a seed, or the real one, until its end. Raises Refusal."""
     with refused(RobotsUnavailable):
         session = new_session(options.emulate, options.camera, options.port, radio)
+    with phone_camera(session):
+        try:
+            yield session
+        finally:
+            session.end()
+
+
+@contextmanager
+def phone_camera(session: RobotSession) -> Iterator[None]:
+    """Serve the page for the phone that is the camera of a session, if it is one. Raises Refusal."""
+    if not isinstance(session, RealSession) or session.settings.camera != PHONE:
+        yield
+        return
+    from pigaming_app.scenes.mat.phone_camera.host import PhoneCameraHost
+
+    host = PhoneCameraHost(lambda: folders().data)
+    host.follow(True, session.settings.phones_network, english())
     try:
-        yield session
+        if host.trouble:
+            raise Refusal(english()(f"phones.{host.trouble.key}", **host.trouble.values))
+        print(f"PiGaming: open {host.url} on the phone above the mat.", file=sys.stderr)
+        end = time.monotonic() + PATIENCE
+        while not host.feed.live and time.monotonic() < end:
+            time.sleep(0.1)
+        yield
     finally:
-        session.end()
+        host.close()
 
 
 def require_driver(name: str, asked: str = "--radio") -> RobotDriver:

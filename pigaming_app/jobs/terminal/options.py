@@ -76,8 +76,8 @@ def hexadecimal(low: int, high: int) -> Callable[[str], int]:
 
 
 def camera(text: str) -> int | str:
-    """The number of a camera, or the address of its stream, which the settings check."""
-    return word(text) if "://" in text else integer(0)(text)
+    """The number of a camera, `phone`, or the address of a stream, which the settings check."""
+    return word(text) if "://" in text or text == "phone" else integer(0)(text)
 
 
 def path(text: str) -> Path:
@@ -261,7 +261,7 @@ class RigOptions(EmulateOption):
     """Camera and port of the robots."""
 
     camera: int | str | None = option(
-        "camera above the mat, from 0, or the address of its stream", camera, metavar="CAMERA"
+        "camera above the mat, from 0, or phone, or the address of its stream", camera, metavar="CAMERA"
     )
     port: str | None = option("serial port of the radio; empty: the first one", word)
 
@@ -282,7 +282,9 @@ class RigOptions(EmulateOption):
                 Settings().choose(name, value)
             except ValueError as error:
                 if name == "camera":  # its address may hold a password
-                    raise Refusal("--camera: a number, or an address such as http://192.168.0.7:8080/video") from None
+                    raise Refusal(
+                        "--camera: a number, phone, or an address such as http://192.168.0.7:8080/video"
+                    ) from None
                 raise Refusal(f"--{error}") from None
         return given
 

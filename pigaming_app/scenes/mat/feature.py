@@ -8,7 +8,7 @@ from pigaming_app.scenes.features.board_page import BoardPage
 from pigaming_app.scenes.features.feature import Feature, OptionRow, ReplayKind, Service
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.robot_mat import RobotMat
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.stack import Scene, Stack
 from pigaming_app.scenes.launch import Options
 from pigaming_app.ui.draw import FOCUS, ICE, LINE, GlowCanvas, cut_box
 from pigaming_app.ui.window import Pin
@@ -42,8 +42,30 @@ class CameraView(Service):
             self.window.close()
 
 
+class PhoneCameraService(Service):
+    """Serves the page for the phone that is the camera, if the settings say so."""
+
+    def __init__(self, context: Context) -> None:
+        self.context, self.on = context, False
+
+    def update(self, seconds: float, stack: Stack) -> None:
+        on = self.context.settings.camera == "phone"
+        if on or self.on:
+            self._follow(on)
+
+    def close(self) -> None:
+        if self.on:
+            self._follow(False)
+
+    def _follow(self, on: bool) -> None:
+        from pigaming_app.scenes.mat.phone_camera.host import phone_camera_host
+
+        self.on = on
+        self.context.shared(phone_camera_host).follow(on, self.context.settings.phones_network, self.context.words)
+
+
 def service(context: Context, options: Options) -> Service | None:
-    return CameraView(context) if options.emulator_seed is not None else None
+    return CameraView(context) if options.emulator_seed is not None else PhoneCameraService(context)
 
 
 def mat(context: Context, options: Options) -> RobotMat:
@@ -87,7 +109,7 @@ def sketch(ink: GlowCanvas, beat: int) -> None:
 
 FEATURE = Feature(
     "mat",
-    rooms=("scenes.mat", "jobs.mat", "hardware"),
+    rooms=("scenes.mat", "jobs.mat", "hardware", "ui.web.phone_camera", "ui.web.certificate"),
     options={"robots": OptionRow("", "ease", page, sketch)},
     service=service,
     mat=mat,

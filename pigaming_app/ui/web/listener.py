@@ -8,6 +8,7 @@ import asyncio
 import errno
 import logging
 import socket
+import ssl
 import threading
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
@@ -29,10 +30,15 @@ Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 class Listener:
     """A server on a port of an address; 0: any free one. `name`: of its thread, and in the log; `body`: bytes of a
-    request at most; `closing`: s for connections to end.
+    request at most; `closing`: s for connections to end; `tls`: certificate and key, for HTTPS.
     """
 
-    def __init__(self, name: str, address: str, port: int, body: int, closing: float) -> None:
+    received = RECEIVE_BYTES
+
+    def __init__(
+        self, name: str, address: str, port: int, body: int, closing: float, tls: ssl.SSLContext | None = None
+    ) -> None:
+        self._tls, self.scheme = tls, "https" if tls else "http"
         self.name, self.address, self.port = name, address, port
         self.refusals = Refusals(server=name)
         self.app = web.Application(middlewares=[self._guarded], client_max_size=body)
@@ -77,7 +83,7 @@ class Listener:
 
     def own(self, request: web.Request) -> bool:
         """True if it comes from a page of this server, as its Origin says."""
-        return request.headers.get("Origin", "") == f"http://{self.host}"
+        return request.headers.get("Origin", "") == f"{self.scheme}://{self.host}"
 
     def refuse(self, kind: str, request: web.Request) -> web.Response:
         """Note a refusal; the answer to it."""
@@ -108,8 +114,11 @@ class Listener:
             assert runner.server is not None
             guard = ConnectionLimits(runner.server, settings, self.refusals)
             listening = socket.create_server((self.address, self.port))
-            listening.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, RECEIVE_BYTES)  # accepted ones inherit it
-            listener = await self._loop.create_server(guard.handler, sock=listening)
+            listening.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, self.received)  # accepted ones inherit it
+            patience = IDLE_SECONDS if self._tls else None
+            listener = await self._loop.create_server(
+                guard.handler, sock=listening, ssl=self._tls, ssl_handshake_timeout=patience
+            )
             self.port = listener.sockets[0].getsockname()[1]
             self._ready.set()
             await self._ended.wait()

@@ -145,6 +145,7 @@ def test_the_doctor_finds_every_library(inside: list[str]) -> None:
         "aiohttp",
         "segno",
         "ifaddr",
+        "cryptography",
         "pygame",
         "fonts",
         "sounds",

@@ -64,8 +64,10 @@ class Browser:
             elif content.get("method") in ("Runtime.exceptionThrown", "Log.entryAdded"):
                 self.errors.append(str(content["params"]))
 
-    async def phone(self, url: str, size: tuple[int, int] = LANDSCAPE, vibrates: bool = True) -> "Page":
-        """A page in a window of its own that shares nothing with the others."""
+    async def phone(
+        self, url: str, size: tuple[int, int] = LANDSCAPE, vibrates: bool = True, source: str = ""
+    ) -> "Page":
+        """A page in a window of its own that shares nothing with the others. `source`: runs before its own scripts."""
         context = (await self.ask("Target.createBrowserContext"))["browserContextId"]
         self.contexts.append(context)
         target = await self.ask("Target.createTarget", url="about:blank", browserContextId=context, newWindow=True)
@@ -76,7 +78,7 @@ class Browser:
         await page.resize(*size)
         await page.ask("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
         await page.ask("Emulation.setFocusEmulationEnabled", enabled=True)
-        source = WATCH_VIBRATION if vibrates else AS_AN_IPHONE
+        source += WATCH_VIBRATION if vibrates else AS_AN_IPHONE
         await page.ask("Page.addScriptToEvaluateOnNewDocument", source=source)
         await page.ask("Page.navigate", url=url)
         return page
@@ -117,12 +119,12 @@ class Page(TouchPage):
 
 
 @contextmanager
-def running_browser() -> Iterator[str]:
+def running_browser(*options: str) -> Iterator[str]:
     """The address of a browser with an empty profile, ended and deleted afterwards."""
     path = chromium()
     assert path
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        command = [path, *OPTIONS, f"--user-data-dir={profile}", "about:blank"]
+        command = [path, *OPTIONS, *options, f"--user-data-dir={profile}", "about:blank"]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
             yield _address(process, Path(profile) / "DevToolsActivePort")

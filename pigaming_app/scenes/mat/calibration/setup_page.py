@@ -14,10 +14,12 @@ from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.hardware.vision.camera import shown
 from pigaming_app.hardware.vision.discovery import CameraId
+from pigaming_app.hardware.vision.phone import PHONE
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.mat.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
+from pigaming_app.scenes.mat.phone_camera.page import PhoneCameraPage
 from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.pages.text_page import TextPage
@@ -32,7 +34,7 @@ from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-ROWS = ("display", "camera", "address", "width", "lid", "by", "height", "begin")
+ROWS = ("display", "camera", "address", "phone", "width", "lid", "by", "height", "begin")
 LIMITS = {"width": (500, 10000), "lid": (0, 300), "height": (500, 10000)}  # mm
 REPEAT_STEPS = ((40, 100), (14, 10), (0, 1))  # step in mm after this many auto-repeats
 DEFAULT_HEIGHT = 2500  # mm, initial height
@@ -62,6 +64,8 @@ class CalibrationPage(SettingsPage):
     def __init__(self, context: Context, site: CalibrationSite | None = None, camera: CameraId | None = None) -> None:
         self.context, self.site = context, site or site_of(context)
         self.number: CameraId = context.settings.camera if camera is None else camera
+        if camera == PHONE and self.site.name == "real":
+            context.settings.camera = PHONE  # it is served from now on
         self.measures = self._initial_measures()
         self.preview: CameraPreview | None = None
         self.cameras = self.site.cameras()
@@ -159,7 +163,7 @@ class CalibrationPage(SettingsPage):
 
     def _rows(self) -> tuple[str, ...]:
         without = {"height"} if not self.measures.height else set()
-        without |= set() if self.site.name == "real" else {"address"}
+        without |= set() if self.site.name == "real" else {"address", "phone"}
         return tuple(name for name in ROWS if name not in without)
 
     def value(self, name: str) -> SettingValue:
@@ -173,6 +177,8 @@ class CalibrationPage(SettingsPage):
                 return SettingValue("toggle", (words("calibrate.ruler"), words("calibrate.robot")), not measures.height)
             case "address":
                 return self.action("calibrate.type")
+            case "phone":
+                return self.action("calibrate.show_code")
             case "begin":
                 return self.action("calibrate.start")
         return SettingValue("arrows", (words("calibrate.mm", mm=f"{getattr(self.measures, name):.0f}"),))
@@ -180,7 +186,7 @@ class CalibrationPage(SettingsPage):
     def _camera(self) -> str:
         words = self.context.words
         if isinstance(self.number, str):
-            return str(shown(self.number))
+            return words("calibrate.phone") if self.number == PHONE else str(shown(self.number))
         if not self.cameras:
             return words("calibrate.no_cameras")
         name = next((camera.name for camera in self.cameras if camera.number == self.number), "")
@@ -245,12 +251,16 @@ class CalibrationPage(SettingsPage):
         self.preview.begin()
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
-        """Start the calibration, full screen, or type the address of a camera."""
+        """Start the calibration, full screen, or type the address of a camera, or show the code for a phone."""
         self.context.sounds.play("accept")
         self.on_leave()
         if name == "address":
-            before = self.number if isinstance(self.number, str) else "http://"
+            before = self.number if isinstance(self.number, str) and self.number != PHONE else "http://"
             return Push(TextPage(self.context, self.label(name), before, MAX_STREAM, self._choose, True, URL_LETTERS))
+        if name == "phone":
+            self.number = self.context.settings.camera = PHONE
+            self.save()
+            return Push(PhoneCameraPage(self.context))
         canvas = self.context.canvas
         if self.site.name == "real" and not canvas.fullscreen and not canvas.headless:
             self._show(canvas.display, True)

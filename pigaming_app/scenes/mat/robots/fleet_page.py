@@ -10,6 +10,7 @@ from pigaming_app.hardware.radio.serial_line import ports
 from pigaming_app.hardware.session.robot_session import camera_warning
 from pigaming_app.hardware.vision.camera import shown
 from pigaming_app.hardware.vision.discovery import cameras
+from pigaming_app.hardware.vision.phone import PHONE
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
@@ -241,7 +242,8 @@ class FleetPage(SettingsPage):
             return {getattr(settings, name): words("fleet.no_line")}, getattr(settings, name)
         if name == "camera":
             known: dict[object, str] = {camera.number: f"{camera.number}: {camera.name}" for camera in cameras()}
-            return {settings.camera: str(shown(settings.camera)), **known}, settings.camera
+            phone = words("calibrate.phone") if settings.camera == PHONE else ""
+            return {settings.camera: phone or str(shown(settings.camera)), **known}, settings.camera
         if name == "port":
             there: dict[object, str] = {port.device: port.device for port in ports()}
             first = words("fleet.first", port=next(iter(there), "-"))

@@ -19,10 +19,11 @@ from aiohttp import web
 from pigaming_app import ASSETS
 from pigaming_app.ui.input import phone_messages as protocol
 from pigaming_app.ui.input.phone_pads import Phones
-from pigaming_app.ui.input.phones.connection import CLOSE_SECONDS, Connection, stop_reading
+from pigaming_app.ui.input.phones.connection import Connection
 from pigaming_app.ui.input.phones.memory import Hall
 from pigaming_app.ui.input.phones.roster import Refusal, Roster
 from pigaming_app.ui.web.listener import Handler, Listener
+from pigaming_app.ui.web.socket import CLOSE_SECONDS, closed
 
 ALPHABET = "abcdefghjkmnpqrstuvwxyz23456789"  # without signs that look alike: the address may be typed
 TOKEN_LENGTH = 10  # 49 bits, guessed over a network within one session
@@ -74,7 +75,6 @@ class PhoneServer(Listener):
         self.connections: dict[int, Connection] = {}  # by device number
         self._keep, self._kept, self._to_keep = keep, Hall(), asyncio.Event()
         self._written = asyncio.Condition()  # notified when that is done
-        self._farewells: set[asyncio.Future[None]] = set()
         self._files = {name: ((ASSETS / path).read_bytes(), kind) for name, (path, kind) in FILES.items()}
         self._page = (ASSETS / "phones" / "page.html").read_text(encoding="utf-8")
 
@@ -116,9 +116,7 @@ class PhoneServer(Listener):
         """Close the socket of a phone that the roster has sent away."""
         if connection := self.connections.pop(number, None):
             connection.replaced = True
-            task = asyncio.ensure_future(connection.close(CLOSED[why]))
-            self._farewells.add(task)
-            task.add_done_callback(self._farewells.discard)
+            connection.close_soon(CLOSED[why])
 
     async def _close_all(self, app: web.Application) -> None:
         await asyncio.gather(*(one.close(1001) for one in self.connections.values()))
@@ -188,31 +186,22 @@ class PhoneServer(Listener):
         admitted = self.roster.admit(request.query.get("resume", ""), peer)
         if isinstance(admitted, str):
             self.refusals.note(f"phone refused: {admitted}", peer)
-            return await _closed(request, CLOSED[admitted])
+            return await closed(request, CLOSED[admitted], protocol.MAX_FRAME)
         number, resume = admitted
         if before := self.connections.get(number):
             before.replaced = True
         connection = self.connections[number] = Connection(self.roster, self.refusals, number, peer)
         try:
-            await connection.socket.prepare(request)
+            await connection.answer.prepare(request)
             await self._until_kept(number)
             connection.send(protocol.resume_text(resume))
-            await connection.serve(request)
+            await connection.play(request)
         finally:
             if not connection.replaced:
                 del self.connections[number]
                 self.roster.leave(number)
-        return connection.socket
+        return connection.answer
 
 
 def _first_part(path: str) -> bytes:
     return path.strip("/").partition("/")[0].lower().encode(errors="replace")
-
-
-async def _closed(request: web.Request, code: int) -> web.WebSocketResponse:
-    """A socket that is closed at once, for a reason that the page knows."""
-    answer = web.WebSocketResponse(timeout=CLOSE_SECONDS, max_msg_size=protocol.MAX_FRAME, compress=False)
-    await answer.prepare(request)
-    stop_reading(request)
-    await answer.close(code=code)
-    return answer
