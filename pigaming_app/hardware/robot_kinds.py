@@ -21,6 +21,8 @@ class RobotKind(NamedTuple):
     warn_mv: int  # battery voltage below which the operator is warned
     stop_mv: int  # below which motors are off
     radius_mm: float  # of the smallest circle round the driving robot, centred between the wheels
+    wheel_mm: float = 1000.0  # speed of a wheel at full share, mm/s, until the robot is identified
+    base_mm: float = 82.0  # between the wheels
 
 
 KINDS = (
@@ -32,7 +34,7 @@ KINDS = (
     RobotKind("microbit", "micro:bit", ("relay",), (4,), 4600, 4400, 60.0),  # its motor board needs 4.5 V
     RobotKind("cutebot", "Cutebot", ("relay",), (), 0, 0, 75.0),  # measures no battery, nor does the next
     RobotKind("maqueen", "Maqueen", ("relay",), (), 0, 0, 70.0),
-    RobotKind("thymio", "Thymio II", ("thymio",), (), 3500, 3400, 82.0),  # its nose is 80 mm ahead of the axle
+    RobotKind("thymio", "Thymio II", ("thymio",), (), 3500, 3400, 82.0, 166.0, 94.0),  # of Enki, Aseba's simulator
 )
 DEFAULT = KINDS[0]
 CHASSIS = ("cutebot", "maqueen")  # bought ones that a micro:bit is plugged into

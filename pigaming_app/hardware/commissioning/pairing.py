@@ -13,7 +13,7 @@ from typing import NamedTuple
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.run_writer import Recorder
 from pigaming_app.hardware.signals import Fix, WheelCommand
-from pigaming_app.hardware.tracking.motion_delay import motion_delay, network_delay
+from pigaming_app.hardware.tracking.motion_delay import motion_delay
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.world import DT, ROBOTS
 
@@ -112,7 +112,7 @@ class Pairing(Recorder):
         seen = [fix for fix in self._seen if fix.robot == robot]
         fit = motion_delay(self._sent, seen, self.rig.kinematics[robot].drivetrain.base)
         if fit.error < inf:
-            self._delays[robot] = fit.seconds - network_delay(self.rig.link.quality(channel).echo, self.rig.link.wait)
+            self._delays[robot] = fit.seconds - self.rig.network_delay(robot, channel)
 
     def _watch(self, counts: bool) -> None:
         """Accumulate the turn of every marker."""
