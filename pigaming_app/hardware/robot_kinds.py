@@ -16,11 +16,13 @@ class RobotKind(NamedTuple):
 
     key: str  # in the settings
     name: str  # proper name, the same in every language
-    radios: tuple[str, ...]  # xbee, wifi, relay (a micro:bit on USB passes packets on)
+    radios: tuple[str, ...]  # xbee, wifi, relay (a micro:bit on USB passes packets on), thymio (Aseba)
     boards: tuple[int, ...]  # numbers in the announcements of its firmware
     warn_mv: int  # battery voltage below which the operator is warned
     stop_mv: int  # below which motors are off
     radius_mm: float  # of the smallest circle round the driving robot, centred between the wheels
+    wheel_mm: float = 1000.0  # speed of a wheel at full share, mm/s, until the robot is identified
+    base_mm: float = 82.0  # between the wheels
 
 
 KINDS = (
@@ -32,6 +34,7 @@ KINDS = (
     RobotKind("microbit", "micro:bit", ("relay",), (4,), 4600, 4400, 60.0),  # its motor board needs 4.5 V
     RobotKind("cutebot", "Cutebot", ("relay",), (), 0, 0, 75.0),  # measures no battery, nor does the next
     RobotKind("maqueen", "Maqueen", ("relay",), (), 0, 0, 70.0),
+    RobotKind("thymio", "Thymio II", ("thymio",), (), 3500, 3400, 82.0, 166.0, 94.0),  # of Enki, Aseba's simulator
 )
 DEFAULT = KINDS[0]
 CHASSIS = ("cutebot", "maqueen")  # bought ones that a micro:bit is plugged into
@@ -63,9 +66,14 @@ def microbit_program(number: int, arena: int, chassis: str = "") -> str:
 
 
 def set_up_command(robot: int, arena: int, radio: str, kind: str = "") -> str:
-    """The command that gives a robot (1 to 4) its numbers. `radio`: of the settings; `kind`: see robot_kinds."""
+    """The command that gives a robot (1 to 4) its numbers; Thymios get theirs whenever they are switched on.
+
+    `radio`: of the settings; `kind`: see robot_kinds.
+    """
     if radio == "udp":
         return f"python3 main.py robots --wifi-config {robot} --out config.py"
+    if radio == "thymio":
+        return "python3 main.py robots --radio thymio"
     if radio == "relay" or kind in ("microbit", *CHASSIS):
         chassis = f"--chassis {kind} " if kind in CHASSIS else ""
         return f"python3 main.py robots --microbit {robot} {chassis}--out robot{robot}.py"

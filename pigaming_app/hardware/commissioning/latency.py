@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pigaming_app.hardware.control.kinematics import spin_share
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.run_writer import Recorder
 from pigaming_app.hardware.signals import Fix, WheelCommand
@@ -15,7 +16,6 @@ from pigaming_app.hardware.tracking.motion_delay import ANY_LAG, motion_delay
 from pigaming_app.sim.world import DT, ROBOTS
 
 SHAKES = (0.4, 0.5, 0.3, 0.6, 0.4, 0.45, 0.35, 0.55)  # s, left and right in turn; unequal, so the match is unique
-SHARE = 0.14  # of full speed
 FEWEST = 20  # frames
 
 
@@ -36,7 +36,7 @@ class LatencyTest(Recorder):
     """Wiggles one robot. Call `tick` every 1/50 s until it returns True, then `result`."""
 
     def __init__(self, rig: Rig, robot: int) -> None:
-        self.rig, self.robot = rig, robot
+        self.rig, self.robot, self._share = rig, robot, spin_share(rig.kinematics[robot].drivetrain)
         self._sent: list[tuple[float, float, float]] = []
         self._seen: list[Fix] = []
         self._pictures: list[float] = []  # s from exposure to the processed frame
@@ -49,7 +49,7 @@ class LatencyTest(Recorder):
         share, time = 0.0, self._ticks * DT
         for i, length in enumerate(SHAKES):
             if time < length:
-                share = SHARE if i % 2 else -SHARE
+                share = self._share if i % 2 else -self._share
                 break
             time -= length
         wheels: list[WheelCommand | None] = [None] * ROBOTS

@@ -10,15 +10,15 @@ from enum import StrEnum
 from math import hypot, inf
 from typing import NamedTuple
 
+from pigaming_app.hardware.control.kinematics import spin_share
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.run_writer import Recorder
 from pigaming_app.hardware.signals import Fix, WheelCommand
-from pigaming_app.hardware.tracking.motion_delay import motion_delay, network_delay
+from pigaming_app.hardware.tracking.motion_delay import motion_delay
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.world import DT, ROBOTS
 
 REST, SPIN, BRAKE = 0.6, 1.3, 0.5  # s
-SHARE = 0.14  # of full speed, wheels in opposite directions: about 2.5 rad/s
 TURNED = 1.2  # rad; a spinning robot's marker turns more than this
 STILL = 0.4  # rad; every other marker turns less than this
 ASTRAY = 25.0  # px; a robot that moves farther is driving off
@@ -92,7 +92,8 @@ class Pairing(Recorder):
         self._watch(counts=time > REST)
         if self._astray is not None and time < REST + SPIN:
             self._ticks, time = round((REST + SPIN) / DT), REST + SPIN + DT
-        wheels = WheelCommand(SHARE, -SHARE) if REST < time <= REST + SPIN else WheelCommand(0.0, 0.0)
+        share = self._share if REST < time <= REST + SPIN else 0.0
+        wheels = WheelCommand(share, -share)
         self._sent.append((self.rig.clock(), *wheels))
         self.rig.send_to_channel(self._todo[0], wheels)
         if time >= REST + SPIN + BRAKE:
@@ -107,12 +108,17 @@ class Pairing(Recorder):
     def record_fixes(self, now: float, captured: float, fixes: Sequence[Fix]) -> None:
         self._seen += fixes
 
+    @property
+    def _share(self) -> float:
+        """Share of full speed of the robot that spins, taken for the one that its radio drove so far."""
+        return spin_share(self.rig.kinematics[self.rig.channels.index(self._todo[0])].drivetrain)
+
     def _measure(self, channel: int, robot: int) -> None:
         """Note how much later than commanded a robot moved."""
         seen = [fix for fix in self._seen if fix.robot == robot]
         fit = motion_delay(self._sent, seen, self.rig.kinematics[robot].drivetrain.base)
         if fit.error < inf:
-            self._delays[robot] = fit.seconds - network_delay(self.rig.link.quality(channel).echo, self.rig.link.wait)
+            self._delays[robot] = fit.seconds - self.rig.network_delay(robot, channel)
 
     def _watch(self, counts: bool) -> None:
         """Accumulate the turn of every marker."""

@@ -9,11 +9,12 @@ from math import copysign
 
 from pigaming_app.hardware.signals import WheelCommand
 from pigaming_app.hardware.tracking.motion_model import WheelCorrection
-from pigaming_app.sim.drivetrain import Drivetrain, twist, wheel_shares
+from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain, twist, wheel_shares
 from pigaming_app.sim.plant import Twist
 
 LEVELS = 63  # of speed, each way: packets.STOP
 IDEAL = WheelCorrection(1.0, 1.0, 1.0, 0.0, 0.0)
+SPIN, STRONGEST_SPIN = 0.14, 0.9  # share of full speed at which a nominal robot spins at 2.5 rad/s; the most
 WEAKEST, STRONGEST = 0.8, 1.25  # limits of corrected gains; beyond, the cause is another
 
 
@@ -76,6 +77,12 @@ class Kinematics:
         level = max(-1.0, min(1.0, round(wanted * self.levels) / self.levels))
         self._carry[wheel] = max(-half, min(half, wanted - level))
         return level
+
+
+def spin_share(drivetrain: Drivetrain) -> float:
+    """Share of full speed, with wheels in opposite directions, at which a robot spins as fast as a nominal one."""
+    quickness = (drivetrain.left.speed + drivetrain.right.speed) / drivetrain.base
+    return min(STRONGEST_SPIN, SPIN * 2.0 * NOMINAL.left.speed / NOMINAL.base / quickness)
 
 
 def _plausible(gain: float) -> float:

@@ -45,6 +45,7 @@ class MixedPlant(RealPlant):
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
         """Drive real robots within walls and safety, and simulate the others."""
         super().drive(twists, dt)
+        twists = self.paced(twists)
         simulated = [i for i, robot in enumerate(self.world.robots) if robot.present and i not in self.real]
         for i in simulated:
             self.world.robots[i].requested_linear, self.world.robots[i].requested_angular = twists[i]

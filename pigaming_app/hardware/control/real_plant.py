@@ -63,6 +63,7 @@ class RealPlant:
 
     def drive(self, twists: Sequence[Twist], dt: float) -> None:
         """Command the real robots, clipped by walls and safety."""
+        twists = self.paced(twists)
         snapshot, self._snapshot = self._snapshot, None
         if snapshot is None or self.rig.clock() - snapshot.time > FRESH:
             snapshot = self.rig.snapshot()
@@ -76,6 +77,15 @@ class RealPlant:
                 self._roll(i, wheels[i], dt)
                 robot.linear, robot.angular = self.motion[i]
         self.rig.send(wheels)
+
+    def paced(self, twists: Sequence[Twist]) -> list[Twist]:
+        """Twists that the slowest real robot can follow, so that nobody is faster; paths keep their curvature."""
+        top, half = self.rig.pace([i for i in self.real if self.world.robots[i].present])
+        paced = []
+        for linear, angular in twists:
+            share = min(1.0, top / max(abs(linear) + half * abs(angular), 1e-9))
+            paced.append((linear * share, angular * share))
+        return paced
 
     def place(self, poses: Sequence[Pose]) -> None:
         """Start homing the real robots of the match to these poses."""

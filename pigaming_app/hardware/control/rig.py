@@ -6,8 +6,9 @@ owner of the clock calls it. All commands go through `send`, which also informs 
 
 import logging
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -31,6 +32,7 @@ from pigaming_app.sim.world import DT, ROBOTS
 UNMEASURED = replace(
     NOMINAL, left=replace(NOMINAL.left, deadband=0.03), right=replace(NOMINAL.right, deadband=0.03), dead_time=0.03
 )
+SURE = 0.9  # share of its nominal speed that every robot of a kind reaches
 SPARSE = 24  # px between the samples of the quick comparison of two pictures
 ROUNDING = 1.0  # px of a body's radius that the virtual walls' own margin covers
 RETRY = 0.5  # s until the next try after an error
@@ -40,6 +42,13 @@ NOTABLE = 0.01  # s, a measured delay up to which none is expected
 GREETING = 0.5  # s after which every robot in range has received a command and reported since
 
 log = logging.getLogger("pigaming")
+
+
+def unmeasured(kind: RobotKind, mm: float, dead_time: float) -> Drivetrain:
+    """The drivetrain of a robot not yet identified. `mm`: of the mat per arena px; `dead_time`: its driver's, s."""
+    speed = kind.wheel_mm / mm
+    left, right = replace(UNMEASURED.left, speed=speed), replace(UNMEASURED.right, speed=speed)
+    return Drivetrain(left, right, kind.base_mm / mm, UNMEASURED.lag, dead_time)
 
 
 class RobotSnapshot(NamedTuple):
@@ -181,9 +190,17 @@ class Rig:
         """Time by which the camera's stamps are later than the exposure, s."""
         return self.tracker.delay.seconds if self.tracker.delay is not None else 0.0
 
-    def network_delay(self, robot: int) -> float:
-        """Time by which commands reach a robot later than by a usual radio, s."""
-        return network_delay(self.link.quality(self.channels[robot]).echo, self.link.wait)
+    def network_delay(self, robot: int, channel: int | None = None) -> float:
+        """Time by which commands reach a robot later than its dead time accounts for, s. `channel`: not its own."""
+        echo = self.link.quality(self.channels[robot] if channel is None else channel).echo
+        accounted = self.kinematics[robot].drivetrain.dead_time - UNMEASURED.dead_time
+        return network_delay(echo, self.link.wait, max(0.0, accounted))
+
+    def pace(self, robots: Iterable[int]) -> tuple[float, float]:
+        """Speed of a wheel that each of these robots reaches, px/s, and the widest half base, px."""
+        trains = [self.kinematics[robot].drivetrain for robot in robots]
+        tops = [SURE * min(train.left.speed, train.right.speed) for train in trains]
+        return min(tops, default=inf), max((0.5 * train.base for train in trains), default=0.0)
 
     def health(self, outside: Mapping[int, float], seen: RobotSnapshot) -> dict[int, Health]:
         """Health of the robots in `outside` (s outside the arena, by robot).

@@ -1,4 +1,4 @@
-"""The arcade's own drivers, by their name in the settings: XBees and a micro:bit as relay, Wi-Fi, a cable, ROS."""
+"""The arcade's own drivers, by their name in the settings: XBees, a micro:bits, Wi-Fi, Thymios, a cable, ROS."""
 
 from functools import partial
 from typing import TYPE_CHECKING
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.radio.link import CommandLink, Link
     from pigaming_app.hardware.radio.protocol import RadioProtocol
 
-RELAY_BAUD = 57600
+RELAY_BAUD, THYMIO_BAUD = 57600, 115200
 
 
 def _serial(site: LinkSite, protocol: "RadioProtocol", baud: int) -> "Link":
@@ -43,6 +43,12 @@ def _factory_firmware(site: LinkSite) -> "CommandLink":
     return _serial(site, StockProtocol(0), BAUD)
 
 
+def _thymio(site: LinkSite) -> "CommandLink":
+    from pigaming_app.hardware.radio.aseba import AsebaProtocol
+
+    return _serial(site, AsebaProtocol(site.arena), THYMIO_BAUD)
+
+
 def _ros(site: LinkSite) -> "CommandLink":
     from pigaming_app.hardware.ros.robots import RosLink
 
@@ -59,7 +65,7 @@ def _xbee(mode: str) -> RobotDriver:
     )
 
 
-RELAY, UDP = "relay", "udp"
+RELAY, UDP, THYMIO = "relay", "udp", "thymio"
 OURS = {
     driver.name: driver
     for driver in (
@@ -81,6 +87,14 @@ OURS = {
             stopped_by="a hardware timer of the robot's board",
             serial=False,
             kind=robot_kind("esp32"),
+        ),
+        RobotDriver(
+            name=THYMIO,
+            open=_thymio,
+            silence=0.16,
+            stopped_by="a timer of our program on the robot",
+            dead_time=0.1,
+            kind=robot_kind("thymio"),
         ),
         RobotDriver(name="stock", open=_factory_firmware, silence=None, stopped_by="nothing"),
     )

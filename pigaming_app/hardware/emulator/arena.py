@@ -19,7 +19,7 @@ from pigaming_app.hardware.emulator.objects import LID_HEIGHT, SHEET, FlatObject
 from pigaming_app.hardware.emulator.optics import CANVAS, SENSOR, Floats, Optics
 from pigaming_app.hardware.emulator.radio import EmulatedRadio, RadioChannel
 from pigaming_app.hardware.emulator.renderer import ExposureSetup, SceneRenderer
-from pigaming_app.hardware.emulator.robots import STEP, EmulatedRobot, push_apart, random_parameters
+from pigaming_app.hardware.emulator.robots import BASE, FULL_SPEED, STEP, EmulatedRobot, push_apart, random_parameters
 from pigaming_app.hardware.emulator.things.prism import Prism, obstacles, push_off
 from pigaming_app.hardware.signals import Image
 from pigaming_app.sim.plant import Pose
@@ -39,7 +39,8 @@ class EmulatedArena:
     """The mat and its surroundings. `camera` is a CameraSource, `radio` a SerialPort, `faults` a FaultInjector.
 
     `exposure_jitter`: size of spontaneous exposure steps, as a share; `begin`: start of the clock, s; `refresh`: see
-    SceneRenderer, 1 renders every picture completely; `arena_id`: of its robots; `traits`: of the camera.
+    SceneRenderer, 1 renders every picture completely; `arena_id`: of its robots; `traits`: of the camera;
+    `wheels`: their nominal speed, mm/s, and mm between them.
     """
 
     def __init__(
@@ -53,13 +54,14 @@ class EmulatedArena:
         arena_id: int = ARENA_ID,
         traits: CameraTraits | None = None,
         optics: Optics | None = None,
+        wheels: tuple[float, float] = (FULL_SPEED, BASE),
     ) -> None:
         random = Random(f"arena {seed}")
         self.ticks, self.begin, self.arena_id = 0, begin, arena_id  # ticks of STEP
         traits = traits or CameraTraits()
         self.optics = optics or Optics(traits.lens)
         self.robots = [
-            EmulatedRobot(random_parameters(random), *self._on_mat(pose), Random(f"{seed} {i}"))
+            EmulatedRobot(random_parameters(random, *wheels), *self._on_mat(pose), Random(f"{seed} {i}"))
             for i, pose in enumerate(STARTS)
         ]
         self.firmwares = [Firmware(robot, i + 1, arena_id) for i, robot in enumerate(self.robots)]

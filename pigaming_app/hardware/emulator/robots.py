@@ -11,6 +11,7 @@ from random import Random
 STEP = 0.002  # s
 RADIUS = 47.5  # mm, Pololu 3pi
 FULL_SPEED = 1000.0  # mm/s of a wheel, nominal
+BASE = 82.0  # mm between the wheels, nominal
 DEAD_CELL = 3.6  # V, below which the regulator cuts out
 
 
@@ -28,14 +29,15 @@ class RobotParameters:
     drain: float  # V/s at full speed
 
 
-def random_parameters(random: Random) -> RobotParameters:
-    """Parameters of a typical robot: gains within 8 %."""
+def random_parameters(random: Random, speed: float = FULL_SPEED, base: float = BASE) -> RobotParameters:
+    """Parameters of a typical robot: gains within 8 % of a wheel's nominal `speed`, mm/s. `base`: mm between wheels."""
+    slow, wide = speed / FULL_SPEED, base / BASE
     return RobotParameters(
-        left_gain=random.uniform(0.92, 1.06),
-        right_gain=random.uniform(0.92, 1.06),
+        left_gain=slow * random.uniform(0.92, 1.06),
+        right_gain=slow * random.uniform(0.92, 1.06),
         deadband=random.uniform(0.02, 0.05),
         lag=random.uniform(0.06, 0.10),
-        base=random.uniform(80.0, 85.0),
+        base=wide * random.uniform(80.0, 85.0),
         slip=0.01,
         battery=random.uniform(5.0, 5.3),
         drain=random.uniform(0.0002, 0.0004),

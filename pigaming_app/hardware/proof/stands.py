@@ -1,17 +1,19 @@
-"""Stands of the arcade's own drivers: the emulated arena with XBees, a micro:bit as relay, or boards on Wi-Fi."""
+"""Stands of the arcade's own drivers: the emulated arena with XBees, micro:bits, boards on Wi-Fi, or Thymios."""
 
 from collections.abc import Callable
 
 from pigaming_app.hardware.drivers.driver import LinkSite, RobotDriver
-from pigaming_app.hardware.drivers.ours import RELAY, UDP
+from pigaming_app.hardware.drivers.ours import RELAY, THYMIO, UDP
 from pigaming_app.hardware.drivers.stand import RobotStand
 from pigaming_app.hardware.emulator.arena import ARENA_ID, EmulatedArena
 from pigaming_app.hardware.emulator.radio import API, API_ESCAPED, TRANSPARENT, EmulatedRadio, RadioChannel
 from pigaming_app.hardware.emulator.robots import FULL_SPEED
+from pigaming_app.hardware.emulator.thymio import Dongle
 from pigaming_app.hardware.emulator.wifi.air import LOOPBACK, WifiChannel
 from pigaming_app.hardware.emulator.wifi.radio import WifiRadio
 from pigaming_app.hardware.emulator.wifi.relay import MicrobitAir
 from pigaming_app.hardware.radio import envelope
+from pigaming_app.hardware.radio.aseba import FULL, drive
 from pigaming_app.hardware.radio.packets import SEQUENCE, drive_packet
 from pigaming_app.hardware.radio.wifi import WifiNetwork
 from pigaming_app.hardware.radio.xbee_protocol import XBeeMode, XBeeProtocol
@@ -20,6 +22,7 @@ from pigaming_app.sim.world import ROBOTS
 
 OTHER = 1  # added to the arena id: that of an arcade nearby
 KEY, OTHER_KEY = bytes(range(16)), bytes(range(16, 32))
+NODES = 7042, 311, 42, 23950  # numbers of the Thymios
 MODES = {"api2": API_ESCAPED, "api1": API, "transparent": TRANSPARENT}  # of XBees
 
 
@@ -114,6 +117,36 @@ class RelayStand:
         self.air.end()
 
 
+class ThymioStand:
+    """Thymios without bodies, on a dongle; motors follow their targets at once."""
+
+    def __init__(self, driver: RobotDriver, seed: int, dongle: Dongle | None = None) -> None:
+        self.dongle = dongle or Dongle(NODES, seed)
+        self.robots, self.clock, self.advance = ROBOTS, self.dongle.clock, self.dongle.advance
+        self.switch = self.dongle.switch
+        self.link = driver.open(LinkSite(ARENA_ID, self.clock, "EMU0", open_port=lambda baud: self.dongle.open))
+        self._count = 0
+
+    def powered(self, robot: int) -> bool:
+        return any(self.speeds(robot))
+
+    def speeds(self, robot: int) -> WheelCommand:
+        left, right = self.dongle.motors(robot)
+        return WheelCommand(left / FULL, right / FULL)
+
+    def lose(self, share: float) -> None:
+        self.dongle.loss = share
+
+    def interfere(self, wheels: WheelCommand) -> bool:
+        self._count += 1
+        self.dongle.put(drive(ARENA_ID + OTHER, self._count, 0, [wheels] * ROBOTS))
+        return True
+
+    def close(self) -> None:
+        self.link.close()
+        self.dongle.end()
+
+
 class WifiStand(_ArenaStand):
     """Boards that run their own program on a network of their own. Raises NoMicroPython."""
 
@@ -145,4 +178,6 @@ def stand_of(driver: RobotDriver, seed: int) -> RobotStand | None:
         return XBeeStand(driver, seed)
     if driver.name == RELAY:
         return RelayStand(driver, seed)
+    if driver.name == THYMIO:
+        return ThymioStand(driver, seed)
     return WifiStand(driver, seed) if driver.name == UDP else None

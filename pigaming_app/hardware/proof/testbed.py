@@ -8,13 +8,16 @@ from time import thread_time
 import numpy as np
 
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane
+from pigaming_app.hardware.control.rig import UNMEASURED, unmeasured
 from pigaming_app.hardware.emulator.camera import FrameTiming
 from pigaming_app.hardware.emulator.radio import MODERATE, RadioChannel
 from pigaming_app.hardware.emulator.wifi.air import WifiChannel
+from pigaming_app.hardware.robot_kinds import DEFAULT, RobotKind
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.lighting import Lighting
 from pigaming_app.hardware.signals import CameraFrame, Fix
 from pigaming_app.hardware.tracking.tracker import Tracker
+from pigaming_app.sim.drivetrain import MM
 from pigaming_app.sim.world import ROBOTS
 
 EXPOSURE_JITTER = 0.15  # size of the exposure steps, as a share
@@ -40,7 +43,7 @@ class TimedTracker(Tracker):
 class Testbed:
     """A calibrated arena with a rig. `drops`: share of lost frames; `ground`: skips the calibration if given.
 
-    With `wifi` the robots are Wi-Fi boards that run their own program, see EmulatedSession.
+    `wifi`: see EmulatedSession. `kind`: of the robots, with the `dead_time`, s, that their driver declares.
     """
 
     def __init__(
@@ -51,6 +54,8 @@ class Testbed:
         channel: RadioChannel = MODERATE,
         ground: GroundPlane | None = None,
         wifi: WifiChannel | None = None,
+        kind: RobotKind = DEFAULT,
+        dead_time: float = UNMEASURED.dead_time,
     ) -> None:
         self.lighting = Lighting(seed)
         self.session = EmulatedSession(
@@ -63,6 +68,8 @@ class Testbed:
             ground=ground,
             tracker=TimedTracker,
             wifi=wifi,
+            wheels=(kind.wheel_mm, kind.base_mm),
+            declared=unmeasured(kind, MM, dead_time),
         )
         self.rig = self.session.open()
         self.arena, self.ground = self.session.arena, self.session.ground

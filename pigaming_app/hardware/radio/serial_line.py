@@ -7,6 +7,8 @@ write are a fault. pyserial is imported when a port is opened, not before.
 
 import errno
 import re
+import select
+import socket
 from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, NamedTuple
@@ -19,6 +21,9 @@ CANNOT_OPEN: tuple[type[Exception], ...] = (*SERIAL_FAILURES, ImportError, Value
 BAUD = 57600  # bit/s of the radios and of our firmware
 FIRST, LONGEST = 0.25, 2.0  # s between two attempts to open, doubled every time
 WRITE_TIMEOUT = 0.05  # s
+CONNECT = 0.5  # s until a TCP connection counts as refused
+LARGEST = 1 << 16  # bytes read at once
+TCP = re.compile(r"tcp:(\[?[\w.:-]+?\]?):(\d{1,5})")
 STUCK = 1.0  # s without a successful write after which a port is reported
 
 OpenPort = Callable[[], SerialPort]
@@ -28,6 +33,8 @@ ERRORS = {
     errno.ENOENT: "absent",
     errno.ENODEV: "absent",
     errno.ENXIO: "absent",
+    errno.ECONNREFUSED: "absent",
+    errno.EHOSTUNREACH: "absent",
     errno.EACCES: "denied",
     errno.EPERM: "denied",
     errno.EBUSY: "busy",
@@ -63,9 +70,14 @@ def ports() -> list[PortInfo]:
 
 
 def serial_port(device: str, baud: int = BAUD, stop_bits: int = 1) -> OpenPort:
-    """A function that opens a serial port exclusively. Two stop bits help a radio with a slow clock."""
+    """A function that opens a serial port exclusively, or a TCP connection: tcp:HOST:PORT.
+
+    Two stop bits help a radio with a slow clock.
+    """
 
     def open_port() -> SerialPort:
+        if address := TCP.fullmatch(device):
+            return TcpPort(address[1], int(address[2]))
         import serial
 
         port: SerialPort = serial.Serial(
@@ -74,6 +86,39 @@ def serial_port(device: str, baud: int = BAUD, stop_bits: int = 1) -> OpenPort:
         return port
 
     return open_port
+
+
+class TcpPort:
+    """A TCP connection as a SerialPort. Raises OSError if nobody answers."""
+
+    def __init__(self, host: str, port: int) -> None:
+        self._socket = socket.create_connection((host, port), CONNECT)
+        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._socket.settimeout(WRITE_TIMEOUT)
+        self._received = b""
+
+    @property
+    def in_waiting(self) -> int:
+        """Bytes that have arrived."""
+        while select.select([self._socket], [], [], 0)[0]:
+            if not (data := self._socket.recv(LARGEST)):
+                raise ConnectionResetError(errno.ENXIO, "closed by the other end")
+            self._received += data
+        return len(self._received)
+
+    def read(self, size: int = 1) -> bytes:
+        """Read at most `size` of the bytes that have arrived."""
+        data, self._received = self._received[:size], self._received[size:]
+        return data
+
+    def write(self, data: bytes) -> int:
+        """Send all bytes; one that the other end does not take in time is lost with its connection."""
+        self._socket.sendall(data)
+        return len(data)
+
+    def close(self) -> None:
+        """Close the connection."""
+        self._socket.close()
 
 
 def failure_message(error: Exception, port: str) -> OperatorMessage:

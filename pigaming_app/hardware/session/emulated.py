@@ -19,6 +19,7 @@ from pigaming_app.hardware.emulator.arena import SHOWS_AFTER, STARTS, EmulatedAr
 from pigaming_app.hardware.emulator.camera import FrameTiming
 from pigaming_app.hardware.emulator.radio import MODERATE, RadioChannel
 from pigaming_app.hardware.emulator.realtime import PacedArena
+from pigaming_app.hardware.emulator.robots import BASE, FULL_SPEED
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.emulator.things.prism import Prism
 from pigaming_app.hardware.emulator.things.random_scene import some_things
@@ -34,6 +35,7 @@ from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnav
 from pigaming_app.hardware.signals import CameraFrame
 from pigaming_app.hardware.tracking.tracker import Tracker
 from pigaming_app.hardware.vision.markers import OpenCVMissing, opencv
+from pigaming_app.sim.drivetrain import Drivetrain
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
 
@@ -55,7 +57,8 @@ class EmulatedSession(RobotSession):
     session uses `ground`, or else a calibration made with the arena. `lighting` lights the mat where no window calls
     `show`. `timing`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of
     camera and radio. With `wifi` the robots are boards on such a network and run their own program, else they have
-    XBees. `things`: number of random real things on the mat, at most 8; the wizard takes them away.
+    XBees. `wheels`: see EmulatedArena; `declared`: drivetrain that the robots are taken to have. `things`: number of
+    random real things on the mat, at most 8; the wizard takes them away.
     """
 
     emulated = True
@@ -73,9 +76,11 @@ class EmulatedSession(RobotSession):
         tracker: type[Tracker] | None = None,
         wifi: WifiChannel | None = None,
         things: int = 0,
+        wheels: tuple[float, float] = (FULL_SPEED, BASE),
+        declared: Drivetrain = UNMEASURED,
     ) -> None:
         self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
-        self._wifi = wifi
+        self._wifi, self._wheels, self._declared = wifi, wheels, declared
         self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
         self._refresh: int | None = None  # usual interval of complete renders, while every one is complete
         self._count = things
@@ -134,7 +139,7 @@ class EmulatedSession(RobotSession):
             site = LinkSite(arena.arena_id, arena.clock, "EMU0", open_port=lambda _: arena.radio.open, network=network)
             link = DRIVERS[name].open(site)
             camera = EmulatedCalibrationSite(self.seed, self.live, arena).open(0, kept=ground.quality.kept)
-            self._rig = new_rig(camera, link, ground, arena.clock, [UNMEASURED] * ROBOTS, self._tracker)
+            self._rig = new_rig(camera, link, ground, arena.clock, [self._declared] * ROBOTS, self._tracker)
             if self._time is not None:
                 self._rig.start()
                 self._time.watched, self._time.limit = True, self._now + AHEAD
@@ -217,6 +222,7 @@ class EmulatedSession(RobotSession):
             self._channel or MODERATE,
             refresh,
             self._exposure_jitter,
+            wheels=self._wheels,
         )
         self._made = self._made or calibrated(arena)
         if self._count:

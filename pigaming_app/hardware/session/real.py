@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from pigaming_app.hardware.radio.xbee_setup import Carrier
     from pigaming_app.hardware.robot_kinds import RobotKind
     from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureState
+    from pigaming_app.sim.drivetrain import Drivetrain
 
 NO_PORT = "no serial port"
 
@@ -65,8 +66,7 @@ class RealSession(RobotSession):
 
             try:
                 ground = store.load(store.calibration_file("real"), self.projection())
-                dead_time = driver_of(self.settings).dead_time
-                drivetrains = store.load_robots(store.robots_file(emulated=False), dead_time)
+                drivetrains = store.load_robots(store.robots_file(emulated=False), self._declared(ground.mm))
                 camera = SizedCamera(Camera(self.settings.camera, kept=ground.quality.kept), ground)
                 try:
                     link, kinds = self._new_link(), self.settings.kinds
@@ -83,6 +83,15 @@ class RealSession(RobotSession):
                 rig.begin_camera_delay(self.settings.camera_delay / 1000.0)
             self.mm, self.quality, self.ground, self._rig = ground.mm, ground.quality, ground, rig.start()
         return self._rig
+
+    def _declared(self, mm: float) -> "list[Drivetrain]":
+        """Drivetrains as the driver declares them. `mm`: of the mat per arena px. Raises RobotsUnavailable."""
+        from pigaming_app.hardware.control.rig import unmeasured
+        from pigaming_app.hardware.robot_kinds import robot_kind
+
+        chosen, dead_time = self.settings, driver_of(self.settings).dead_time
+        kinds = [robot_kind(chosen.kinds[radio - 1], usual=self.usual) for radio in chosen.radios]
+        return [unmeasured(kind, mm, dead_time) for kind in kinds]
 
     def open_link(self) -> "CommandLink | None":
         if self._link is None:

@@ -6,7 +6,6 @@ Files of the emulated arena have separate names, so they never overwrite those o
 import logging
 import secrets
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, to_toml
@@ -74,15 +73,15 @@ def robots_file(emulated: bool) -> Path:
     return folders().config / ("robots-emulated.toml" if emulated else "robots.toml")
 
 
-def load_robots(path: Path, dead_time: float = UNMEASURED.dead_time) -> tuple[Drivetrain, ...]:
-    """Drivetrains of all robots, UNMEASURED with this dead time (s) where the file has none. Raises DrivetrainError."""
+def load_robots(path: Path, others: Sequence[Drivetrain] = (UNMEASURED,) * ROBOTS) -> tuple[Drivetrain, ...]:
+    """Drivetrains of all robots, those of `others` where the file has none. Raises DrivetrainError."""
     try:
         measured = parse(read_text(path), path.name)
     except FileNotFoundError:
         measured = ()
     except (OSError, ParseError) as error:
         raise DrivetrainError(f"{path.name}: cannot be read ({describe_error(error)})") from None
-    return (*measured, *(replace(UNMEASURED, dead_time=dead_time),) * (ROBOTS - len(measured)))
+    return (*measured, *others[len(measured) :])
 
 
 def save_pairing(channels: Sequence[int], camera_delay: float) -> None:

@@ -101,9 +101,12 @@ def common_delay(delays: Iterable[float], spread: float = 0.010) -> float:
     return sum(alike) / len(alike) if alike else 0.0
 
 
-def network_delay(echo: float | None, wait: float) -> float:
-    """Delay of a command beyond the usual one, s, by the echo of the radio and by how long commands wait for it."""
-    return max(0.0, 0.5 * ((echo or 0.0) - USUAL_ECHO)) + wait - USUAL_WAIT
+def network_delay(echo: float | None, wait: float, accounted: float = 0.0) -> float:
+    """Delay of a command beyond the usual one, s, by the echo of the radio and by how long commands wait for it.
+
+    `accounted`: s of it that the robot's dead time contains.
+    """
+    return max(0.0, 0.5 * ((echo or 0.0) - USUAL_ECHO) - accounted) + wait - USUAL_WAIT
 
 
 def _rolled(seen: Sequence[Fix], base: float) -> tuple[Floats, tuple[Floats, Floats]]:

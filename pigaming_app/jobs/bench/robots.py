@@ -9,6 +9,7 @@ counts, except for times of computation, where the best counts: other programs c
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
+from dataclasses import replace
 from importlib.util import find_spec
 from typing import NamedTuple, TypeVar
 
@@ -19,6 +20,8 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.control.real_plant import RealPlant
+from pigaming_app.hardware.control.rig import UNMEASURED
+from pigaming_app.hardware.drivers.ours import OURS
 from pigaming_app.hardware.emulator.radio import RadioChannel
 from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython
 from pigaming_app.hardware.proof import emergencies, things
@@ -69,7 +72,8 @@ class Unproven(Exception):
 
 class MatMatch(NamedTuple):
     """One match on the mat. `brain`: of all robots; None: random button mashing. `carried`: the robots are set down on
-    their places, else they drive there. `variant`: None for the game's default."""
+    their places, else they drive there. `variant`: None for the game's default. `driver`: theirs, for speed and dead
+    time."""
 
     game: str
     arena: str
@@ -79,6 +83,7 @@ class MatMatch(NamedTuple):
     brain: str | None = None
     carried: bool = False
     variant: str | None = None
+    driver: str = "api2"
 
 
 def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]:
@@ -150,7 +155,10 @@ def on_mat(job: MatMatch, ground: GroundPlane | None = None) -> MatchResult:
     one, two, three, four = (Seat(job.brain or "random", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     setup = Setup(job.game, job.arena, (one, two, three, four), job.minutes, job.seed, rules.name, goal)
-    bed = Testbed(job.seed, job.fps, LOST, RadioChannel(loss=LOST, duplicates=LOST / 2, broken=LOST / 4), ground)
+    driver, channel = OURS[job.driver], RadioChannel(loss=LOST, duplicates=LOST / 2, broken=LOST / 4)
+    later = max(0.0, driver.dead_time - UNMEASURED.dead_time)
+    channel = replace(channel, soonest=channel.soonest + later, latest=channel.latest + later)
+    bed = Testbed(job.seed, job.fps, LOST, channel, ground, kind=driver.kind, dead_time=driver.dead_time)
     match = Match(setup, lambda world: RealPlant(world, bed.rig))
     for seat in range(ROBOTS):
         seed = ROBOTS * job.seed + seat

@@ -294,7 +294,7 @@ class RadioOptions(RigOptions):
     """Camera, port and radio of the robots."""
 
     radio: str | None = option(
-        "api2, api1, transparent, relay (micro:bit), udp (Wi-Fi), stock (a robot on a cable), or a plug-in's driver",
+        "api2, api1, transparent, relay (micro:bit), udp (Wi-Fi), thymio, stock (a robot on a cable), or a plug-in",
         metavar="DRIVER",
     )
 

@@ -4,6 +4,8 @@ import pytest
 
 from pigaming_app.hardware.commissioning.latency import LatencyTest
 from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
+from pigaming_app.hardware.control.kinematics import Kinematics
+from pigaming_app.sim.drivetrain import Drivetrain, Wheel
 from tests.hardware.mat import LATE, STARTS, TRUE, Mat
 
 
@@ -125,3 +127,16 @@ def test_a_robot_that_does_not_move_has_no_latency(monkeypatch):
     mat.radio = [0, 1, 3, 3]
     monkeypatch.setattr(mat, "send", lambda wheels: None)
     assert shaken(mat) is None
+
+
+SLOW = Drivetrain(Wheel(126.0, 0.03), Wheel(126.0, 0.03), 71.0, 0.09, 0.03)  # a Thymio's
+
+
+def test_slow_robots_are_paired_and_their_delay_is_measured_as_that_of_fast_ones():
+    mat = Mat(train=SLOW)
+    mat.rig.kinematics[:] = [Kinematics(SLOW) for _ in range(4)]
+    mat.radio = [0, 2, 1, 3]
+    found = cases(paired(mat))
+    assert [found[channel][1] for channel in range(4)] == ["fits", "swapped", "swapped", "fits"]
+    mat.radio = [0, 1, 2, 3]
+    assert shaken(mat, 1).acts == pytest.approx(SLOW.dead_time, abs=0.015)

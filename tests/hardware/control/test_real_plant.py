@@ -6,10 +6,12 @@ from unittest.mock import Mock
 
 import pytest
 
+from pigaming_app.hardware.control.kinematics import Kinematics
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, LOW, PARKED
 from pigaming_app.hardware.radio.protocol import Misfit
+from pigaming_app.sim.drivetrain import Drivetrain, Wheel
 from pigaming_app.sim.robot import RADIUS
 from tests.floor import floor
 from tests.hardware.mat import EVEN, NOMINAL_MM, STARTS, Mat
@@ -49,6 +51,32 @@ def test_real_robots_drive_as_asked_within_their_gains():
         assert robot.x == pytest.approx(300.0 + 200.0 * (2.0 - 0.09 - 0.03), rel=0.05)
     assert plant.faults == []
     assert plant.world.robots[0].linear == pytest.approx(200.0, rel=0.03)
+
+
+SLOW = Drivetrain(Wheel(126.0, 0.03), Wheel(126.0, 0.03), 71.0, 0.09, 0.03)  # a Thymio's
+
+
+@pytest.mark.parametrize("twist", [(260.0, 0.0), (338.0, 3.0), (-422.0, -1.0), (0.0, 9.0)])
+def test_nobody_in_a_mixed_match_is_faster_than_its_slowest_real_robot(twist):
+    mat = Mat()
+    mat.robots[1].train, mat.rig.kinematics[1] = SLOW, Kinematics(SLOW)
+    plant = on_floor(mat, real=(0, 1), kind=MixedPlant)
+    driven = [0.0] * 4
+    for _ in range(100):
+        drive(plant, mat, [twist] * 4, 0.02)
+        driven = [
+            max(far, abs(one.linear) + 35.5 * abs(one.angular))
+            for far, one in zip(driven, plant.world.robots, strict=False)
+        ]
+    assert driven == pytest.approx([0.9 * 126.0] * 4, rel=0.07)
+    for linear, angular in plant.paced([twist] * 4):
+        assert linear * twist[1] == pytest.approx(angular * twist[0]), "the path has another curvature"
+
+
+def test_where_all_are_fast_nobody_is_slowed():
+    plant = on_floor(Mat())
+    asked = [(422.0, 3.0), (-260.0, 0.0), (0.0, 3.0), (338.0, -3.0)]
+    assert plant.paced(asked) == asked
 
 
 @pytest.mark.parametrize("reason", ["old", "no_arena", "foreign"])

@@ -3,6 +3,7 @@
 import errno
 import itertools
 import os
+import socket
 import sys
 from contextlib import suppress
 
@@ -231,3 +232,32 @@ def _heard(far):
         return os.read(far, 100_000)
     except BlockingIOError:
         return b""
+
+
+def test_a_tcp_connection_is_a_port_that_is_lost_and_opened_again():
+    """The other end is Python's own."""
+    clock = Time()
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        name = f"tcp:127.0.0.1:{server.getsockname()[1]}"
+        line = SerialLine(serial_port(name), clock, name)
+        for sent in (b"first", b"second" * 20_000):
+            assert line.open()
+            other, _ = server.accept()
+            with other:
+                line.write(b"hello")
+                assert other.recv(16) == b"hello"
+                other.sendall(sent)
+                received = b""
+                while len(received) < len(sent):
+                    received += line.read()
+                assert received == sent
+                assert line.fault is None
+            while line.fault is None:
+                line.read()
+            assert key_of(line.fault) == "radio_unplugged"
+            clock.now += 10.0
+    assert not line.open()
+    assert key_of(line.fault) == "radio_unplugged", "it was there before"
+    fresh = SerialLine(serial_port(name), clock, name)
+    assert not fresh.open()
+    assert key_of(fresh.fault) == "radio_absent"

@@ -42,6 +42,20 @@ def test_the_emulated_arena_lives_in_real_time_and_ends_its_threads() -> None:
     assert soon(lambda: not threads())
 
 
+def test_robots_that_were_not_identified_are_as_fast_as_their_driver_declares(home: Path) -> None:
+    calibrate(HERE)
+    settings = Settings()
+    settings.radio, settings.radios, settings.kinds = "thymio", [2, 1, 3, 4], ["3pi", "", "", ""]
+    mat = real_mat(settings)
+    try:
+        trains = [kinematics.drivetrain for kinematics in mat.open().kinematics]
+    finally:
+        mat.end()
+    assert [train.left.speed * 1.32 for train in trains] == pytest.approx([166.0, 1000.0, 166.0, 166.0])
+    assert [train.base * 1.32 for train in trains] == pytest.approx([94.0, 82.0, 94.0, 94.0])
+    assert {train.dead_time for train in trains} == {0.1}
+
+
 @pytest.mark.parametrize(
     ("projection", "width", "reason"),
     [

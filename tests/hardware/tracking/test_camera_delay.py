@@ -103,3 +103,5 @@ def test_slow_robots_and_slow_networks_are_not_the_cameras():
     assert network_delay(0.17, 0.015) == pytest.approx(0.06)
     assert network_delay(0.04, 0.015) == network_delay(None, 0.015) == 0.0
     assert network_delay(0.04, 0.02) == pytest.approx(0.005)
+    assert network_delay(0.17, 0.015, 0.04) == pytest.approx(0.02)  # of a robot whose dead time is 40 ms longer
+    assert network_delay(0.17, 0.015, 0.1) == 0.0
