@@ -91,7 +91,7 @@ class RobotsMenu(SettingsPage):
 
     def _write(self) -> None:
         """Save the marker sheet to the user's folder, and show its path."""
-        from pigaming_app.hardware.calibration.marker_sheet import sheet
+        from pigaming_app.scenes.mat.paper.marker_sheet import sheet
 
         path, words = folders().data / SHEET, self.context.words
         notes = with_english(words.language, "sheet.print", "sheet.cut")
