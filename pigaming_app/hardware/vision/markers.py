@@ -17,7 +17,8 @@ from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 ROBOT_IDS = (16, 17, 43, 45)  # of the robots 0 to 3: those missed least of all that blocks and corners leave free
 WEARERS = {number: robot for robot, number in enumerate(ROBOT_IDS)}
-CORNER_IDS = (10, 11, 12, 13)  # projected in the margins of the canvas, see `drift`
+CORNER_IDS = (10, 11, 12, 13)  # projected in the margins of the canvas, see `drift`, or printed
+RIM_IDS = (14, 15, 18)  # printed between those
 CELLS = 6  # of a marker with its black border, without the quiet zone
 READABLE = 23.0  # px of a marker's edge in a downscaled image: 96 % are detected from 22 px, 52 % at 14 px
 SMALLEST = 0.5  # lowest scale of a downscaled image; below, noise is no longer averaged

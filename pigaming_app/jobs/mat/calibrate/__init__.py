@@ -37,6 +37,7 @@ class CalibrateOptions(RigOptions, DisplayOption, JsonOption):
     """What to calibrate, and how."""
 
     headless: bool = flag("with --emulate: no window, print the errors")
+    printed: bool = flag("by the markers of a printed floor, with any screen beside it; see --print")
     robot: bool = flag("with --headless: camera height measured by a robot")
     view: str | None = option(f"with --headless: a camera of this quality; default {VIEWS[0]}", choices=VIEWS)
     anyway: bool = flag("with --headless: save it though markers will be missed")
@@ -61,13 +62,15 @@ def run(options: CalibrateOptions) -> int:
     if options.print is not None:
         return _print(options.print, options)
     if options.headless or options.json or options.robot or options.anyway or options.view:
+        if options.printed:
+            raise Refusal("the emulated arena has no printed floor: leave out --printed")
         if options.emulate is None:
             raise Refusal("without a window only the emulated arena can be calibrated: add --emulate")
         return _prove(options, options.emulate)
     from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
 
-    first = lambda context: CalibrationPage(context, camera=options.camera)  # noqa: E731
+    first = lambda context: CalibrationPage(context, camera=options.camera, printed=options.printed)  # noqa: E731
     return show(Options(first_scene=first, without_title=True, display=options.display, emulator_seed=options.emulate))
 
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from pigaming_app.hardware.calibration.boards import ARENA_AT
 from pigaming_app.hardware.calibration.drift import EDGE, PLACES, QUIET
 from pigaming_app.hardware.calibration.floor_surface import FloorSurface
-from pigaming_app.hardware.vision.markers import CORNER_IDS
+from pigaming_app.hardware.calibration.printed import PRINTED_PLACES
 from pigaming_app.scenes.mat.paper.marker_sheet import marker
 from pigaming_app.scenes.mat.paper.paper_canvas import PaperCanvas
 from pigaming_app.scenes.views.game_screens import GameScreens
@@ -80,7 +80,7 @@ def drawing(surface: FloorSurface, screens: GameScreens, arena: Arena, title: st
     _starts(ink, arena)
     corners = [
         marker(number, x - 0.5 - ARENA_AT[0] - EDGE / 2, y - 0.5 - ARENA_AT[1] - EDGE / 2, EDGE)
-        for number, (x, y) in zip(CORNER_IDS, PLACES, strict=True)
+        for number, (x, y) in PRINTED_PLACES.items()
     ]
     heading, note = written(title, 0.0, -60.0, 36.0, True), words("sheet.bar")
     bar = _bar(WIDTH - max(BAR / mm, 20.0 * LETTER * len(note)), -60.0, 1.0 / mm, note, 20.0)
