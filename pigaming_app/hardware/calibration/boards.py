@@ -4,7 +4,7 @@
 its errors are those of the calibration, not the residuals of the fit.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -73,8 +73,8 @@ HELD_OUT = CalibrationBoard((976.0, 553.0), (238.0, 182.0))  # every marker at l
 class BoardSamples:
     """Detected markers of a board, accumulated over pictures. Raises OpenCVMissing."""
 
-    def __init__(self) -> None:
-        self._markers = MarkerDetector(BOARD_IDS)
+    def __init__(self, numbers: Iterable[int] = BOARD_IDS) -> None:
+        self._markers = MarkerDetector(numbers)
         self._seen: dict[int, list[Points]] = {}
         self._blurs: dict[int, list[float]] = {}
         self.frames = 0
@@ -105,14 +105,18 @@ class BoardSamples:
     def corners(self) -> Mapping[int, Points]:
         """Median corners of the markers seen in at least half of the pictures, camera px. Raises CalibrationError."""
         often = {number: np.array(seen) for number, seen in self._seen.items() if 2 * len(seen) >= self.frames}
-        if len(often) < MIN_MARKERS:
-            raise CalibrationError(OperatorMessage("few", seen=len(often), all=COLUMNS * ROWS, needed=MIN_MARKERS))
-        if empty := _empty_corner(often):
-            raise CalibrationError(OperatorMessage(empty))
+        self.check(often)
         shake = float(np.median([seen.std(axis=0).max() for seen in often.values()]))
         if shake > MAX_SHAKE:
             raise CalibrationError(OperatorMessage("moves", shake=f"{shake:.1f}"))
         return {number: np.median(seen, axis=0) for number, seen in often.items()}
+
+    def check(self, often: Mapping[int, object]) -> None:
+        """Raises CalibrationError if these markers are too few."""
+        if len(often) < MIN_MARKERS:
+            raise CalibrationError(OperatorMessage("few", seen=len(often), all=COLUMNS * ROWS, needed=MIN_MARKERS))
+        if empty := _empty_corner(often):
+            raise CalibrationError(OperatorMessage(empty))
 
 
 def _empty_corner(seen: Mapping[int, object]) -> str:

@@ -24,6 +24,7 @@ from pigaming_app.storage.parsing import ParseError, parse_toml, quote
 from pigaming_app.storage.schema import between, to_plain, typed
 
 VERSION = 1
+PRINTED = "printed"  # the display of a calibration by printed markers, which holds with every screen
 LID = 70.0  # mm from the mat to the marker on a robot
 MARKER = 50.0  # mm, the edge of a robot's marker
 MAX_SIZE_ERROR = 0.04  # relative deviation of the markers' size beyond which the arena's width is in doubt
@@ -89,7 +90,7 @@ class Lens:
 class GroundPlane:
     """A calibration. The camera is `height` mm above the mat, over the point `foot` (arena px)."""
 
-    display: str  # the display it was made on, as in `Canvas.displays`
+    display: str  # the display it was made on, as in `Canvas.displays`, or PRINTED
     lens: Lens  # with the size of the pictures
     plane: Plane  # homography, row by row: undistorted camera px -> arena px on the mat
     width_mm: Annotated[float, between(100.0, 20_000.0)]  # of the arena on the mat, measured with a ruler
@@ -105,6 +106,11 @@ class GroundPlane:
         matrix = np.array(self.plane, dtype=np.float64).reshape(3, 3)
         object.__setattr__(self, "_onto", matrix)
         object.__setattr__(self, "_back", np.linalg.inv(matrix))
+
+    @property
+    def printed(self) -> bool:
+        """True if the floor is printed: nothing is projected on it."""
+        return self.display == PRINTED
 
     @property
     def mm(self) -> float:
@@ -197,7 +203,7 @@ def read(text: str, display: str | None = None, camera: tuple[int, int] | None =
             raise ParseError("lid: as high as the camera")
     except ParseError as error:
         raise CalibrationError(OperatorMessage("damaged", detail=error)) from error
-    if display is not None and ground.display != display:
+    if display is not None and ground.display not in (display, PRINTED):
         raise CalibrationError(OperatorMessage("other_display", theirs=ground.display, ours=display))
     if camera is not None and ground.lens.size != camera:
         raise CalibrationError(size_mismatch(ground, camera))

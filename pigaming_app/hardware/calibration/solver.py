@@ -6,11 +6,12 @@ k1 and k2 a homography alone leaves errors of centimetres.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.hardware.calibration.boards import MIN_MARKERS, CalibrationBoard
+from pigaming_app.hardware.calibration.boards import MIN_MARKERS
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, Lens, Points, project
 from pigaming_app.hardware.calibration.least_squares import least_squares
 from pigaming_app.hardware.vision.markers import opencv
@@ -48,17 +49,31 @@ class Residuals:
         return OperatorMessage("inaccurate", **errors, need_mean=MEAN_MM, need_most=f"{MAX_MM:.0f}")
 
 
+class KnownMarkers(Protocol):
+    """Markers at known places."""
+
+    @property
+    def corners(self) -> Mapping[int, Points]:
+        """Corners of each, arena px, (n, 2)."""
+
+
 def solve(
-    seen: Mapping[int, Points], board: CalibrationBoard, size: tuple[int, int], width_mm: float, display: str
+    seen: Mapping[int, Points],
+    board: KnownMarkers,
+    size: tuple[int, int],
+    width_mm: float,
+    display: str,
+    least: int = MIN_MARKERS,
 ) -> GroundPlane:
     """Fit a ground plane to the corners of a board (`BoardSamples.corners`). The camera's position stays a guess.
 
-    `size`: of the camera's pictures, px; `width_mm`: of the arena on the mat. Raises CalibrationError.
+    `size`: of the camera's pictures, px; `width_mm`: of the arena on the mat; `least`: markers needed. Raises
+    CalibrationError.
     """
     truth = board.corners
     numbers = [number for number in seen if number in truth]
     for _ in range(3):
-        if len(numbers) < MIN_MARKERS:
+        if len(numbers) < least:
             raise CalibrationError(OperatorMessage("wrong_board"))
         places, points = _stacked(truth, numbers), _stacked(seen, numbers)
         parameters = _fit(places, points, size)
@@ -70,7 +85,7 @@ def solve(
     return _as_ground(parameters, size, width_mm, display)
 
 
-def verify(ground: GroundPlane, seen: Mapping[int, Points], board: CalibrationBoard) -> Residuals:
+def verify(ground: GroundPlane, seen: Mapping[int, Points], board: KnownMarkers) -> Residuals:
     """Errors of the ground on a board other than the one that was solved."""
     truth = board.corners
     numbers = [number for number in seen if number in truth]

@@ -37,11 +37,12 @@ class TrueLens:
 class Optics:
     """The maps between canvas, mat and sensor."""
 
-    def __init__(self, lens: TrueLens | None = None) -> None:
+    def __init__(self, lens: TrueLens | None = None, corners: Floats = CORNERS) -> None:
+        """`corners`: of the projected image, or of a printed one, mm on the mat, (4, 2)."""
         self.lens = lens or TrueLens()
         self.turn = _look_at(self.lens)
         rim = np.array([[0, 0], [CANVAS[0], 0], CANVAS, [0, CANVAS[1]]]) - 0.5  # integers are pixel centres
-        self.to_mat = _homography(rim, CORNERS)
+        self.to_mat = _homography(rim, corners)
         self.to_canvas: Floats = np.linalg.inv(self.to_mat).astype(np.float64)
         self.rays = _rays(self.lens, self.turn.tobytes())
 

@@ -106,6 +106,19 @@ class SceneRenderer:
         self._lights: tuple[Image | None, dict[tuple[bool, ImageRegion], Image]] = None, {}  # of a projected picture
         self.furnish(self._solid)
 
+    def lay_paper(self, paper: Image, mm: float) -> None:
+        """Lay printed paper on the mat, grey, with its middle on that of the mat; `mm`: of one of its px."""
+        import cv2
+
+        x, y = self.optics.plane(0.0, *WHOLE.cut())
+        high, wide = paper.shape
+        at = x / np.float32(mm) + np.float32(wide / 2 - 0.5), y / np.float32(mm) + np.float32(high / 2 - 0.5)
+        footprint = self.optics.lens.eye[2] / self.optics.lens.focal / mm  # paper px in a px of the camera
+        soft = cv2.GaussianBlur(paper, (0, 0), max(0.3, 0.4 * footprint))
+        ink = cv2.remap(soft, *at, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT, borderValue=255.0)
+        self._mat = np.asarray(self._mat * (ink / np.float32(255.0)), dtype=np.float32)
+        self.furnish(self._solid)
+
     def furnish(self, things: Sequence[Prism]) -> None:
         """Put these things on the mat, in place of all that stand on it. Takes about 0.1 s a thing."""
         self._solid = tuple(things)

@@ -11,7 +11,6 @@ from math import atan2, cos, hypot, inf, sin
 import numpy as np
 
 from pigaming_app.hardware.calibration.ground_plane import MARKER, SIZE_TOLERANCE, SKEW_TOLERANCE, GroundPlane
-from pigaming_app.hardware.calibration.marker_sheet import BLOCK_SIZES
 from pigaming_app.hardware.control.moving_things import MovingThings, Things
 from pigaming_app.hardware.scan.things import Outline, Thing, ThingKind
 from pigaming_app.hardware.signals import CameraFrame, DetectedMarker
@@ -21,6 +20,8 @@ from pigaming_app.sim.things.spec import MOST
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
 BLOCK_HEIGHT = 50.0  # mm
+SQUARE, LONG = (80.0, 80.0), (160.0, 70.0)  # mm: tops of blocks, along and across the upper edge of the marker
+BLOCK_SIZES = {number: SQUARE if number < 32 else LONG for number in range(20, 40)}  # mm, by marker
 TIMEOUT = 1.0  # s without sight, after which a block is gone
 SEARCH = 0.1  # s between two searches of the whole picture
 LOST = 0.25  # s for which a block that is out of sight is searched near its last place

@@ -134,7 +134,7 @@ class EmulatedSession(RobotSession):
             arena.cleared = False
             if self._things and not arena.things:
                 arena.furnish(self._things)
-            self._now, self.mm, self.quality = arena.clock(), ground.mm, ground.quality
+            self._now, self.mm, self.quality, self.printed = arena.clock(), ground.mm, ground.quality, ground.printed
             name, network = (UDP, partial(self._wifi_network, self._wifi)) if self._wifi else ("api2", None)
             site = LinkSite(arena.arena_id, arena.clock, "EMU0", open_port=lambda _: arena.radio.open, network=network)
             link = DRIVERS[name].open(site)

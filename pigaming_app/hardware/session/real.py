@@ -82,6 +82,7 @@ class RealSession(RobotSession):
             if self.settings.camera_delay >= 0:
                 rig.begin_camera_delay(self.settings.camera_delay / 1000.0)
             self.mm, self.quality, self.ground, self._rig = ground.mm, ground.quality, ground, rig.start()
+            self.printed = ground.printed
         return self._rig
 
     def _declared(self, mm: float) -> "list[Drivetrain]":

@@ -45,6 +45,7 @@ class RobotSession:
     expected: "ExpectedLight | None" = None  # the mat as scanned last, for the watch over its things
     quality: "CameraQuality | None" = None  # of the calibrated picture, valid while the session is open
     mm = 0.0  # of the mat per arena px, valid while the session is open
+    printed = False  # True while it is open on a printed floor: robots are shown on a screen beside it
     _rig: "Rig | None" = None
     _next = 0.0  # s, time of the next tick
 

@@ -17,7 +17,9 @@ from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 ROBOT_IDS = (16, 17, 43, 45)  # of the robots 0 to 3: those missed least of all that blocks and corners leave free
 WEARERS = {number: robot for robot, number in enumerate(ROBOT_IDS)}
-CORNER_IDS = (10, 11, 12, 13)  # projected in the margins of the canvas, see `drift`
+CORNER_IDS = (10, 11, 12, 13)  # projected in the margins of the canvas, see `drift`, or printed
+RIM_IDS = (14, 15, 18)  # printed between those
+CELLS = 6  # of a marker with its black border, without the quiet zone
 READABLE = 23.0  # px of a marker's edge in a downscaled image: 96 % are detected from 22 px, 52 % at 14 px
 SMALLEST = 0.5  # lowest scale of a downscaled image; below, noise is no longer averaged
 DIM, LIFT = (
@@ -190,6 +192,12 @@ def opencv() -> Any:
 def dictionary(cv: Any) -> Any:
     """The ArUco dictionary of all markers."""
     return cv.aruco.getPredefinedDictionary(cv.aruco.DICT_4X4_50)
+
+
+def cells(number: int) -> NDArray[np.bool_]:
+    """The black cells of a marker, (6, 6) bool. Raises OpenCVMissing."""
+    cv = opencv()
+    return np.asarray(cv.aruco.generateImageMarker(dictionary(cv), number, CELLS) < 128)
 
 
 def detections(corners: Any, ids: Any) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

@@ -9,7 +9,7 @@ import pygame
 
 from pigaming_app.scenes.flow.used_keys import FIRE, STEER, TURBO
 from pigaming_app.scenes.views.lesson import Lesson
-from pigaming_app.scenes.views.preview import fitted, robots, walls
+from pigaming_app.scenes.views.preview import fitted, floor, robots, walls
 from pigaming_app.scenes.views.view import MatchView, ViewOptions
 from pigaming_app.sim.arena import Arena
 from pigaming_app.ui.draw import ADD, Color, GlowCanvas, Point, shape_points
@@ -38,6 +38,7 @@ class GameScreens:
     - `preview(arena, w, h, allies)`: an arena as additive light in w x h px.
     - `plan(canvas, arena, left, top, scale)`: what a preview shows besides, such as the lines of a pitch; (left, top)
       is the corner of the arena on the canvas.
+    - `floor(canvas, arena)`: what lies on the floor of an arena for all of a match, in px of it, as a poster shows it.
     - `deal(canvas, arena, state)`: what the seed of a match deals, over its preview, in px of the arena; the robots.
     - `first_keys`: the keys that new players are shown until they have used them, in this order.
     - `confetti(canvas, placed, size, shape, color)`: a piece of it at the celebration.
@@ -61,6 +62,7 @@ class GameScreens:
     signs: Mapping[str, str] = field(default_factory=dict)
     awards: Mapping[str, str] = field(default_factory=dict)
     plan: Callable[[GlowCanvas, Arena, float, float, float], object] | None = None
+    floor: Callable[[GlowCanvas, Arena], object] = floor
     deal: Callable[[GlowCanvas, Arena, Any], object] = robots
     first_keys: tuple[str, ...] = (STEER, FIRE, TURBO)
     forget: Callable[[Path], object] = lambda folder: None

@@ -42,6 +42,15 @@ def walls(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]:
     return out
 
 
+def floor(ink: kit.GlowCanvas, arena: Arena) -> None:
+    """Walls of an arena, px of it, without glow; the inside of those that bullets destroy is dim."""
+    for wall in arena.walls:
+        ends = [(wall.ax, wall.ay), (wall.bx, wall.by)]
+        ink.line(ends, kit.WALL, 2 * wall.half)
+        if wall.health != SOLID:
+            ink.line(ends, kit.dim(kit.WALL, 0.3), 2 * wall.half - 8)
+
+
 def robots(ink: kit.GlowCanvas, arena: Arena, state: Any) -> None:
     """The robots of a match on the starts that were dealt to their seats."""
     for seat, robot in enumerate(state.robots):

@@ -8,8 +8,8 @@ import pytest
 from pigaming_app.hardware.calibration.boards import BOARD_IDS
 from pigaming_app.hardware.calibration.detection import found_share
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, read, to_toml
-from pigaming_app.hardware.calibration.marker_sheet import BLOCK_SIZES
 from pigaming_app.hardware.calibration.quality import CameraQuality, assessed, used_anyway
+from pigaming_app.hardware.scan.blocks import BLOCK_SIZES
 from pigaming_app.hardware.signals import ExposureKept, ExposureState
 from pigaming_app.hardware.vision.markers import CORNER_IDS, ROBOT_IDS, WEARERS
 from pigaming_app.ui.i18n import Words

@@ -8,6 +8,7 @@ import math
 import pygame
 
 from pigaming_app.hardware.calibration.boards import LIGHT, CalibrationBoard
+from pigaming_app.hardware.calibration.printed import PrintedCalibration
 from pigaming_app.hardware.calibration.procedure import Calibration
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.vision.discovery import CameraId
@@ -33,7 +34,7 @@ class BoardsPage(Page):
     def __init__(self, context: Context, site: CalibrationSite, number: CameraId, measures: Measurements) -> None:
         super().__init__(context)
         self.site, self.number, self.measures = site, number, measures
-        self.work = Calibration(site, number, measures, context.canvas.projection)
+        self.work = self._new_work()
         self.work.begin()
 
     def on_enter(self) -> None:
@@ -67,26 +68,30 @@ class BoardsPage(Page):
         return Swap(ResultPage(self.context, finding, self._retry))
 
     def draw(self, screen: pygame.Surface) -> None:
-        board = self.work.board
+        work = self.work
+        assert isinstance(work, Calibration)
+        board = work.board
         if board is None:
             screen.fill((0, 0, 0))
             return
         try:
             screen.blit(picture(board), (0, 0))
         except OpenCVMissing as missing:
-            self.work.give_up(missing.message)
+            work.give_up(missing.message)
             screen.fill((0, 0, 0))
             return
-        self._draw_progress(screen)
-        self.work.mark_shown(board)
+        self._draw_progress(screen, *work.progress)
+        work.mark_shown(board)
+
+    def _new_work(self) -> Calibration | PrintedCalibration:
+        return Calibration(self.site, self.number, self.measures, self.context.canvas.projection)
 
     def _retry(self) -> Scene:
         """A page that repeats the calibration."""
         return BoardsPage(self.context, self.site, self.number, self.measures)
 
-    def _draw_progress(self, screen: pygame.Surface) -> None:
+    def _draw_progress(self, screen: pygame.Surface, taken: int, whole: int) -> None:
         """One box per picture, filled when taken."""
-        taken, whole = self.work.progress
         left = 960 - (whole * (BOX + GAP) - GAP) // 2
         for i in range(whole):
             box = pygame.Rect(left + i * (BOX + GAP), FOOT - 6, BOX, 12)

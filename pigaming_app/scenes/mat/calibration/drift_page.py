@@ -74,7 +74,8 @@ class DriftPage(Page):
         else:
             self._draw_drift(screen, work.mm)
         try:
-            draw_corners(screen)
+            if not (work.drift and work.drift.ground.printed):
+                draw_corners(screen)
         except OpenCVMissing as missing:
             work.fault = missing.message
         self._draw_picture(screen)

@@ -19,6 +19,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.mat.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
+from pigaming_app.scenes.mat.calibration.printed_page import PrintedPage
 from pigaming_app.scenes.mat.phone_camera.page import PhoneCameraPage
 from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.scenes.pages.settings_page import SettingsPage
@@ -34,7 +35,7 @@ from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.labels import heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-ROWS = ("display", "camera", "address", "phone", "width", "lid", "by", "height", "begin")
+ROWS = ("floor", "display", "camera", "address", "phone", "width", "lid", "by", "height", "begin")
 LIMITS = {"width": (500, 10000), "lid": (0, 300), "height": (500, 10000)}  # mm
 REPEAT_STEPS = ((40, 100), (14, 10), (0, 1))  # step in mm after this many auto-repeats
 DEFAULT_HEIGHT = 2500  # mm, initial height
@@ -56,16 +57,23 @@ def site_of(context: Context) -> CalibrationSite:
 
 
 class CalibrationPage(SettingsPage):
-    """The page. `camera`: the initial one, else that of the settings."""
+    """The page. `camera`: the initial one, else that of the settings; `printed`: the floor is, else as last time."""
 
     table = "calibrate"
     idle, stay = 600.0, 5.0
 
-    def __init__(self, context: Context, site: CalibrationSite | None = None, camera: CameraId | None = None) -> None:
+    def __init__(
+        self,
+        context: Context,
+        site: CalibrationSite | None = None,
+        camera: CameraId | None = None,
+        printed: bool = False,
+    ) -> None:
         self.context, self.site = context, site or site_of(context)
         self.number: CameraId = context.settings.camera if camera is None else camera
         if camera == PHONE and self.site.name == "real":
             context.settings.camera = PHONE  # it is served from now on
+        self.printed = printed or self._was_printed()
         self.measures = self._initial_measures()
         self.preview: CameraPreview | None = None
         self.cameras = self.site.cameras()
@@ -161,14 +169,27 @@ class CalibrationPage(SettingsPage):
 
     # ---- rows
 
+    def line(self, name: str) -> str:
+        printed = f"{self.table}.{name}_printed_line"
+        return self.context.words(printed) if self.printed and printed in self.context.words else super().line(name)
+
+    def _was_printed(self) -> bool:
+        try:
+            return store.load(store.calibration_file(self.site.name)).printed
+        except CalibrationError:
+            return False
+
     def _rows(self) -> tuple[str, ...]:
-        without = {"height"} if not self.measures.height else set()
+        without = {"display", "by"} if self.printed else {"height"} if not self.measures.height else set()
         without |= set() if self.site.name == "real" else {"address", "phone"}
         return tuple(name for name in ROWS if name not in without)
 
     def value(self, name: str) -> SettingValue:
         words, measures, canvas = self.context.words, self.measures, self.context.canvas
         match name:
+            case "floor":
+                names = words("calibrate.projected"), words("calibrate.printed")
+                return SettingValue("toggle", names, self.printed)
             case "display":
                 return SettingValue("arrows", tuple(canvas.displays()), canvas.display)
             case "camera":
@@ -214,6 +235,10 @@ class CalibrationPage(SettingsPage):
         measures = self.measures
         if name == "display":
             self._show(chosen, self.context.canvas.fullscreen)
+        elif name == "floor":
+            self.printed = bool(chosen)
+            self.measures = replace(self.measures, height=self.measures.height or DEFAULT_HEIGHT)
+            self.show_rows(self._rows())
         else:
             height = 0.0 if chosen else self.site.measures.height or DEFAULT_HEIGHT
             self.measures = Measurements(measures.width, height, measures.lid)
@@ -261,6 +286,9 @@ class CalibrationPage(SettingsPage):
             self.number = self.context.settings.camera = PHONE
             self.save()
             return Push(PhoneCameraPage(self.context))
+        if self.printed:
+            self.save()
+            return Push(PrintedPage(self.context, self.site, self.number, self.measures))
         canvas = self.context.canvas
         if self.site.name == "real" and not canvas.fullscreen and not canvas.headless:
             self._show(canvas.display, True)
@@ -281,7 +309,8 @@ class CalibrationPage(SettingsPage):
         settings = self.context.settings
         if self.site.name != "real":
             return self.site.measures
-        return Measurements(settings.arena_mm, settings.camera_mm, settings.lid_mm)
+        height = settings.camera_mm or (DEFAULT_HEIGHT if self.printed else 0.0)
+        return Measurements(settings.arena_mm, height, settings.lid_mm)
 
     def save(self, write: Callable[[], object] | None = None) -> bool:
         """Save the choices, except for an emulated arena."""

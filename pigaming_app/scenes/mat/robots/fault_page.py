@@ -41,7 +41,7 @@ class FaultPage:
         self.faults: list[Fault] = []
         self.picture: pygame.Surface | None = None
         self.held = 0.0
-        self.flood, self.searched = FloodLight(), 0.0  # s for which a robot has been out of sight
+        self.flood, self.searched = FloodLight(self.context), 0.0  # s for which a robot has been out of sight
         hints = [(Button.X, "mat.hint_simulate"), (Button.START, "pause.hint_menu")]
         self.prompts = self.context.prompts(hints, PROMPTS, W - 80, device=lambda: match.access.hint_device)
         repair_prompts = [(Button.FIRE, "mat.hint_pair"), (Button.Y, "mat.hint_retry")]

@@ -52,7 +52,7 @@ class FleetPage(SettingsPage):
     def __init__(self, context: Context) -> None:
         session = session_of(context)
         self.check = FleetState(session, context.settings)
-        self.flood = FloodLight()
+        self.flood = FloodLight(context)
         self.flood.level = 0.0
         self.reopen_in, self.since_read = 0.0, EVERY
         self.aside, self.sheet = BlockLayout(), pygame.Surface((1920, 1080))
@@ -127,7 +127,7 @@ class FleetPage(SettingsPage):
     @property
     def discs(self) -> MarkerDiscs | None:
         """Discs for the robots' markers, once a rig is open."""
-        return MarkerDiscs(self.check.rig) if self.check.rig is not None else None
+        return MarkerDiscs(self.check.rig, session_of(self.context).printed) if self.check.rig is not None else None
 
     def _blocks(self) -> list[pygame.Rect]:
         """Blocks of the page: rows, robots, description, prompts and faults."""

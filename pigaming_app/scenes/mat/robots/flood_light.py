@@ -9,6 +9,8 @@ from collections.abc import Sequence
 
 import pygame
 
+from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.ui.draw import BODY
 from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import Words
@@ -20,10 +22,11 @@ TITLE_Y, LINE_Y = 38, 98  # px, above the arena
 
 
 class FloodLight:
-    """Fading floodlight. Call `update` every frame."""
+    """Fading floodlight. Call `update` every frame. Over a printed floor there is no projector: it stays off."""
 
-    def __init__(self) -> None:
-        self.level = 1.0  # 0..1
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self.level = 0.0 if self._printed else 1.0  # 0..1
 
     @property
     def full(self) -> bool:
@@ -32,8 +35,13 @@ class FloodLight:
 
     def update(self, seconds: float, missing: bool) -> None:
         """Fade in while a robot is missing, out once all are seen."""
-        change = seconds / FADE
-        self.level = min(1.0, self.level + change) if missing else max(0.0, self.level - change)
+        change = seconds / FADE if missing and not self._printed else -seconds / FADE
+        self.level = min(1.0, max(0.0, self.level + change))
+
+    @property
+    def _printed(self) -> bool:
+        session = session_if_any(self._context)
+        return session is not None and session.printed
 
     def draw(self, screen: pygame.Surface, title: str, line: str = "") -> None:
         """Draw the light over a page, and the texts at full grey."""

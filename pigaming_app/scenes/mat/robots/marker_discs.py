@@ -13,11 +13,13 @@ import pygame
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.session.robot_session import LIGHT_AFTER
 from pigaming_app.scenes.views.background import LEFT, TOP
+from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import BLACK, GREY, LINE, PLAYERS, THIN, Color, GlowCanvas, badge, regular_polygon
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.widgets.labels import blit_sprite
 
 DISC = 72  # px: 95 mm
 MOAT = 77  # px, black margin around it
@@ -31,10 +33,10 @@ KNOWN = 1.0  # s after which the pose of an unseen robot is unknown
 
 
 class MarkerDiscs:
-    """Discs of a rig's robots."""
+    """Discs of a rig's robots; `printed`: robots instead, for a screen beside a printed floor."""
 
-    def __init__(self, rig: Rig) -> None:
-        self.rig = rig
+    def __init__(self, rig: Rig, printed: bool = False) -> None:
+        self.rig, self.printed = rig, printed
 
     def circles(self, robots: set[int]) -> list[tuple[float, float, float]]:
         """Centres and radii of the areas covered by the light of these robots: rings, arrows, tags; canvas px."""
@@ -61,6 +63,10 @@ class MarkerDiscs:
         `cover`: called in between; keeps the surrounding light off real things. `ring_color`: of a robot.
         """
         visible = self._visible(robots)
+        if self.printed:
+            for robot, at in visible:
+                blit_sprite(screen, tank(robot, step(at.heading, HEADINGS)), LEFT + at.x, TOP + at.y)
+            return
         for robot, at in visible:
             x, y = LEFT + at.x, TOP + at.y
             for sprite, dx, dy in (

@@ -93,7 +93,7 @@ class RobotsMenu(SettingsPage):
 
     def _write(self) -> str:
         """Save the marker sheet to the user's folder. Returns where it is, or why it is not."""
-        from pigaming_app.hardware.calibration.marker_sheet import sheet
+        from pigaming_app.scenes.mat.paper.marker_sheet import sheet
 
         path, words = folders().data / SHEET, self.context.words
         notes = with_english(words.language, "sheet.print", "sheet.cut")

@@ -35,7 +35,7 @@ class PairAgain(Page):
     def __init__(self, match: InterruptedMatch) -> None:
         super().__init__(match.context)
         self.match = match
-        self.flood, self.timestep = FloodLight(), FixedTimestep()
+        self.flood, self.timestep = FloodLight(match.context), FixedTimestep()
         self.pairing: Pairing | None = None
         self.sentence = ""  # fault, once all have spun
         self.clock = 0.0

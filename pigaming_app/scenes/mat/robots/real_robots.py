@@ -51,7 +51,7 @@ class RealRobots:
         plant.recorder = MatchRecorder(session.mm, session.emulated)
         rig.recorder = plant.recorder.run
         self.watch = MatchWatch(session, rig)
-        self._discs = MarkerDiscs(rig)
+        self._discs = MarkerDiscs(rig, session.printed)
         plant.things = MovingThings(
             scene.match.state, len(scene.match.arena.walls), tuple(things), reroute_of(scene.match)
         )
@@ -87,7 +87,7 @@ class RealRobots:
 
     def mark(self) -> None:
         """Update view and tracker with the set of real robots."""
-        self.scene.runner.view.real = frozenset(self.real)
+        self.scene.runner.view.real = frozenset() if self.session.printed else frozenset(self.real)
         self.plant.rig.tracker.expected = self.real
 
     def apply_pairing(self, channels: Sequence[int], turned: Collection[int]) -> None:
@@ -123,8 +123,13 @@ class RealRobots:
         self._publish()
 
     def draw_overlay(self, screen: pygame.Surface, cover: Callable[[pygame.Surface], None] | None = None) -> None:
-        """Draw corner markers and discs on top of everything; `cover`: draws what stands on the mat."""
-        if self.real:
+        """Draw corner markers and discs on top of everything; `cover`: draws what stands on the mat.
+
+        Over a printed floor the game shows the robots itself, once they stand on their places.
+        """
+        if self.session.printed and not self.gathering:
+            return
+        if self.real and not self.session.printed:
             draw_corners(screen)
         self._discs.draw(screen, self.real, cover, self.scene.runner.view.color)
 

@@ -56,7 +56,7 @@ class TakePlaces:
     def __init__(self, context: Context, plant: MixedPlant, device: Callable[[], Device]) -> None:
         self.context, self.plant = context, plant
         self.clock = 0.0
-        self.flood = FloodLight()
+        self.flood = FloodLight(context)
         self.prompts = context.prompts(
             [(Button.START, "mat.hint_begin"), (Button.X, "mat.hint_missing"), (Button.BACK, "mat.hint_leave")],
             HINTS_Y, 1560, device=device,

@@ -65,6 +65,8 @@ class ArenaPage(Page):
             self.session.furnish()
             if self.session.ground is None:
                 self.fault = OperatorMessage("ros_site")
+            elif self.session.printed:
+                self.fault = OperatorMessage("printed_scan")
             self._take(load_layout(self.session), False)
         except (RobotsUnavailable, LayoutError) as error:
             log.warning("%s", english().long_sentence(error.message))

@@ -35,7 +35,7 @@ def bare(floor: Floor, allies: bool = False, party: bool = False) -> Steps[pygam
     yield
     yield from draw_floor((page.glow, page.crisp), floor, colors_of(allies), party)
     for slots in warehouses(floor):
-        _draw_storage((page.glow, page.crisp), slots, colors_of(allies)[slots[0].team])
+        draw_storage((page.glow, page.crisp), slots, colors_of(allies)[slots[0].team])
     page.glow.line(kit.cut_box(-3, -3, WIDTH + 6, HEIGHT + 6, 28), kit.WALL, kit.THIN, True)
     yield
     return (yield from page.render_steps())
@@ -145,7 +145,7 @@ def draw_work_place(canvases: Inks, slots: Sequence[SlotSpec], machine: MachineS
         crisp.fill([(cx + u * c - v * s, cy + u * s + v * c) for u, v in ((8, 0), (-6, 13), (-6, -13))], kit.WALL)
 
 
-def _draw_storage(canvases: Inks, slots: tuple[SlotSpec, ...], color: kit.Color) -> None:
+def draw_storage(canvases: Inks, slots: tuple[SlotSpec, ...], color: kit.Color) -> None:
     """Draw a shelf or lorry beside a warehouse, outside the arena, with the direction of the pallets."""
     glow, _ = canvases
     entry = slots[0].kind == ENTRY

@@ -19,18 +19,19 @@ from pigaming_app.games.factory.state import (
     SHARED_SLOTS,
     Factory,
 )
-from pigaming_app.scenes.views.factory.background import colors_of, draw_floor, draw_warehouse, warehouses
+from pigaming_app.scenes.views.factory.background import colors_of, draw_floor, draw_storage, draw_warehouse, warehouses
 from pigaming_app.scenes.views.factory.view import FactoryView
 from pigaming_app.scenes.views.game_screens import GameScreens, Placed
 from pigaming_app.scenes.views.lesson import Actor, Lesson
 from pigaming_app.scenes.views.preview import fitted, robots
 from pigaming_app.scenes.views.sprites.robot import robot as draw_robot
+from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.scenes.views.things.on_mat import black_out, draw_all
 from pigaming_app.scenes.views.things.styles import WORKSHOP
 from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import HEIGHT, HZ, WIDTH
 from pigaming_app.ui.draw import ALARM, BLUE, GREEN, ICE, LINE, MIST, THIN, Color, GlowCanvas, cut_box, dim
-from pigaming_app.ui.draw.frame_budget import Steps
+from pigaming_app.ui.draw.frame_budget import Steps, run_to_end
 
 GLOW = 0.75
 
@@ -75,6 +76,13 @@ def preview(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]
     out = yield from glow.lit_steps(GLOW)
     yield from crisp.downscale_onto(out)
     return out
+
+
+def floor(ink: GlowCanvas, arena: Arena) -> None:
+    """Machines, the aisle, and the warehouses with what stands beside them."""
+    run_to_end(draw_floor((ink, ink), arena.plan, TEAMS))
+    for slots in warehouses(arena.plan):
+        draw_storage((ink, ink), slots, TEAMS[slots[0].team])
 
 
 def deal(ink: GlowCanvas, arena: Arena, state: Factory) -> None:
@@ -174,6 +182,7 @@ SCREENS = GameScreens(
     team_colors=True,
     lessons=LESSONS,
     lesson_pages=("standard", "party", "together"),
+    floor=floor,
     deal=deal,
     awards={"delivered": "crate", "steps": "gear", "-bumps": "heart"},
 )

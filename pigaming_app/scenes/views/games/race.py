@@ -22,7 +22,7 @@ from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.world import HEIGHT, HZ, WIDTH
 from pigaming_app.ui.draw import ADD, BLACK, ICE, LINE, MIST, PLAYERS, THIN, Color, GlowCanvas, Point, dim
-from pigaming_app.ui.draw.frame_budget import Steps
+from pigaming_app.ui.draw.frame_budget import Steps, run_to_end
 
 
 def tile(ink: GlowCanvas, x: float, y: float) -> None:
@@ -68,6 +68,13 @@ def preview(arena: Arena, w: int, h: int, allies: bool) -> Steps[pygame.Surface]
     out.blit(light, (0, 0), special_flags=ADD)
     yield from crisp.downscale_onto(out)
     return out
+
+
+def floor(ink: GlowCanvas, arena: Arena) -> None:
+    """Road, direction, and the lines."""
+    run_to_end(draw_track(ink, ink, arena.plan))
+    for along in arena.plan.lines:
+        draw_line(ink, ink, frame(arena.plan.course, along), ICE)
 
 
 def deal(ink: GlowCanvas, arena: Arena, state: Race) -> None:
@@ -139,6 +146,7 @@ SCREENS = GameScreens(
     chequer,
     lessons=LESSONS,
     lesson_pages=("standard", "party"),
+    floor=floor,
     deal=deal,
     first_keys=(STEER, TURBO),
     forget=delete_ghosts,

@@ -33,7 +33,7 @@ def longest(language: str) -> OperatorMessage:
     return OperatorMessage(key.removeprefix("hardware."), **{name: f"{{{name}}}" for name in holes})
 
 
-OFF = SimpleNamespace(ground=SimpleNamespace(marker=45.0))
+OFF = SimpleNamespace(ground=SimpleNamespace(marker=45.0, printed=False))
 STATES: dict[str, dict[str, Any]] = {
     "looking": {"mm": None},
     "still": {"mm": 0.1},

@@ -64,6 +64,6 @@ def test_a_sheet_that_cannot_be_written_is_one_sentence(
     def none(**_: object) -> bytes:
         raise OpenCVMissing(OperatorMessage("no_opencv"))
 
-    monkeypatch.setattr("pigaming_app.hardware.calibration.marker_sheet.sheet", none)
+    monkeypatch.setattr("pigaming_app.scenes.mat.paper.marker_sheet.sheet", none)
     arcade.press(Button.FIRE)
     assert arcade.shown(RobotsMenu).message == arcade.context.words("hardware.no_opencv")

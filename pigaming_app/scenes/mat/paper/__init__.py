@@ -1,0 +1,1 @@
+"""What is printed: the sheet of markers, and arenas to scale."""
