@@ -36,7 +36,7 @@ EXTRAS = {
     "train": "bench, duel, league and train are slow without it; the arcade does not need it",
     "hardware": "only real robots need it",
     "ray": "only training on several machines needs it",
-    "phones": "only phones as pads need it",
+    "phones": "only phones as pads or as the camera need it",
     "onnx": "only ONNX models as players need it",
 }
 DEVICES = {  # state and advice where it is missing

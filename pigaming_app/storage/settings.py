@@ -65,8 +65,9 @@ def folders() -> Folders:
 Short = Annotated[str, PRINTABLE, Meta(max_length=MAX_NAME)]  # a name of something that may no longer exist
 Seat = Annotated[int, between(1, 4)]
 Volume = Annotated[int, between(0, 10)]
+PHONE = "phone"  # in place of a camera's number
 STREAM = Meta(
-    pattern=r"^(phone|(https?|rtsp)://[!-.0-Z^-~]+(/[!-~]*)?)\Z", max_length=200
+    pattern=rf"^({PHONE}|(https?|rtsp)://[!-.0-Z^-~]+(/[!-~]*)?)\Z", max_length=200
 )  # address of a camera in the network, or a phone
 HEX_KEY = Meta(pattern=r"^([0-9a-f]{32})?\Z")
 Functions = Annotated[dict[Short, Annotated[int, Meta(ge=0, lt=1024)]], Meta(min_length=1, max_length=MAX_DEVICES)]

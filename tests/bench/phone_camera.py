@@ -27,8 +27,9 @@ from aiohttp.test_utils import unused_port
 from pigaming_app.hardware.calibration.boards import BOARD
 from pigaming_app.hardware.vision import discovery
 from pigaming_app.hardware.vision.camera import Camera
-from pigaming_app.hardware.vision.phone import PHONE, PhoneCapture, PhoneFeed
+from pigaming_app.hardware.vision.phone import PhoneCapture, PhoneFeed
 from pigaming_app.scenes.mat.phone_camera.host import PhoneCameraHost
+from pigaming_app.storage.settings import PHONE
 from pigaming_app.ui.i18n import english
 from tests.scenes.mat.phone_camera.time_code import drawn_at, film_of
 from tests.scenes.phones.browser import browsing, running_browser

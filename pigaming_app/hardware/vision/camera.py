@@ -16,8 +16,9 @@ from pigaming_app.hardware.vision import stream
 from pigaming_app.hardware.vision.discovery import CameraId, unavailable_reason
 from pigaming_app.hardware.vision.exposure import ExposureControl
 from pigaming_app.hardware.vision.markers import opencv
-from pigaming_app.hardware.vision.phone import PHONE, PhoneCapture
+from pigaming_app.hardware.vision.phone import PhoneCapture
 from pigaming_app.storage.messages import OperatorMessage
+from pigaming_app.storage.settings import PHONE
 
 WIDTH, HEIGHT, FPS = 1920, 1080, 30  # requested format, px and frames/s; the camera may deliver another
 SETTLE = 2.0  # s after opening at which exposure, white balance, focus and gain are locked

@@ -6,9 +6,10 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from pigaming_app.hardware.vision.phone import FEED, PHONE
+from pigaming_app.hardware.vision.phone import FEED
 from pigaming_app.hardware.vision.stream import host_of
 from pigaming_app.storage.messages import OperatorMessage
+from pigaming_app.storage.settings import PHONE
 
 DEVICES = Path("/sys/class/video4linux")
 NODES = Path("/dev")

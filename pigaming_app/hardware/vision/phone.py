@@ -19,7 +19,6 @@ import numpy as np
 from pigaming_app.hardware.signals import Image
 from pigaming_app.storage.messages import OperatorMessage
 
-PHONE = "phone"  # in place of a camera's number
 PICTURE = 1  # kinds of messages: time and JPEG;
 ECHO = 2  # time of an acknowledgement, and of the phone;
 TRACK = 3  # exposure (100 us) and gain (ISO), 0: unknown

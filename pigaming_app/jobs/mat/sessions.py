@@ -11,11 +11,10 @@ from pigaming_app.hardware.drivers.registry import DRIVERS
 from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.hardware.session.robot_session import settings_problem as settings_problem
-from pigaming_app.hardware.vision.phone import PHONE
 from pigaming_app.jobs.terminal.options import RigOptions
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.storage.parsing import quote
-from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.storage.settings import PHONE, Settings, folders
 from pigaming_app.ui.i18n import english
 
 PATIENCE = 20.0  # s for a phone to send its first image

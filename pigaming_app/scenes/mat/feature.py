@@ -10,6 +10,7 @@ from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.robot_mat import RobotMat
 from pigaming_app.scenes.flow.stack import Scene, Stack
 from pigaming_app.scenes.launch import Options
+from pigaming_app.storage.settings import PHONE
 from pigaming_app.ui.draw import FOCUS, ICE, LINE, GlowCanvas, cut_box
 from pigaming_app.ui.window import Pin
 
@@ -49,7 +50,7 @@ class PhoneCameraService(Service):
         self.context, self.on = context, False
 
     def update(self, seconds: float, stack: Stack) -> None:
-        on = self.context.settings.camera == "phone"
+        on = self.context.settings.camera == PHONE
         if on or self.on:
             self._follow(on)
 

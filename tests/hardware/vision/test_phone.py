@@ -21,7 +21,8 @@ from pigaming_app.hardware.vision import discovery
 from pigaming_app.hardware.vision import phone as phones
 from pigaming_app.hardware.vision.camera import Camera
 from pigaming_app.hardware.vision.exposure import LONGEST
-from pigaming_app.hardware.vision.phone import PHONE, PhoneCapture, PhoneClock, PhoneFeed, PictureLink, decoded, size_of
+from pigaming_app.hardware.vision.phone import PhoneCapture, PhoneClock, PhoneFeed, PictureLink, decoded, size_of
+from pigaming_app.storage.settings import PHONE
 
 ONE, OTHER = "1" * 32, "2" * 32  # phones
 LEAD = 5000.0  # s by which a phone's clock is ahead

@@ -14,7 +14,6 @@ from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.hardware.vision.camera import shown
 from pigaming_app.hardware.vision.discovery import CameraId
-from pigaming_app.hardware.vision.phone import PHONE
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.mat.calibration.boards_page import BoardsPage
@@ -25,6 +24,7 @@ from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.storage.messages import OperatorMessage
+from pigaming_app.storage.settings import PHONE
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.pixels import grey_surface

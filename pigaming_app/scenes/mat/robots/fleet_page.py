@@ -10,7 +10,6 @@ from pigaming_app.hardware.radio.serial_line import ports
 from pigaming_app.hardware.session.robot_session import camera_warning
 from pigaming_app.hardware.vision.camera import shown
 from pigaming_app.hardware.vision.discovery import cameras
-from pigaming_app.hardware.vision.phone import PHONE
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import StackOperation
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
@@ -21,6 +20,7 @@ from pigaming_app.scenes.mat.robots.marker_discs import MarkerDiscs, tag
 from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.sim.world import ROBOTS
+from pigaming_app.storage.settings import PHONE
 from pigaming_app.ui.draw import ALARM, FOCUS, GREEN, ICE, MIST, Color
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.draw.text import paragraph, text

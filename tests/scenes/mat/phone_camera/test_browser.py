@@ -32,8 +32,9 @@ from pigaming_app.hardware.session.emulated import calibrated
 from pigaming_app.hardware.vision import discovery
 from pigaming_app.hardware.vision.camera import Camera
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector
-from pigaming_app.hardware.vision.phone import PHONE, PhoneCapture, PhoneFeed
+from pigaming_app.hardware.vision.phone import PhoneCapture, PhoneFeed
 from pigaming_app.scenes.mat.phone_camera.host import CERTIFICATE, PhoneCameraHost
+from pigaming_app.storage.settings import PHONE
 from pigaming_app.ui.i18n import english
 from tests.scenes.mat.phone_camera.time_code import drawn_at, film_of
 from tests.scenes.phones.browser import Browser, browsing, chromium, running_browser

@@ -14,7 +14,7 @@ pytest.importorskip("aiohttp")
 pytest.importorskip("cryptography")
 
 from pigaming_app.hardware.calibration.site import RealCalibrationSite
-from pigaming_app.hardware.vision.phone import FEED, PHONE, PhoneFeed
+from pigaming_app.hardware.vision.phone import FEED, PhoneFeed
 from pigaming_app.jobs.mat import sessions
 from pigaming_app.jobs.terminal.options import RigOptions
 from pigaming_app.jobs.terminal.refusal import Refusal
@@ -24,7 +24,7 @@ from pigaming_app.scenes.mat.feature import PhoneCameraService, service
 from pigaming_app.scenes.mat.phone_camera import host as hosts
 from pigaming_app.scenes.mat.phone_camera.host import FILE, PhoneCameraHost, phone_camera_host
 from pigaming_app.scenes.mat.phone_camera.page import PhoneCameraPage
-from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.storage.settings import PHONE, Settings, folders
 from pigaming_app.ui.i18n import LANGUAGES, Words, english
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
