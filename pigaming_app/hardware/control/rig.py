@@ -22,7 +22,7 @@ from pigaming_app.hardware.run_writer import Recorder
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, Clock, Image, Telemetry, WheelCommand
 from pigaming_app.hardware.tracking.motion_delay import DriveTrace, network_delay
 from pigaming_app.hardware.tracking.pose_filters import PoseFilters
-from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
+from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting
 from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, ROBOTS
@@ -40,6 +40,13 @@ NOTABLE = 0.01  # s, a measured delay up to which none is expected
 GREETING = 0.5  # s after which every robot in range has received a command and reported since
 
 log = logging.getLogger("pigaming")
+
+
+def unmeasured(mm: float) -> Drivetrain:
+    """An unmeasured robot on a surface of so many mm per arena px."""
+    share = MM / mm
+    left, right = (replace(wheel, speed=share * wheel.speed) for wheel in (UNMEASURED.left, UNMEASURED.right))
+    return replace(UNMEASURED, left=left, right=right, base=share * UNMEASURED.base)
 
 
 class RobotSnapshot(NamedTuple):

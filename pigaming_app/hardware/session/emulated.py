@@ -11,7 +11,7 @@ from pigaming_app.hardware.calibration.boards import BOARD, HELD_OUT
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.calibration.procedure import Calibration
 from pigaming_app.hardware.calibration.solver import with_verification
-from pigaming_app.hardware.control.rig import UNMEASURED, Rig
+from pigaming_app.hardware.control.rig import Rig, unmeasured
 from pigaming_app.hardware.drivers.driver import LinkSite
 from pigaming_app.hardware.drivers.ours import UDP
 from pigaming_app.hardware.drivers.registry import DRIVERS
@@ -134,7 +134,7 @@ class EmulatedSession(RobotSession):
             site = LinkSite(arena.arena_id, arena.clock, "EMU0", open_port=lambda _: arena.radio.open, network=network)
             link = DRIVERS[name].open(site)
             camera = EmulatedCalibrationSite(self.seed, self.live, arena).open(0, kept=ground.quality.kept)
-            self._rig = new_rig(camera, link, ground, arena.clock, [UNMEASURED] * ROBOTS, self._tracker)
+            self._rig = new_rig(camera, link, ground, arena.clock, [unmeasured(ground.mm)] * ROBOTS, self._tracker)
             if self._time is not None:
                 self._rig.start()
                 self._time.watched, self._time.limit = True, self._now + AHEAD

@@ -66,7 +66,7 @@ class RealSession(RobotSession):
             try:
                 ground = store.load(store.calibration_file("real"), self.projection())
                 dead_time = driver_of(self.settings).dead_time
-                drivetrains = store.load_robots(store.robots_file(emulated=False), dead_time)
+                drivetrains = store.load_robots(store.robots_file(emulated=False), dead_time, ground.mm)
                 camera = SizedCamera(Camera(self.settings.camera, kept=ground.quality.kept), ground)
                 try:
                     link, kinds = self._new_link(), self.settings.kinds

@@ -10,12 +10,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, to_toml
-from pigaming_app.hardware.control.rig import UNMEASURED
+from pigaming_app.hardware.control.rig import UNMEASURED, unmeasured
 from pigaming_app.hardware.radio.packets import LAST_ARENA
 from pigaming_app.hardware.scan.things import LayoutError, ThingLayout
 from pigaming_app.hardware.scan.things import read as read_layout
 from pigaming_app.hardware.scan.things import to_toml as layout_to_toml
-from pigaming_app.sim.drivetrain import Drivetrain, DrivetrainError, parse
+from pigaming_app.sim.drivetrain import MM, Drivetrain, DrivetrainError, parse
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.parsing import ParseError, describe_error, read_text
@@ -74,15 +74,17 @@ def robots_file(emulated: bool) -> Path:
     return folders().config / ("robots-emulated.toml" if emulated else "robots.toml")
 
 
-def load_robots(path: Path, dead_time: float = UNMEASURED.dead_time) -> tuple[Drivetrain, ...]:
-    """Drivetrains of all robots, UNMEASURED with this dead time (s) where the file has none. Raises DrivetrainError."""
+def load_robots(path: Path, dead_time: float = UNMEASURED.dead_time, mm: float = MM) -> tuple[Drivetrain, ...]:
+    """Drivetrains of all robots; where the file has none, unmeasured ones with this dead time (s) on a surface of `mm`
+    mm per arena px. Raises DrivetrainError.
+    """
     try:
         measured = parse(read_text(path), path.name)
     except FileNotFoundError:
         measured = ()
     except (OSError, ParseError) as error:
         raise DrivetrainError(f"{path.name}: cannot be read ({describe_error(error)})") from None
-    return (*measured, *(replace(UNMEASURED, dead_time=dead_time),) * (ROBOTS - len(measured)))
+    return (*measured, *(replace(unmeasured(mm), dead_time=dead_time),) * (ROBOTS - len(measured)))
 
 
 def save_pairing(channels: Sequence[int], camera_delay: float) -> None:
