@@ -4,6 +4,7 @@ A robot on Wi-Fi announces its board; that of any other is a setting, by default
 rechargeable cells; the firmware of a robot applies its own limits in addition.
 """
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -46,6 +47,11 @@ def robot_kind(chosen: str, board: int | None = None, usual: RobotKind = DEFAULT
     """
     named = next((kind for kind in KINDS if kind.key == chosen), None)
     return named or next((kind for kind in KINDS if board in kind.boards), usual)
+
+
+def widest_radius(chosen: Iterable[str], usual: RobotKind = DEFAULT) -> float:
+    """Radius of the widest of some robots, mm; see `robot_kind`."""
+    return max(robot_kind(key, None, usual).radius_mm for key in chosen)
 
 
 def robot_config(robot: int, arena: int, key: bytes) -> str:

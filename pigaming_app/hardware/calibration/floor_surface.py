@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 from pigaming_app.hardware.calibration.boards import ARENA_AT, CANVAS
 from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.storage.messages import OperatorMessage
+
+WIDEST = 57.0  # px, radius: a wider body finds no way between walls and other robots in the first arena of every game
 
 
 @dataclass(frozen=True)
@@ -15,6 +18,11 @@ class FloorSurface:
 
     width: float
     height: float
+
+    @classmethod
+    def smallest(cls, radius: float) -> "FloorSurface":
+        """The smallest surface for robots of this radius, mm."""
+        return cls(CANVAS[0] * radius / WIDEST, CANVAS[1] * radius / WIDEST)
 
     @property
     def mm(self) -> float:
@@ -31,3 +39,11 @@ class FloorSurface:
         """The arena's top left corner, mm from that of the surface, with the picture in the middle."""
         left, top = (self.width - CANVAS[0] * self.mm) / 2.0, (self.height - CANVAS[1] * self.mm) / 2.0
         return left + (ARENA_AT[0] + 0.5) * self.mm, top + (ARENA_AT[1] + 0.5) * self.mm
+
+
+def narrow_arena(width: float, radius: float) -> OperatorMessage | None:
+    """The message if an arena of this width is too small for robots of this radius, mm; else None."""
+    least = FloorSurface.smallest(radius).field[0]
+    if width >= least - 0.5:
+        return None
+    return OperatorMessage("narrow", width=f"{width:.0f}", size=f"{2.0 * radius:.0f}", least=f"{least:.0f}")

@@ -20,6 +20,7 @@ from pigaming_app.hardware.emulator.optics import CANVAS, SENSOR, Floats, Optics
 from pigaming_app.hardware.emulator.radio import EmulatedRadio, RadioChannel
 from pigaming_app.hardware.emulator.renderer import ExposureSetup, SceneRenderer
 from pigaming_app.hardware.emulator.robots import BASE, FULL_SPEED, STEP, EmulatedRobot, push_apart, random_parameters
+from pigaming_app.hardware.emulator.television import Television
 from pigaming_app.hardware.emulator.things.prism import Prism, obstacles, push_off
 from pigaming_app.hardware.signals import Image
 from pigaming_app.sim.plant import Pose
@@ -73,6 +74,7 @@ class EmulatedArena:
         self.things: tuple[Prism, ...] = ()  # on the mat
         self._obstacles: list[Prism] = []  # those that stop robots
         self.gain = 1.0  # exposure
+        self.television: Television | None = None  # in place of the mat
         self.cleared = False  # True if the robots are off the mat, out of view
         self.last_driven = [float("-inf")] * len(self.robots)  # s, when a robot's motors last ran
         self._exposure_jitter, self._exposure_random = exposure_jitter, Random(f"exposure {seed}")
@@ -133,6 +135,11 @@ class EmulatedArena:
         body = self.robots[robot]
         body.x, body.y, body.heading = self._on_mat(pose)
 
+    def lay_television(self, television: Television) -> None:
+        """Replace mat and projector by a television; `Optics` has the corners of its picture."""
+        self.television = television
+        self.camera.painter.lay_television(television)
+
     def furnish(self, things: Sequence[Prism]) -> None:
         """Put these things on the mat, in place of all that stand on it."""
         self.things = tuple(things)
@@ -188,5 +195,10 @@ class EmulatedArena:
         things = []
         for i in range(0 if self.cleared else len(self.robots)):
             things += self._seen(i)
+        shine: tuple[float, ...] = (1.0,)
+        if self.television:
+            shutter, late = self.camera.shutter, self.camera.traits.readout
+            begins = (now - shutter - late * (1.0 - share / 64) for share in range(65 if late else 1))
+            shine = tuple(self.television.shine(begin, shutter) for begin in begins)
         gain, light = self.gain * self._drift_gain * self.camera.brightness, (now - self.begin) / LIGHT_TURN
-        return ExposureSetup(self._shown, tuple(things), light, gain, self.camera.exposed, self.camera.boost)
+        return ExposureSetup(self._shown, tuple(things), light, gain, self.camera.exposed, self.camera.boost, shine)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from pigaming_app.hardware.emulator.objects import LID_HEIGHT, TEXELS, FlatObject, Placing, Print
 from pigaming_app.hardware.emulator.optics import SENSOR, Map, Optics
+from pigaming_app.hardware.emulator.television import DIFFUSE, Television
 from pigaming_app.hardware.emulator.things.overlay import Patch, patches, shaded
 from pigaming_app.hardware.emulator.things.prism import Prism
 from pigaming_app.hardware.signals import Image
@@ -36,6 +37,9 @@ class ExposureSetup(NamedTuple):
     gain: float  # of the exposure
     number: int
     noise: float = 1.0  # amplification
+    shine: tuple[float, ...] = (
+        1.0,
+    )  # light of a television that flickers, in equal parts from the first row to the last
 
 
 class ImageRegion(NamedTuple):
@@ -89,6 +93,7 @@ class SceneRenderer:
         self.refresh, self.size, self.jpeg = refresh, size, jpeg
         self._blur, noise = defocus * SENSOR[0] / size[0], NOISE * SENSOR[0] / size[0]  # scaling averages noise
         self.ambient = 1.0  # share of the room light
+        self._screen: tuple[Map, Map] | None = None  # a television: light of its white, and of lamps in its glass
         self._seed = seed
         random = np.random.default_rng(seed)
         self._noise = np.clip(np.rint(random.normal(0.0, noise, (1400, 2300))), -127, 127).astype(np.int8)
@@ -105,6 +110,10 @@ class SceneRenderer:
         self._floor, self._lids = optics.lit_by(0.0), optics.lit_by(LID_HEIGHT)
         self._lights: tuple[Image | None, dict[tuple[bool, ImageRegion], Image]] = None, {}  # of a projected picture
         self.furnish(self._solid)
+
+    def lay_television(self, television: Television) -> None:
+        """Replace mat and projector by a television."""
+        self._screen = television.seen(self.optics)
 
     def lay_paper(self, paper: Image, mm: float) -> None:
         """Lay printed paper on the mat, grey, with its middle on that of the mat; `mm`: of one of its px."""
@@ -166,8 +175,7 @@ class SceneRenderer:
         room = self._room_light(scene.light)[window.cut()]
         if self.ambient != 1.0:
             room = np.float32(self.ambient) * room
-        light = self._lit(scene, 0.0, window, room)
-        cv2.multiply(light, self._mat[window.cut()], dst=light)
+        light = self._ground(scene, window, room)
         for patch in self._patches:
             self._overlay(scene, patch, window, room, light)
         for thing, place in sorted(things, key=lambda pair: pair[0].height):
@@ -182,6 +190,20 @@ class SceneRenderer:
         if scene.noise != 1.0:
             return np.asarray(cv2.add(light, noise * np.float32(scene.noise), dtype=cv2.CV_8U))
         return np.asarray(cv2.add(light, noise, dtype=cv2.CV_8U))
+
+    def _ground(self, scene: ExposureSetup, window: ImageRegion, room: Floats) -> Floats:
+        """Light of the empty mat, or of the glass of a television, in grey levels."""
+        import cv2
+
+        if self._screen is None:
+            light = self._lit(scene, 0.0, window, room)
+            cv2.multiply(light, self._mat[window.cut()], dst=light)
+            return light
+        white, lamps = (part[window.cut()] for part in self._screen)
+        shown = self._shown(scene, 0.0, window).astype(np.float32) / np.float32(255.0)
+        rows = (np.arange(window.top, window.bottom) + 0.5) / SENSOR[1] * len(scene.shine) - 0.5
+        shine = np.interp(rows, np.arange(len(scene.shine)), scene.shine).astype(np.float32)
+        return np.asarray(shine[:, None] * white * shown + lamps + np.float32(DIFFUSE) * room)
 
     def _overlay(self, scene: ExposureSetup, patch: Patch, window: ImageRegion, room: Floats, light: Floats) -> None:
         """Replace the light of a window by that of a patch with things."""
@@ -236,6 +258,15 @@ class SceneRenderer:
         """Light on white paper on the mat, or at the height of a lid, in grey levels."""
         import cv2
 
+        if self._screen is not None:
+            return room.copy()
+        shown = self._shown(scene, height, window)
+        return np.asarray(cv2.addWeighted(shown, LAMP_LIGHT / 255.0, room, 1.0, 0.0, dtype=cv2.CV_32F))
+
+    def _shown(self, scene: ExposureSetup, height: float, window: ImageRegion) -> Image:
+        """The picture as it falls on a height, through the lens."""
+        import cv2
+
         if self._lights[0] is not scene.image or len(self._lights[1]) >= KEPT:
             self._lights = scene.image, {}
         lights, key = self._lights[1], (height > 0.0, window)
@@ -243,7 +274,7 @@ class SceneRenderer:
             x, y = self._lids if height else self._floor
             shown = cv2.remap(scene.image, x[window.cut()], y[window.cut()], cv2.INTER_LINEAR)
             lights[key] = np.asarray(cv2.GaussianBlur(shown, (5, 5), BLUR))
-        return np.asarray(cv2.addWeighted(lights[key], LAMP_LIGHT / 255.0, room, 1.0, 0.0, dtype=cv2.CV_32F))
+        return lights[key]
 
     def _room_light(self, turn: float) -> Floats:
         """Room light on white paper: a bright spot moves over the mat."""

@@ -8,7 +8,7 @@ from time import thread_time
 import numpy as np
 
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane
-from pigaming_app.hardware.control.rig import UNMEASURED, unmeasured
+from pigaming_app.hardware.control.rig import UNMEASURED
 from pigaming_app.hardware.emulator.camera import FrameTiming
 from pigaming_app.hardware.emulator.radio import MODERATE, RadioChannel
 from pigaming_app.hardware.emulator.wifi.air import WifiChannel
@@ -17,7 +17,6 @@ from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.lighting import Lighting
 from pigaming_app.hardware.signals import CameraFrame, Fix
 from pigaming_app.hardware.tracking.tracker import Tracker
-from pigaming_app.sim.drivetrain import MM
 from pigaming_app.sim.world import ROBOTS
 
 EXPOSURE_JITTER = 0.15  # size of the exposure steps, as a share
@@ -69,7 +68,8 @@ class Testbed:
             tracker=TimedTracker,
             wifi=wifi,
             wheels=(kind.wheel_mm, kind.base_mm),
-            declared=unmeasured(kind, MM, dead_time),
+            kind=kind,
+            dead_time=dead_time,
         )
         self.rig = self.session.open()
         self.arena, self.ground = self.session.arena, self.session.ground

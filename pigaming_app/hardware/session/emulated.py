@@ -11,7 +11,7 @@ from pigaming_app.hardware.calibration.boards import BOARD, HELD_OUT
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.calibration.procedure import Calibration
 from pigaming_app.hardware.calibration.solver import with_verification
-from pigaming_app.hardware.control.rig import UNMEASURED, Rig
+from pigaming_app.hardware.control.rig import UNMEASURED, Rig, unmeasured
 from pigaming_app.hardware.drivers.driver import LinkSite
 from pigaming_app.hardware.drivers.ours import UDP
 from pigaming_app.hardware.drivers.registry import DRIVERS
@@ -29,13 +29,13 @@ from pigaming_app.hardware.emulator.wifi.radio import WifiRadio
 from pigaming_app.hardware.emulator.xbee import EmulatedCarrier
 from pigaming_app.hardware.radio.wifi import WifiNetwork
 from pigaming_app.hardware.radio.xbee_setup import Carrier
+from pigaming_app.hardware.robot_kinds import DEFAULT, RobotKind
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.lighting import Lighting
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, new_rig
 from pigaming_app.hardware.signals import CameraFrame
 from pigaming_app.hardware.tracking.tracker import Tracker
 from pigaming_app.hardware.vision.markers import OpenCVMissing, opencv
-from pigaming_app.sim.drivetrain import Drivetrain
 from pigaming_app.sim.world import DT, HZ, ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
 
@@ -57,7 +57,7 @@ class EmulatedSession(RobotSession):
     session uses `ground`, or else a calibration made with the arena. `lighting` lights the mat where no window calls
     `show`. `timing`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of
     camera and radio. With `wifi` the robots are boards on such a network and run their own program, else they have
-    XBees. `wheels`: see EmulatedArena; `declared`: drivetrain that the robots are taken to have. `things`: number of
+    XBees. `wheels`: see EmulatedArena; `kind` and `dead_time` (s): what the robots are taken for. `things`: number of
     random real things on the mat, at most 8; the wizard takes them away.
     """
 
@@ -77,10 +77,11 @@ class EmulatedSession(RobotSession):
         wifi: WifiChannel | None = None,
         things: int = 0,
         wheels: tuple[float, float] = (FULL_SPEED, BASE),
-        declared: Drivetrain = UNMEASURED,
+        kind: RobotKind = DEFAULT,
+        dead_time: float = UNMEASURED.dead_time,
     ) -> None:
         self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
-        self._wifi, self._wheels, self._declared = wifi, wheels, declared
+        self._wifi, self._wheels, self._kind, self._dead_time = wifi, wheels, kind, dead_time
         self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
         self._refresh: int | None = None  # usual interval of complete renders, while every one is complete
         self._count = things
@@ -139,7 +140,8 @@ class EmulatedSession(RobotSession):
             site = LinkSite(arena.arena_id, arena.clock, "EMU0", open_port=lambda _: arena.radio.open, network=network)
             link = DRIVERS[name].open(site)
             camera = EmulatedCalibrationSite(self.seed, self.live, arena).open(0, kept=ground.quality.kept)
-            self._rig = new_rig(camera, link, ground, arena.clock, [self._declared] * ROBOTS, self._tracker)
+            declared = unmeasured(self._kind, ground.mm, self._dead_time)
+            self._rig = new_rig(camera, link, ground, arena.clock, [declared] * ROBOTS, self._tracker)
             if self._time is not None:
                 self._rig.start()
                 self._time.watched, self._time.limit = True, self._now + AHEAD

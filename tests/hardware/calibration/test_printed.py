@@ -49,7 +49,7 @@ def test_a_calibration_by_printed_markers_is_true_all_over_the_arena(made):
 @pytest.mark.long
 @pytest.mark.parametrize(
     ("view", "hidden"),
-    [("tilted", ()), ("good", ((80, 540), (960, 70), (1840, 540)))],
+    [pytest.param("tilted", (), marks=pytest.mark.again), ("good", ((80, 540), (960, 70), (1840, 540)))],
     ids=["oblique", "only the corners"],
 )
 def test_so_is_one_from_the_side_or_by_the_corners_alone(view, hidden):

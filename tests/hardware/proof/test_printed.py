@@ -10,13 +10,16 @@ pytest.importorskip("cv2")
 pytest.importorskip("pypdfium2")
 
 from pigaming_app.ai.registry import new_match
+from pigaming_app.hardware.calibration.floor_surface import FloorSurface
 from pigaming_app.hardware.control.real_plant import RealPlant
-from pigaming_app.hardware.proof import testbed
+from pigaming_app.hardware.emulator.optics import TrueLens
+from pigaming_app.hardware.proof import testbed, trials
 from pigaming_app.hardware.proof.testbed import TimedTracker
 from pigaming_app.hardware.proof.trials import FigureEight, follow, play
-from tests.hardware.paper import PrintedSession
+from tests.hardware.paper import SURFACE, PrintedSession
 from tests.matches import setup_of
 
+SMALL, LOW = FloorSurface.smallest(47.5), TrueLens((50.0, 170.0, 1600.0), (5.0, 16.0), 0.021)
 DARK = np.zeros((1080, 1920), np.uint8)
 
 
@@ -26,9 +29,10 @@ class Bed(testbed.Testbed):
     lighting: Any
     tracker: Any
 
-    def __init__(self, seed):
+    def __init__(self, seed, surface=SURFACE, lens=None):
         self.lighting = SimpleNamespace(show=lambda busy: None, picture=lambda robots: DARK)
         self.session = PrintedSession(seed, False, lighting=self.lighting, tracker=TimedTracker)
+        self.session.surface, self.session.lens = surface, lens
         self.rig = self.session.open()
         self.arena, self.ground = self.session.arena, self.session.ground
         self.tracker, self.link = self.rig.tracker, self.rig.link
@@ -44,8 +48,10 @@ def test_robots_are_followed_to_two_millimetres_and_a_degree():
 
 @pytest.mark.long
 @pytest.mark.again
-def test_a_match_is_played_and_nobody_enters_a_wall():
-    bed = Bed(7)
+@pytest.mark.parametrize(("surface", "lens"), [(SURFACE, None), (SMALL, LOW)], ids=["2.54 m", "the smallest for 3pis"])
+def test_a_match_is_played_and_nobody_enters_a_wall(surface, lens, monkeypatch):
+    monkeypatch.setattr(trials, "RADIUS", 47.5 / surface.mm)  # of the body
+    bed = Bed(7, surface, lens)
     setup = setup_of("pitanks", "level3 level3 level3 level3", "classic", 0.2, 3, "pickups")
     match = new_match(setup, plant=lambda world: RealPlant(world, bed.rig))
     run = play(bed, match, 12.0)

@@ -1,16 +1,20 @@
 """Arenas on paper: which ones are printed, and the file."""
 
+from math import ceil
 from pathlib import Path
 
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.calibration.floor_surface import FloorSurface
+from pigaming_app.hardware.robot_kinds import widest_radius
+from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.scenes.mat.paper.floor_sheet import PAPERS, add_poster, add_tiles, tiles
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.arena import Arena
 from pigaming_app.storage.parsing import quote
 from pigaming_app.storage.safe_files import write_atomic
+from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.pdf import PdfFile
 
@@ -26,6 +30,16 @@ def chosen_arenas(wanted: str | None) -> list[Chosen]:
     if wanted and len(found) > 1:
         raise Refusal(f"several games have an arena {wanted}: {', '.join(f'{game}/{name}' for game, name in found)}")
     return [(game, load(game, name)) for game, name in found]
+
+
+def require_room(surface: FloorSurface, settings: Settings) -> None:
+    """Raises Refusal if the surface is too small for the robots of these settings."""
+    radius = widest_radius(settings.kinds, RealSession(settings).usual)
+    least = FloorSurface.smallest(radius)
+    if surface.mm < least.mm - 1e-6:
+        wide, high = (ceil(side / 10.0) / 100.0 for side in (least.width, least.height))
+        size = f"{surface.width / 1000.0:g}x{surface.height / 1000.0:g}"
+        raise Refusal(f"{size} m is too small for robots of {2.0 * radius:g} mm: the smallest is {wide:g}x{high:g}")
 
 
 def write(target: Path, surface: FloorSurface, chosen: list[Chosen], paper: str, language: str) -> str:

@@ -7,9 +7,11 @@ from dataclasses import replace
 import pygame
 
 from pigaming_app.hardware.calibration.camera_task import SMALL, CameraPreview
+from pigaming_app.hardware.calibration.floor_surface import narrow_arena
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError
 from pigaming_app.hardware.calibration.quality import used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements, RealCalibrationSite
+from pigaming_app.hardware.robot_kinds import DEFAULT, widest_radius
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.hardware.vision.camera import shown
@@ -277,6 +279,10 @@ class CalibrationPage(SettingsPage):
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
         """Start the calibration, full screen, or type the address of a camera, or show the code for a phone."""
+        if name == "begin" and (reason := self._narrow()):
+            self.context.sounds.play("error")
+            self.show_message(self.context.words.sentence(reason))
+            return None
         self.context.sounds.play("accept")
         self.on_leave()
         if name == "address":
@@ -294,6 +300,12 @@ class CalibrationPage(SettingsPage):
             self._show(canvas.display, True)
         self.save()
         return Push(BoardsPage(self.context, self.site, self.number, self.measures))
+
+    def _narrow(self) -> OperatorMessage | None:
+        """The message if the arena is too small for its robots."""
+        session = session_if_any(self.context)
+        usual = session.usual if session else DEFAULT
+        return narrow_arena(self.measures.width, widest_radius(self.context.settings.kinds, usual))
 
     def _choose(self, address: str) -> str:
         """Use the camera at an address; the reason why not, if it is none."""

@@ -6,6 +6,7 @@ pytest.importorskip("cv2")
 pytest.importorskip("pypdfium2")
 
 from pigaming_app.hardware.calibration.boards import ARENA_AT
+from pigaming_app.hardware.calibration.site import Measurements
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.session import store
 from pigaming_app.scenes.mat.calibration.printed_page import PrintedPage
@@ -40,6 +41,16 @@ def test_the_wizard_calibrates_a_printed_floor_and_remembers_that_it_is_one():
     arcade.press(Button.FIRE)
     assert store.load(store.calibration_file("emulated"), "another screen").printed
     assert CalibrationPage(arcade.context, arcade.site).printed
+
+
+def test_an_arena_too_small_for_its_robots_is_refused_with_the_smallest():
+    arcade = Operated(Controls(), EmulatedCalibrationSite(arena=printed_arena(2)))
+    page = arcade.open(CalibrationPage(arcade.context, arcade.site))
+    page.measures = Measurements(1000.0, 2500.0)
+    arcade.go("begin")
+    arcade.press(Button.FIRE)
+    assert arcade.shown(CalibrationPage) is page
+    assert page.message == "An arena of 1000 mm is too small for robots of 95 mm: make it at least 1333 mm wide."
 
 
 @pytest.mark.long

@@ -12,6 +12,7 @@ pytest.importorskip("pypdfium2")
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.calibration.floor_surface import FloorSurface
+from pigaming_app.jobs.cli import main
 from pigaming_app.jobs.mat.calibrate.floor import chosen_arenas, write
 from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.scenes.mat.paper.floor_sheet import tiles
@@ -171,6 +172,13 @@ def test_a_drawing_of_the_user_is_printed_as_well(tmp_path):
     (folder / "mine.toml").write_text(load("pitanks", "islands").source, encoding="utf-8")
     assert texts(printed(tmp_path, "mine", "mat"))[0].startswith("PiTanks: Islands")
     assert len(texts(printed(tmp_path, None, "mat"))) == len(EVERY) + 1
+
+
+def test_a_surface_too_small_for_the_robots_is_refused_with_the_smallest(capsys, tmp_path):
+    job = ["calibrate", "--print", str(tmp_path / "a.pdf"), "--arena", "islands"]
+    assert main([*job, "--size", "1.59x2"]) == 2
+    assert "1.59x2 m is too small for robots of 95 mm: the smallest is 1.6x0.9" in capsys.readouterr().err
+    assert main([*job, "--size", "1.6x0.9"]) == 0
 
 
 @pytest.mark.parametrize(
