@@ -6,7 +6,7 @@ It shares nothing with `radio/aseba.py`. Lengths of messages are in bytes, addre
 import struct
 from collections import deque
 from collections.abc import Callable, Mapping
-from operator import add, and_, eq, ge, gt, le, lt, mul, ne, or_, sub, xor
+from operator import add, eq, gt, ne, sub
 from random import Random
 from typing import Self
 
@@ -33,15 +33,14 @@ def _signed(word: int) -> int:
     return (word + 0x8000 & 0xFFFF) - 0x8000
 
 
-OPERATORS: Mapping[int, Callable[[int, int], int]] = dict(
-    enumerate(
-        (
-            lambda a, b: a << b, lambda a, b: a >> b, add, sub, mul, lambda a, b: int(a / b),
-            lambda a, b: a - b * int(a / b), or_, xor, and_, eq, ne, gt, ge, lt, le,
-            lambda a, b: bool(a or b), lambda a, b: bool(a and b),
-        )
-    )
-)  # fmt: skip
+OPERATORS: Mapping[int, Callable[[int, int], int]] = {  # those that our program uses
+    2: add,
+    3: sub,
+    10: eq,
+    11: ne,
+    12: gt,
+    17: lambda first, second: bool(first and second),
+}
 
 
 class EmulatedThymio:
@@ -132,7 +131,7 @@ class EmulatedThymio:
             self._send(0x9002, bytes([len(name)]) + name.encode() + b"\x00")
 
     def run(self, event: int) -> None:
-        """Run the program's answer to an event to its end."""
+        """Run the program's answer to an event to its end. Raises ValueError for words that our program has not."""
         table = self.program[1 : self.program[0]]
         place = dict(zip(table[::2], table[1::2], strict=True)).get(event, 0)
         stack: list[int] = []
@@ -151,19 +150,6 @@ class EmulatedThymio:
                 stack.append(self.variables[operand])
             elif code == 4:
                 self.variables[operand] = stack.pop()
-            elif code in (5, 6):
-                index = stack.pop()
-                if not 0 <= index < following:
-                    self._send(0x9006, struct.pack("<HHH", place, following, index & 0xFFFF))
-                    return
-                if code == 5:
-                    stack.append(self.variables[operand + index])
-                else:
-                    self.variables[operand + index] = stack.pop()
-                step = 2
-            elif code == 7:
-                value = stack.pop()
-                stack.append(_signed((-value, abs(value), ~value)[operand]))
             elif code in (8, 10):
                 second, first = stack.pop(), stack.pop()
                 result = _signed(int(OPERATORS[operand & 0xFF](first, second)))

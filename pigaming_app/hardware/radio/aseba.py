@@ -116,22 +116,14 @@ class AsebaProtocol:
 
     def __init__(self, arena: int) -> None:
         self.arena = arena
-        self._telemetry: dict[int, Telemetry] = {}
-        self._misfits: dict[int, Misfit] = {}
+        self.telemetry: dict[int, Telemetry] = {}
+        self.misfits: dict[int, Misfit] = {}
         self._echo: dict[int, float] = {}  # s, by robot
         self._reported = [deque[float](maxlen=round(WINDOW * 50 / ROUND)) for _ in range(ROBOTS)]
         self._sent = [float("-inf")] * ROUND  # s, by the last digit of their numbers
         self._sequence = 0
         self._nodes: dict[int, ThymioNode] = {}
         self.open(0.0)
-
-    @property
-    def telemetry(self) -> Mapping[int, Telemetry]:
-        return self._telemetry
-
-    @property
-    def misfits(self) -> Mapping[int, Misfit]:
-        return self._misfits
 
     def open(self, now: float) -> bytes:
         """Call all robots; those that are known keep their numbers."""
@@ -237,12 +229,12 @@ class AsebaProtocol:
         arena, robot, sequence, parked = status
         if arena != self.arena:
             node.foreign = now
-            self._misfits[robot] = Misfit("foreign", arena, now)
+            self.misfits[robot] = Misfit("foreign", arena, now)
             return
         if robot != node.robot:
             return  # it has the program of an earlier link, and gets a new one
         node.heard = now
-        self._telemetry[robot] = Telemetry(robot, node.battery, PARKED * bool(parked), now)
+        self.telemetry[robot] = Telemetry(robot, node.battery, PARKED * bool(parked), now)
         self._reported[robot].append(now)
         if (self._sequence - sequence) % SEQUENCE < ROUND:
             self._echo[robot] = now - self._sent[sequence % ROUND]

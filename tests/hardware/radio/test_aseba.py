@@ -110,7 +110,7 @@ def test_the_emulated_machine_acts_as_aseba_s_own() -> None:
     for number, command in enumerate(commands):
         for one in both:
             one.receive(0, int.from_bytes(command[4:6], "little"), command[6:])
-        pressed, ticks = number % 97 == 1 and random.randrange(2), random.choice((0, 0, 1, 9))
+        pressed, ticks = number % 97 == 1 and random.randrange(2), random.choice((0, 0, 1, 7, 8, 9))
         for one in both:
             if number % 97 == 1:
                 one["button.center"] = pressed
