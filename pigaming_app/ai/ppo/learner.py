@@ -21,6 +21,7 @@ LIMITS = {  # of hyper-parameters; the others are shares
     "epochs": (1, 100),
     "minibatch": (1, 1_000_000),
     "steepest": (1e-6, 1e6),
+    "held": (0, 10_000),
 }
 
 
@@ -40,6 +41,7 @@ class Hyper:
     discount: float = 0.99  # gamma
     trace: float = 0.95  # lambda
     steepest: float = 0.5  # limit of the gradient's norm
+    held: int = 20  # updates in which a network that is continued stays as it is, while its value function is learned
 
     def __post_init__(self) -> None:
         for field in fields(self):

@@ -81,6 +81,6 @@ TASK = Task(
     rivals=("hand3",),
     habits=habits,
     cut=0.03,
-    hyper=Hyper(matches=160, minibatch=4096, last_entropy=0.001, discount=0.975, trace=0.9),
+    hyper=Hyper(matches=160, minibatch=4096, last_entropy=0.001, discount=0.975, trace=0.9, held=100),
     sharpness=4.0,
 )

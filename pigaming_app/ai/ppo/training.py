@@ -26,7 +26,6 @@ from pigaming_app.games.setup import ChoiceError
 
 POOL = 40  # earlier copies of a learner at most
 POOLED_EVERY = (15, 60)  # updates between two copies, by learner: the exploiter's finds must not be forgotten
-HELD = 20  # updates in which a network that was trained before stays as it is, while its value function is learned
 LARGEST = 32767  # of a 16-bit weight
 NUMBERS = ("updates", "decisions", "entropy", "seconds")  # counted by a training
 Gather = Callable[[Sequence[Any], Pool, int], list[Experience]]  # policies, pool, decisions
@@ -162,7 +161,7 @@ class Training:
         """Improve one of the learners."""
         data = threads.map(lambda experience: self._digested(player, experience, share), experiences)
         joined = [np.concatenate(parts) for parts in zip(*data, strict=True)]
-        held = self.start is not None and self.updates < HELD and (player == 0 or self.task.population)
+        held = self.start is not None and self.updates < self.hyper.held and (player == 0 or self.task.population)
         if player and self.population:
             share = 0.0  # each exploiter is at its begin
         self.telemetry[player] = self.learners[player].update(joined, share, threads, held)

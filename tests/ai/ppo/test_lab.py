@@ -1,17 +1,17 @@
 """The Lab's network: rewards that visitors change, training step by step, continuing from a file."""
 
 from concurrent.futures import Executor, ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from pigaming_app.ai.networks.pitanks import GUN, OTHERS, SIZE
 from pigaming_app.ai.networks.policy import packed_layers
-from pigaming_app.ai.ppo import training
 from pigaming_app.ai.ppo.lab import lesson
 from pigaming_app.ai.ppo.lab.lesson import SECTORS, LabTraining, Situations
 from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin
-from pigaming_app.ai.ppo.lab.task import RIVAL, TASK, NetworkRecipe, reward_of
+from pigaming_app.ai.ppo.lab.task import HYPER, RIVAL, TASK, NetworkRecipe, reward_of
 from pigaming_app.ai.ppo.learner import PolicyNetwork
 from pigaming_app.ai.ppo.win_rates import win_rates
 from pigaming_app.sim.kernel import can_compile
@@ -79,7 +79,7 @@ def test_a_network_from_a_file_stays_as_it_is_until_its_value_function_is_learne
     before = LabTraining(Begin(0, 3), threads)
     before.learn(NetworkRecipe())
     state = before.report().state._replace(matches=12.5, updates=40)
-    monkeypatch.setattr(training, "HELD", 3)
+    monkeypatch.setattr(lesson, "HYPER", replace(HYPER, matches=8, decisions=4, held=3))
     taught = LabTraining(Begin(1, 4, state), threads)
     values = [matrix.copy() for matrix in taught.training.learner.value.weights]
     for _ in range(3):

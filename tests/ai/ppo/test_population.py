@@ -2,6 +2,7 @@
 
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -18,6 +19,7 @@ from pigaming_app.ai.ppo.training import Training, in_threads, start_of, whole_l
 from tests.ai.ppo.plain import TASK, TINY, play_plain, same
 
 POPULATED = TASK.populated()
+SMALL = replace(TINY, held=1)
 
 
 @pytest.fixture(autouse=True)
@@ -27,7 +29,7 @@ def _plain(monkeypatch):
 
 
 def trained(updates, threads=1, training=None, start=None):
-    training = training or Training(POPULATED, 5, 4, TINY, start=start)
+    training = training or Training(POPULATED, 5, 4, SMALL, start=start)
     with ThreadPoolExecutor(threads) as executor:
         for _ in range(updates):
             training.update(in_threads(training, executor), executor)
@@ -143,11 +145,10 @@ def test_the_next_exploiter_starts_from_the_present_weights_and_the_last_one_joi
 
 def test_it_goes_on_from_a_checkpoint_bit_for_bit_whatever_the_threads(tmp_path, monkeypatch):
     monkeypatch.setattr(population_module, "PATIENCE", 2)
-    monkeypatch.setattr(training_module, "HELD", 1)
     start = start_of("pitanks", "net")
     half, path = trained(2, start=start), tmp_path / "a.checkpoint.npz"
     path.write_bytes(product.encode(half))
-    other = Training(POPULATED, 5, 4, TINY, start=start)
+    other = Training(POPULATED, 5, 4, SMALL, start=start)
     product.restore(other, path)
     assert same(other, half)
     whole = trained(4, threads=2, start=start)

@@ -122,10 +122,9 @@ def begun(monkeypatch, module):
     return seen
 
 
-def test_what_continues_a_network_begins_with_its_weights_and_values_them_before_it_changes_them(monkeypatch):
-    monkeypatch.setattr(training_module, "HELD", 2)
+def test_what_continues_a_network_begins_with_its_weights_and_values_them_before_it_changes_them():
     shipped = decode((BRAINS / "pitanks.npz").read_bytes(), "pitanks.npz")
-    training = Training(TASK, 5, 4, TINY, start=start_of("pitanks", "net"))
+    training = Training(TASK, 5, 4, replace(TINY, held=2), start=start_of("pitanks", "net"))
     values = training.learner.value.weights[0].copy()
     trained(2, training=training)
     held = trained_network(training, "held")
