@@ -23,6 +23,7 @@ is the game's `Encoding` (see ai/networks) in [-1, 1]; an action is a choice for
   the end; the last `info` has all tallies.
 - starts: number of different matches that are played; 128 by default.
 - compiled: False to run as plain Python. By default compiled if numba is installed; both give the same bits.
+- robots: the path of a file with measured robots; those of an episode are drawn within their range (see robots.py).
 - max_episode_steps: decisions after which an episode is truncated.
 - autoreset_mode, stagger: of vectors, see vector.py.
 - render_mode: "rgb_array" draws with the game's own pictures, 1920 x 1080.

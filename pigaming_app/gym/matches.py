@@ -20,6 +20,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.gym.masks import masks_of
 from pigaming_app.gym.options import EnvironmentTask
 from pigaming_app.gym.rewards import TALLIES
+from pigaming_app.gym.robots import GAIN, LONGEST, PARAMETERS, drawn_robots, hold_back
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import compiled, kernel
@@ -29,7 +30,8 @@ from pigaming_app.sim.world import ROBOTS
 Loop = Callable[..., None]
 SCALE = 1.0 / UNIT
 
-KEPT = "start_of", "episodes", "seeded", "_streams", "fresh", "totals"  # of a pickle, besides records
+STREAMS = "start_of", "episodes", "seeded", "_streams"
+KEPT = (*STREAMS, "fresh", "totals", "_trains", "_in_flight")  # of a pickle, beside task and records
 LOWEST = np.array([-1.0, -1.0, 0.0, 0.0])  # continuous action
 STRIDE = np.uint64(0x9E3779B97F4A7C15)  # of a seed's sequence, as in splitmix64
 
@@ -47,7 +49,7 @@ def make_loop(judge: Any, think: Think, act: Any, encoding: Encoding, tallies: T
     `totals` (n, a, tallies), `rewards` (n, a). `minds` (n, opponents) and `weights` are those of the cast, `worth`
     (tallies) the weights of the reward. Learners sit on the first seats, opponents on those after them. A match that is
     `fresh` (n) is only observed; with `only_fresh` the others are left alone. `over` (n) receives 1 if the match is
-    over, or nothing is at stake for learners.
+    over, or nothing is at stake for learners. `trains` (n or 0, 4, PARAMETERS) and `in_flight`: see robots.py.
     """
     encode, size = encoding.encode, encoding.size
     tally, is_done, count = tallies.tally, tallies.is_done, len(tallies.names)
@@ -66,6 +68,8 @@ def make_loop(judge: Any, think: Think, act: Any, encoding: Encoding, tallies: T
         over: Any,
         ticks: int,
         only_fresh: bool,
+        trains: Any,
+        in_flight: Any,
     ) -> None:
         learners = rewards.shape[1]
         for i in range(len(matches)):
@@ -81,6 +85,8 @@ def make_loop(judge: Any, think: Think, act: Any, encoding: Encoding, tallies: T
                     for k in range(len(seated)):
                         think(match, learners + k, seated[k], weights)
                     judge(match)
+                    if len(trains):
+                        hold_back(match.tick, match.robots, trains[i], in_flight[i])
                     drive(match)
             done = 1
             for seat in range(learners):
@@ -135,6 +141,8 @@ class Matches:
             self.states, self.minds = [None] * count, [None] * count
             self.senses = [[None] * task.learners for _ in range(count)]
         self._no_actions = np.zeros((*shape, *action_shape(task)), action_type(task))
+        driven = count if task.robots else 0
+        self._trains, self._in_flight = np.zeros((driven, ROBOTS, PARAMETERS)), np.zeros((driven, ROBOTS, LONGEST, 2))
         self._choices = np.array([choices for _, choices in self.encoding.heads])
 
     def begin(self, seeds: Sequence[int | None], which: Any) -> None:
@@ -168,6 +176,20 @@ class Matches:
         if self.task.fast:
             self.senses[chosen] = np.zeros((), self.senses.dtype)
         self.fresh[chosen] = True
+        if self.task.robots:
+            self._exchange_robots(chosen)
+
+    def _exchange_robots(self, chosen: Any) -> None:
+        """Draw the robots of the episodes that begin, by their seeds."""
+        self._in_flight[chosen] = 0.0
+        for i in chosen.tolist():
+            random = np.random.default_rng(int(self._streams[i]))
+            self._trains[i] = drawn_robots(self.task.robots, random)
+            if self.task.fast:
+                self.states["robots"]["gain"][i] = self._trains[i, :, GAIN]
+            else:
+                for robot, train in zip(self.states[i].robots, self._trains[i].tolist(), strict=True):
+                    robot.gain = train[GAIN]
 
     def advance(self, actions: Any) -> tuple[Any, Any, Any]:
         """Play one decision; new arrays of observations, rewards and `over`. Fresh matches are only observed.
@@ -200,6 +222,8 @@ class Matches:
             over,
             self.task.ticks,
             only_fresh,
+            self._trains,
+            self._in_flight,
         )
         self.fresh[:] = False
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from math import ceil, inf, isfinite
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,11 +19,14 @@ from pigaming_app.games.game import ALLIES, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, make_setup
 from pigaming_app.gym.rewards import TALLIES
+from pigaming_app.gym.robots import read_robots
 from pigaming_app.links import installing
 from pigaming_app.sim.arena import ArenaError
+from pigaming_app.sim.drivetrain import Drivetrain, DrivetrainError
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.rng import SEEDS, training_seed
 from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.storage.parsing import ParseError, describe_error
 
 OPPONENT = "level3"  # unless others are named
 STARTS = 128  # different matches that an environment plays, unless another number is named
@@ -46,6 +50,7 @@ class EnvironmentTask:
     weights: tuple[float, ...]  # of the game's tallies
     starts: int
     fast: bool
+    robots: tuple[Drivetrain, ...]  # measured ones, within whose range the robots of an episode are drawn
     options: Mapping[str, Any] = field(default_factory=dict, compare=False)  # of `task_of`, from which it follows
 
     def __reduce__(self) -> Any:
@@ -90,6 +95,7 @@ def _task(
     rewards: Mapping[str, float] | None = None,
     starts: int = STARTS,
     compiled: bool | None = None,
+    robots: str | Path | None = None,
     **unknown: Any,
 ) -> EnvironmentTask:
     if unknown:
@@ -126,7 +132,8 @@ def _task(
         reason = "an opponent runs only uncompiled" if can_compile() else f"numba is missing: {installing('train')}"
         raise OptionError(f"compiled: {reason}")
     fast = may_compile if compiled is None else bool(compiled)
-    return EnvironmentTask(setup, found, learners, kinds, ticks, bool(continuous), weights, starts, fast)
+    play = bool(continuous), weights, starts, fast, measured(robots)
+    return EnvironmentTask(setup, found, learners, kinds, ticks, *play)
 
 
 def arenas_of(game: str, arena: str | Sequence[str] | None) -> tuple[str, ...]:
@@ -142,6 +149,16 @@ def arenas_of(game: str, arena: str | Sequence[str] | None) -> tuple[str, ...]:
     except ArenaError as error:
         raise OptionError(str(error)) from None
     return names
+
+
+def measured(robots: str | Path | None) -> tuple[Drivetrain, ...]:
+    """The robots of a file; none without one. Raises OptionError."""
+    try:
+        return () if robots is None else read_robots(robots)
+    except (OSError, ParseError) as error:
+        raise OptionError(f"robots: {robots}: {describe_error(error)}") from None
+    except DrivetrainError as error:
+        raise OptionError(f"robots: {error}") from None
 
 
 def weights_of(game: str, rewards: Mapping[str, float] | None) -> tuple[float, ...]:

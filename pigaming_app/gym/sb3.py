@@ -13,8 +13,6 @@ import gymnasium
 import numpy as np
 from gymnasium.vector import AutoresetMode
 
-import pigaming_app.gym  # noqa: F401  # registers the environments
-
 try:
     from stable_baselines3.common.vec_env import VecEnv
 except ImportError:

@@ -27,7 +27,7 @@ REACH = 1000.0  # px, of the lidar
 
 
 @dataclass(frozen=True)
-class SeatView:
+class RewardView:
     """What a reward may depend on: the game's `Observation` of the seat, without delay, and its tallies so far."""
 
     seen: Any
@@ -35,7 +35,7 @@ class SeatView:
     over: bool
 
 
-Reward = Callable[[SeatView, SeatView], float]
+Reward = Callable[[RewardView, RewardView], float]
 
 
 class FunctionReward(gymnasium.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
@@ -45,7 +45,7 @@ class FunctionReward(gymnasium.Wrapper[Any, Any, Any, Any], RecordConstructorArg
         RecordConstructorArgs.__init__(self, reward=reward)
         gymnasium.Wrapper.__init__(self, env)
         self.reward_of = reward
-        self._before: Any = None  # SeatView, once an episode has begun
+        self._before: Any = None  # RewardView, once an episode has begun
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         observation, info = self.env.reset(seed=seed, options=options)
@@ -138,9 +138,9 @@ def scan(match: MatchState, seat: int, rays: int, reach: float) -> Any:
     return found
 
 
-def view_of(matches: Matches, i: int = 0, seat: int = 0) -> SeatView:
+def view_of(matches: Matches, i: int = 0, seat: int = 0) -> RewardView:
     """The view of a seat of match i."""
     game, state = games()[matches.task.game], matches.state(i)
     seen = game.observation()
     game.observe(state, seat, game.senses(), seen)
-    return SeatView(seen, matches.result(i, seat), bool(state.over))
+    return RewardView(seen, matches.result(i, seat), bool(state.over))

@@ -150,7 +150,11 @@ def test_it_is_a_dummy_vec_env_of_single_environments(name, limit):
 
     from pigaming_app.gym.sb3 import SeatVecEnv
 
-    options = {**SHORT, "max_episode_steps": limit}
+    options = {
+        **SHORT,
+        "max_episode_steps": limit,
+        "variant": "pickups" if name == "PiTanks-v0" else None,
+    }  # no overtime
     ours = VecMonitor(SeatVecEnv(name, COUNT, **options), info_keywords=("win",))
     theirs = VecMonitor(DummyVecEnv([partial(gymnasium.make, name, **options)] * COUNT), info_keywords=("win",))
     for env in (ours, theirs):

@@ -1,12 +1,13 @@
 """The speed of the environments for learning libraries, in decisions of agents a second on one core.
 
-Matches under the game's default rules in its first arena, in the middle of play; actions are random. Time is that of
-the process, and of several runs the best counts.
+Matches under the game's default rules in its first arena, in the middle of play; actions are random unless a network
+decides. Time is that of the process, and of several runs the best counts.
 """
 
 from collections.abc import Callable
 from dataclasses import replace
 from importlib.util import find_spec
+from itertools import pairwise
 from time import process_time
 from typing import Any
 
@@ -21,6 +22,7 @@ MATCHES = 4096
 WARM_UP = 5 * HZ  # ticks before the first run
 RUNS, STEPS = 5, 20  # of each figure, and steps in each of them
 OPPONENT = "level3"
+UNITS = 64  # of each hidden layer
 
 
 def measure(game: str) -> dict[str, float | None]:
@@ -28,9 +30,12 @@ def measure(game: str) -> dict[str, float | None]:
 
     - `stepped`: actions for four seats, one tick a decision, no observation.
     - `observed`: the same with observations and rewards for all four.
-    - `against_level3`: one seat against that brain, with observations, five ticks a decision.
+    - `alone`: one seat against a robot that stands still, with observations, five ticks a decision.
+    - `against_level3`: the same against that brain.
+    - `by_network`: the same, and the seat's actions are those of a network of 64 by 64 units in NumPy.
+    - `with_pictures`: a single match against that brain, with a picture for each decision.
     """
-    names = "stepped", "observed", "against_level3"
+    names = "stepped", "observed", "alone", "against_level3", "by_network", "with_pictures"
     if not (can_compile() and find_spec("gymnasium") and find_spec("pettingzoo")):
         return dict.fromkeys(names)
     from pigaming_app.gym import ENVIRONMENTS
@@ -40,7 +45,10 @@ def measure(game: str) -> dict[str, float | None]:
     return {
         "stepped": _stepped(game),
         "observed": _environment(game, agents=ROBOTS, ticks=1, opponents=()),
+        "alone": _environment(game, agents=1, ticks=5, opponents=("idle",)),
         "against_level3": _environment(game, agents=1, ticks=5, opponents=(OPPONENT,)),
+        "by_network": _by_network(game),
+        "with_pictures": _with_pictures(game),
     }
 
 
@@ -60,6 +68,12 @@ def _stepped(game: str) -> float:
 
 
 def _environment(game: str, agents: int, ticks: int, opponents: tuple[str, ...]) -> float:
+    env, actions = _vector(game, agents, ticks, opponents)
+    return float(env.num_envs / _seconds(lambda: env.step(actions)))
+
+
+def _vector(game: str, agents: int, ticks: int, opponents: tuple[str, ...]) -> tuple[Any, Any]:
+    """An environment in the middle of play, and random actions."""
     from pigaming_app.gym.vector import SeatVectorEnv
 
     goal = max(games()[game].default.goals, default=0)
@@ -69,7 +83,42 @@ def _environment(game: str, agents: int, ticks: int, opponents: tuple[str, ...])
     actions = env.action_space.sample()
     for _ in range(WARM_UP // ticks):
         env.step(actions)
-    return env.num_envs / _seconds(lambda: env.step(actions))
+    return env, actions
+
+
+def _by_network(game: str) -> float:
+    import numpy as np
+
+    env, actions = _vector(game, agents=1, ticks=5, opponents=(OPPONENT,))
+    choices, random = env.single_action_space.nvec, np.random.default_rng(1)
+    sizes = env.single_observation_space.shape[0], UNITS, UNITS, int(choices.sum())
+    first, second, last = (random.normal(0.0, 0.1, size).astype(np.float32) for size in pairwise(sizes))
+    ends = np.cumsum(choices)[:-1]
+    seen = env.step(actions)[0]
+
+    def step() -> None:
+        nonlocal seen
+        logits = np.tanh(np.tanh(seen @ first) @ second) @ last
+        chosen = [head.argmax(1) for head in np.split(logits, ends, axis=1)]
+        seen = env.step(np.stack(chosen, 1))[0]
+
+    return float(env.num_envs / _seconds(step))
+
+
+def _with_pictures(game: str) -> float:
+    from pigaming_app.gym.environment import SeatEnv
+
+    env = SeatEnv(game, render_mode="rgb_array", opponents=(OPPONENT,))
+    env.action_space.seed(1)
+    env.reset(seed=1)
+    env.render()
+
+    def step() -> None:
+        if env.step(env.action_space.sample())[2]:
+            env.reset()
+        env.render()
+
+    return 1.0 / _seconds(step)
 
 
 def _seconds(step: Callable[[], Any]) -> float:
