@@ -11,7 +11,7 @@ from pigaming_app.ai.people.fit.people import FittedPerson, mean_of
 from tests.cases import repeated
 
 PEOPLE, SEED = 24, 2026
-MATCHES = {"pitanks": 16, "race": 16, "football": 8}  # about half an hour
+MATCHES = {"pitanks": 16, "race": 16, "football": 8, "factory": 16}  # about half an hour
 WITHIN = 0.15  # of a trait, or of its whole range where it is a share
 FOUND = {  # traits that half an hour of play tells so well
     ("pitanks", "turn"): ("reaction", "decisions", "timing", "aim", "prediction", "tactics"),
@@ -19,8 +19,10 @@ FOUND = {  # traits that half an hour of play tells so well
     ("race", "turn"): ("decisions", "timing", "tactics"),
     ("football", "turn"): ("reaction", "decisions", "timing", "tactics"),
     ("football", "point"): ("reaction", "decisions", "timing", "stick", "tactics"),
+    ("factory", "turn"): ("decisions", "timing", "tactics"),
+    ("factory", "point"): ("decisions", "timing", "stick", "tactics"),
 }
-UNUSED = {"football": ("prediction",)}  # traits that change nothing in the game
+UNUSED = {"football": ("prediction",), "factory": ("aim", "prediction")}  # traits that change nothing in the game
 AIM_OF_STICKS = "17.5 %: since guns hold five shots, fewer of them tell how well one aims; open in issue 30"
 
 
