@@ -101,13 +101,22 @@ def percent(place: Place | Series) -> str:
 
 def sensitivity(share: float) -> list[list[str]]:
     """Wins in PiTanks with one trait of all people scaled by 0.7 and by 1.3."""
+    return _leant("pitanks", LEANT, share)
+
+
+def race_sensitivity(share: float) -> list[list[str]]:
+    """The same in Robot Race, of beginners."""
+    return _leant("race", LEANT[:1], share)
+
+
+def _leant(game: str, leant: Sequence[tuple[str, str]], share: float) -> list[list[str]]:
     count, minutes = some(400, share)
-    trial = Trial("pitanks", count, minutes=minutes)
-    head = [f"`{name}` against `{level}`, × {factor}" for name, level in LEANT for factor in (0.7, 1.3)]
+    trial = Trial(game, count, minutes=minutes)
+    head = [f"`{name}` against `{level}`, × {factor}" for name, level in leant for factor in (0.7, 1.3)]
     rows = [["", *head]]
     for trait in NUMBERS:
         row = [UNITS[trait].partition(",")[0]]
-        for name, level in LEANT:
+        for name, level in leant:
             row += [percent(places(trial, [name], [level], f"{trait}={factor}")[0]) for factor in (0.7, 1.3)]
         rows.append(row)
     return rows

@@ -57,6 +57,9 @@ MEASURED = {
     "sensitivity": Measured(
         PEOPLE, f"{MAIN} people pitanks level1 --people beginner --scale reaction=0.7 --seed 0", people.sensitivity, 10
     ),
+    "race sensitivity": Measured(
+        PEOPLE, f"{MAIN} people race level1 --people beginner --scale reaction=0.7 --seed 0", people.race_sensitivity, 3
+    ),
     "exploits": Measured(OPPONENTS, f"{MAIN} exploits GAME --hands HANDS --matches 200", exploits.wins, 30),
     "network": Measured(NETWORKS, f"{BENCH}network_wins net --matches {networks.EACH}", networks.wins, 10),
     "racer": Measured(NETWORKS, f"{BENCH}network_races {networks.RACER}", networks.races, 4),

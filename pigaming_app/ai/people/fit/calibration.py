@@ -22,8 +22,8 @@ from pigaming_app.storage.schema import from_json
 SHARES = ("prediction", "tactics")  # traits from 0 to 1; all others count by their logarithms
 FITTED = tuple(name for name in NUMBERS if name != "spread")
 FAR = 3.0  # standard deviations beyond which a statistic tells no more
-RIDGE = 3.0
-POOR = 0.25  # error, in logarithms or shares, beyond which a trait is not told
+PENALTIES = tuple(3.0 * 2.0**i for i in range(10))  # of a regression, one of which is chosen for each trait
+POOR, POOR_SHARE = 0.25, 0.2  # errors, in logarithms and of shares, beyond which a trait is not told
 SURE = 1.96  # standard deviations, for 95 %
 MAX_BYTES = 1_000_000
 
@@ -49,6 +49,11 @@ def plain(trait: str, raw: float) -> float:
 def raw_of(trait: str, value: float) -> float:
     """Logarithm or share of a trait."""
     return value if trait in SHARES else log(value)
+
+
+def is_told(trait: str, error: float) -> bool:
+    """True if an error, as a standard deviation of `raw_of`, is small enough to tell a trait."""
+    return error <= (POOR_SHARE if trait in SHARES else POOR)
 
 
 @dataclass(frozen=True)
@@ -83,6 +88,10 @@ class FitCalibration:
         terms = np.concatenate([row, _products(np.array([guesses]))[0]])
         return {name: one.base + float(terms @ np.array(one.weights + one.mixed)) for name, one in self.traits.items()}
 
+    def shows(self, trait: str) -> bool:
+        """True if long play of one person tells a trait; else the mean of many is only that of the regression."""
+        return is_told(trait, min(self.traits[trait].errors))
+
     def error(self, trait: str, minutes: float) -> float:
         """Standard deviation of a logarithm or a share after so many minutes of play."""
         errors: tuple[float, ...] = self.traits[trait].errors
@@ -110,7 +119,8 @@ def calibrated(samples: Sequence[Sample], tested: Mapping[float, Sequence[Sample
     """By two ridge regressions over `samples`. `tested`: others, by the minutes of their play."""
     names, people = tuple(samples[0][1]), [person for person, _ in samples]
     table = np.array([[found[name] for name in names] for _, found in samples])
-    means, deviations = table.mean(axis=0), table.std(axis=0) + 1e-6
+    usual = _without_outliers(table)
+    means, deviations = usual.mean(axis=0), usual.std(axis=0) + 1e-6
     fitted = [name for name in FITTED if any(getattr(person, name) > 0.0 for person in people)]  # keys have no noise
     raws = np.array([[raw_of(name, getattr(person, name)) for name in fitted] for person in people])
     traits = dict(zip(fitted, _regressions(_standard(table, means, deviations), raws), strict=True))
@@ -118,12 +128,19 @@ def calibrated(samples: Sequence[Sample], tested: Mapping[float, Sequence[Sample
     return replace(known, traits={trait: _with_errors(known, trait, tested) for trait in traits})
 
 
+def _without_outliers(table: Array) -> Array:
+    """The columns, within FAR standard deviations as their middle two thirds tell them."""
+    low, middle, high = np.quantile(table, (1.0 / 6.0, 0.5, 5.0 / 6.0), axis=0)
+    reach = np.where(high > low, FAR * 0.5 * (high - low), np.inf)
+    return np.array(np.clip(table, middle - reach, middle + reach))
+
+
 def _regressions(rows: Array, raws: Array) -> Iterator[TraitCalibration]:
     """Of each column of `raws` (people, traits) on the statistics (people, n), and on products of first guesses."""
-    base, count = raws.mean(axis=0), rows.shape[1]
-    guess = _ridge(rows, raws - base) / raws.std(axis=0)
-    products = _products(rows @ guess)
-    weights = _ridge(np.concatenate([rows, products - products.mean(axis=0)], axis=1), raws - base)
+    base, spread, count = raws.mean(axis=0), raws.std(axis=0), rows.shape[1]
+    guess, without = ridge(rows, (raws - base) / spread)
+    products = _products(without)
+    weights, _ = ridge(np.concatenate([rows, products - products.mean(axis=0)], axis=1), raws - base)
     base = base - products.mean(axis=0) @ weights[count:]
     for i, own in enumerate(weights.T):
         yield TraitCalibration(
@@ -131,10 +148,22 @@ def _regressions(rows: Array, raws: Array) -> Iterator[TraitCalibration]:
         )
 
 
-def _ridge(rows: Array, values: Array) -> Array:
-    """Weights of a regression of the values (n, m) on the rows (n, k)."""
-    weights: Array = np.linalg.solve(rows.T @ rows + RIDGE * np.eye(rows.shape[1]), rows.T @ values)
-    return weights
+def ridge(rows: Array, values: Array) -> tuple[Array, Array]:
+    """Weights (k, m) of a regression of the values (n, m) on the rows (n, k), and each value by all other rows (n, m).
+
+    Of PENALTIES each column has the one with the least error of its values by all other rows (D. M. Allen, "The
+    relationship between variable selection and data augmentation", Technometrics 16, 1974).
+    """
+    left, sizes, right = np.linalg.svd(rows, full_matrices=False)
+    found = []
+    for penalty in PENALTIES:
+        kept = sizes**2 / (sizes**2 + penalty)
+        off = (values - left @ (kept[:, None] * (left.T @ values))) / (1.0 - (left**2 @ kept))[:, None]
+        weights = right.T @ ((sizes / (sizes**2 + penalty))[:, None] * (left.T @ values))
+        found.append((off, weights))
+    best = [int(np.argmin([np.square(off[:, i]).sum() for off, _ in found])) for i in range(values.shape[1])]
+    weights, off = (np.stack([found[k][part][:, i] for i, k in enumerate(best)], axis=1) for part in (1, 0))
+    return weights, values - off
 
 
 def _products(guesses: Array) -> Array:

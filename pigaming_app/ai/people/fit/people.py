@@ -7,7 +7,14 @@ import numpy as np
 
 from pigaming_app.ai.brain.traits import Traits
 from pigaming_app.ai.game_ai import POINT, TURN
-from pigaming_app.ai.people.fit.calibration import POOR, FitCalibration, FittedTrait, calibration, estimate, raw_of
+from pigaming_app.ai.people.fit.calibration import (
+    FitCalibration,
+    FittedTrait,
+    calibration,
+    estimate,
+    is_told,
+    raw_of,
+)
 from pigaming_app.ai.people.fit.statistics import statistics
 from pigaming_app.ai.people.fit.wishes import Array, Watched, watch
 from pigaming_app.ai.people.models import PEOPLE
@@ -37,7 +44,8 @@ class FittedPerson:
         """Of every trait; None: not enough play to tell."""
         errors = self.errors()
         return {
-            name: estimate(name, raw, errors[name]) if errors[name] <= POOR else None for name, raw in self.raws.items()
+            name: estimate(name, raw, errors[name]) if is_told(name, errors[name]) else None
+            for name, raw in self.raws.items()
         }
 
     def errors(self) -> dict[str, float]:
@@ -113,11 +121,13 @@ def mean_of(people: Sequence[FittedPerson]) -> GroupMean:
 
 
 def _mean(trait: str, people: Sequence[FittedPerson]) -> FittedTrait | None:
+    if not all(_calibration(one.game, one.driving).shows(trait) for one in people):
+        return None
     raws = np.array([one.raws[trait] for one in people])
     own = np.array([one.errors()[trait] for one in people])
     apart = float(raws.std(ddof=1)) if len(people) > 1 else 0.0
     error = max(float(np.sqrt(np.sum(own**2))) / len(people), apart / len(people) ** 0.5)
-    return estimate(trait, float(raws.mean()), error) if error <= POOR else None
+    return estimate(trait, float(raws.mean()), error) if is_told(trait, error) else None
 
 
 def _known(trait: str, traits: Traits) -> float:

@@ -34,8 +34,9 @@ ASKED = (
     replace(MIDDLE, prediction=1.0),
     replace(MIDDLE, tactics=0.0),
     replace(MIDDLE, tactics=1.0),
+    *(replace(MIDDLE, reaction=reaction) for reaction in (0.3, 0.5, 0.6, 0.8)),
 )
-"""The models that are asked; the second is the middle one."""
+"""The models that are asked; the second is the middle one. The last ones are for finer reactions."""
 FIELDS = ("linear", "angular", "fire", "turbo", "aim")  # of a recorded action
 
 
