@@ -29,7 +29,7 @@ HARDEST = driver(
     form=0.005, spell=0.01, care=0.02, line=1.0, spread=2.0, delay=0.05, mistakes=0.0, foresight=400.0, alert=1.0
 )
 LEVELS = tuple(racer(f"level{number}", driver) for number, driver in enumerate(DRIVERS, start=1))
-NET = shipped_brain("net", "race", NETWORK)
+NET = shipped_brain("net", "race", NETWORK, handicap={"sharpness": 4.0})
 
 AI = GameAI(
     {kind.name: kind for kind in (HAND1, HAND2, HAND3, NET, *LEVELS)},

@@ -1,6 +1,7 @@
 """The inputs of Robot Race, checked against a match of hand-written brains; both bodies play alike."""
 
 from math import cos, hypot, sin
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,16 +11,17 @@ from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.files import brain_of
 from pigaming_app.ai.networks.policy import Handicap
 from pigaming_app.ai.networks.race import AHEAD, BOX, COURSE, ENCODING, NEAR, OILS, OTHER, OTHERS, PAD, POWERS, SIZE
-from pigaming_app.ai.registry import BRAINS
+from pigaming_app.ai.registry import BRAINS, find_brain
 from pigaming_app.games.race.course import CoursePosition, distance_ahead, locate, segment_at
 from pigaming_app.games.race.observation import SIGHT
 from pigaming_app.games.setup import make_setup
-from pigaming_app.sim.record import digest
+from pigaming_app.sim.record import digest, to_bytes
 from tests.ai.networks.random_network import random_network
 from tests.matches import match_of
 
 HANDICAP = Handicap(delay=0.2, error=0.1, sharpness=0.7, speed=0.9, form=0.2)
 VARIANTS = "standard", "party"
+ROOT = Path(__file__).parents[3]
 
 
 def test_everything_is_seen_where_it_is():
@@ -93,3 +95,21 @@ def test_a_bad_day_is_slower_by_no_more_than_the_form():
     speeds = np.array([mind.speed for mind in minds])
     assert 0.72 <= speeds.min() < 0.75
     assert 0.87 < speeds.max() <= 0.9
+
+
+@pytest.mark.parametrize(
+    ("game", "file"),
+    [
+        ("pitanks", "assets/brains/pitanks.npz"),
+        ("race", "assets/brains/race.npz"),
+        ("football", "pigaming_football/brains/football.npz"),
+    ],
+)
+def test_a_shipped_network_plays_as_its_file_says(game, file):
+    minds = []
+    for name in ("net", str(ROOT / file)):
+        kind = find_brain(game, name)
+        mind = kind.mind()
+        kind.begin(mind, 3)
+        minds.append(to_bytes(mind))
+    assert minds[0] == minds[1]
