@@ -5,8 +5,8 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import count
+from typing import TYPE_CHECKING
 
-from pigaming_app.hardware.session.guide import GuideStep, next_step, steps
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.jobs.mat.robots import LISTEN
 from pigaming_app.jobs.mat.sessions import real_session
@@ -15,6 +15,9 @@ from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import english
+
+if TYPE_CHECKING:
+    from pigaming_app.hardware.session.guide import GuideStep
 
 COMMANDS = {"robots": "robots setup", "calibrate": "calibrate", "pair": "robots --pair"}  # for steps that have one
 
@@ -25,7 +28,9 @@ class GuideOptions(JsonOption):
 
 
 def run(options: GuideOptions) -> int:
-    """Print the steps. Exit code 0 if all are done, else 1."""
+    """Print the steps."""
+    from pigaming_app.hardware.session.guide import next_step, steps
+
     settings, _ = Settings.load(folders().config)
     heard, fault = _heard()
     found = steps(settings, folders().data, "real", None, heard, fault)
@@ -33,8 +38,8 @@ def run(options: GuideOptions) -> int:
         rows = [{"step": one.name, "done": one.done, "problem": _sentence(one.problem)} for one in found]
         print(json.dumps({"steps": rows, "next": next_step(found), "heard": heard}))
     else:
-        print("\n".join(table(found)))
-    return 1 if next_step(found) else 0
+        print("\n".join(table(found, next_step(found))))
+    return 0
 
 
 def _heard() -> tuple[int, OperatorMessage | None]:
@@ -52,9 +57,9 @@ def _heard() -> tuple[int, OperatorMessage | None]:
         session.close()
 
 
-def table(found: Sequence[GuideStep]) -> Iterator[str]:
-    """A line for each step, and what comes next."""
-    words, after = english(), next_step(list(found))
+def table(found: "Sequence[GuideStep]", after: str) -> Iterator[str]:
+    """A line for each step, and what comes next: the step `after`; empty if all are done."""
+    words = english()
     for number, step in zip(count(1), found):
         mark, line = "x" if step.done else " ", _sentence(step.problem) or words(f"guide.{step.name}_line")
         yield f"{number}. [{mark}] {words(f'guide.{step.name}'):18}{line}"

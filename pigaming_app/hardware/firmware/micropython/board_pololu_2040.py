@@ -1,7 +1,6 @@
 """Pololu 3pi+ 2040 and Zumo 2040: RP2040 without Wi-Fi, so an XBee (AP=0) on GP28 and GP29; four AAA or AA cells.
 
-Pins of the 3pi+: Pololu's library pololu_3pi_2040_robot. The Zumo's are the same: battery in Pololu's zumo-2040-robot
-(battery.c), motors and buttons in the table for both robots at imrclab.github.io/pololu-rs/hardware.
+Pins: Pololu's library pololu_3pi_2040_robot; the Zumo's are the same by imrclab.github.io/pololu-rs/hardware.
 """
 
 from motors import Phase
