@@ -17,7 +17,6 @@ from pigaming_football.ai import NET
 from pigaming_football.network import BALL, ENCODING, FAR, FEET, GOALS, MATCH, OTHER, OTHERS, PLACE, SIZE
 from pigaming_football.training import FIELD, LEAD, NEARNESS, POINT, TASK
 from tests.ai.networks.random_network import random_network
-from tests.cases import repeated
 from tests.football.pitch import match, put_ball, put_robot, setup, state
 from tests.matches import match_of, run
 
@@ -141,9 +140,10 @@ def test_the_network_that_ships_is_offered_and_explains_itself():
     assert {sight.kind for sight in told.percepts}
 
 
+@pytest.mark.again
 @needs_numba
 @pytest.mark.long
-@pytest.mark.parametrize("arena", repeated(["classic", "bumpers", "small_goals"]))
+@pytest.mark.parametrize("arena", ["classic", "bumpers", "small_goals"])
 def test_the_network_that_ships_beats_level_5(arena):
     result = duel("football", "net", "level5", 60, 1, 2.0, arena)
     assert result.wins >= 54

@@ -12,7 +12,6 @@ from pigaming_app.ai.registry import AIS, find_brain, make_brain
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import ROBOTS
-from tests.cases import repeated
 from tests.matches import match_of
 
 AUTO_GAMES = [game for game, ai in AIS.items() if ai.auto]
@@ -113,9 +112,10 @@ def test_the_lobby_offers_none_of_them(game):
     assert all(find_brain(game, name).name == name for name in AUTO)
 
 
+@pytest.mark.again
 @pytest.mark.long
 @pytest.mark.skipif(not can_compile(), reason="needs the extra train")
-@pytest.mark.parametrize("game", repeated(AUTO_GAMES))
+@pytest.mark.parametrize("game", AUTO_GAMES)
 def test_they_play_alike_in_both_bodies(game):
     match = match_of(game, ["auto1", "auto4", "auto6", "auto9"], minutes=0.4, seed=4)
     kinds = [find_brain(game, name) for name in ("auto1", "auto4", "auto6", "auto9")]

@@ -152,6 +152,7 @@ def test_no_level_stands_still_for_long(variant, level):
     assert all(found[floor]["pallets spoiled"] == 0 for floor in FLOORS)
 
 
+@pytest.mark.again
 @pytest.mark.long
 @pytest.mark.parametrize("floor", FLOORS)
 def test_the_best_are_seldom_far_from_the_bound(floor):

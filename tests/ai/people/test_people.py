@@ -19,7 +19,6 @@ from pigaming_app.games.setup import ChoiceError
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import HZ
-from tests.cases import repeated
 from tests.matches import match_of
 
 EVERYBODY = ("masher", *PEOPLE)
@@ -93,9 +92,10 @@ def mind_of(name, seed):
     return make_brain("pitanks", name, seed).mind
 
 
+@pytest.mark.again
 @pytest.mark.long
 @pytest.mark.skipif(not can_compile(), reason="needs the extra train")
-@pytest.mark.parametrize("game", repeated(games()))
+@pytest.mark.parametrize("game", games())
 def test_people_play_alike_in_both_bodies(game):
     match = match_of(game, ["beginner", "player", "expert", "masher"], minutes=0.4, seed=4)
     kinds = [find_brain(game, name) for name in ("beginner", "player", "expert", "masher")]
@@ -149,9 +149,10 @@ def test_every_trait_can_be_scaled():
         assert getattr(before.scaled(trait, 1.1), trait) == pytest.approx(1.1 * getattr(before, trait))
 
 
+@pytest.mark.again
 @pytest.mark.long
 @pytest.mark.skipif(not can_compile(), reason="needs the extra train")
-@pytest.mark.parametrize("game", repeated(games()))
+@pytest.mark.parametrize("game", games())
 def test_auto_suits_everybody_after_three_matches(game):
     """A short form of the table in docs/people.md: 20 series, hence wider bounds than the 30 to 50 % of the tuning."""
     names = EVERYBODY if game in ("pitanks", "football") else EVERYBODY[1:]

@@ -23,6 +23,7 @@ def test_slow_and_late_robots_stay_out_of_walls_and_raise_no_alarm(number: int) 
     assert run.alarms == 0
 
 
+@pytest.mark.again
 @pytest.mark.long
 def test_robots_that_are_later_than_declared_are_measured_within_seconds() -> None:
     """Dead time 200 ms, of which their driver declares 30."""

@@ -246,6 +246,7 @@ def targets(watcher: object) -> dict[int, tuple[int, int]]:
     return found
 
 
+@pytest.mark.again
 @needs_aseba
 @pytest.mark.long
 def test_a_simulated_thymio_that_restarts_gets_its_program_again(tmp_path: Path) -> None:

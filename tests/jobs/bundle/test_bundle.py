@@ -154,6 +154,7 @@ def test_the_doctor_finds_every_library(inside: list[str]) -> None:
         assert lines[what]["state"] == "ok", lines[what]
 
 
+@pytest.mark.again
 def test_learning_is_compiled_in_it_and_kept_compiled_in_the_users_folder(inside: list[str], home: Path) -> None:
     ended = run(inside, "train", "qlearning", "--matches", "4", "--minutes", "0.05", "--out", "/home/q.npz")
     assert ended.returncode == 0, ended.stderr

@@ -68,7 +68,10 @@ def free_port() -> int:
         return int(one.getsockname()[1])
 
 
-@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize(
+    "family",  # Chromium plays in test_browser.py, too
+    [pytest.param(one, marks=pytest.mark.again if one == "chromium" else ()) for one in FAMILIES],
+)
 def test_a_phone_goes_its_whole_way(
     family: Callable[[], AbstractAsyncContextManager[Any]],
     controls: Controls,
