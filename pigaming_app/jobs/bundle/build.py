@@ -26,8 +26,14 @@ STRIPPED = (
     "libpython3*.so*",
     "python3*/lib-dynload/*.so",
     "llvmlite/binding/*.so",
+    "numba/**/*.so",
+    "PIL/*.so",
     "aiohttp/**/*.so",
+    "cryptography/**/*.so",
+    "frozenlist/*.so",
     "multidict/*.so",
+    "propcache/*.so",
+    "yarl/*.so",
 )
 APP = "PiGaming.app"  # on macOS, beside the folder
 # %k is the path of the file itself, so that the folder can lie anywhere.
