@@ -56,7 +56,9 @@ def needs(found: str | None, packages: str) -> Any:
 
 
 FAMILIES = [
-    pytest.param(chromium_browsing, id="chromium", marks=needs(chromium(), "chromium")),
+    pytest.param(  # plays in test_browser.py, too
+        chromium_browsing, id="chromium", marks=[needs(chromium(), "chromium"), pytest.mark.again]
+    ),
     pytest.param(firefox_browsing, id="firefox", marks=needs(firefox(), "firefox-esr")),
     pytest.param(webkit_browsing, id="webkit", marks=needs(webkit(), "webkit2gtk-driver xvfb")),
 ]
@@ -68,10 +70,7 @@ def free_port() -> int:
         return int(one.getsockname()[1])
 
 
-@pytest.mark.parametrize(
-    "family",  # Chromium plays in test_browser.py, too
-    [pytest.param(one, marks=pytest.mark.again if one == "chromium" else ()) for one in FAMILIES],
-)
+@pytest.mark.parametrize("family", FAMILIES)
 def test_a_phone_goes_its_whole_way(
     family: Callable[[], AbstractAsyncContextManager[Any]],
     controls: Controls,
