@@ -80,7 +80,14 @@ def test_jobs_of_the_core_run_and_those_of_features_are_refused(tmp_path: Path) 
     assert len(told) == len(lines) == refused.stderr.count("\n")
 
 
-@pytest.mark.parametrize("game", [game for game in games() if game in ROOMS])
+@pytest.mark.parametrize(
+    "game",
+    [
+        pytest.param(game, marks=[pytest.mark.long, pytest.mark.again] if game == "race" else [])
+        for game in games()
+        if game in ROOMS
+    ],
+)
 def test_jobs_refuse_a_game_that_is_missing_and_play_another(game: str, tmp_path: Path) -> None:
     ran = without(ROOMS[game], tmp_path, *CORE_JOBS)
     assert (ran.returncode, ran.stderr) == (0, "")

@@ -181,6 +181,7 @@ def cage(x: float, y: float) -> list[Prism]:
     return [box(x + dx, y + dy, 40.0, 130.0, 60.0, turn, 0.45, "printed", 20) for dx, dy, turn in sides]
 
 
+@pytest.mark.again
 @pytest.mark.long
 def test_things_pushed_against_a_robot_explain_that_it_does_not_follow_its_commands(
     arcade: Arcade, cleared: EmulatedSession
@@ -217,8 +218,9 @@ def test_things_pushed_against_a_robot_explain_that_it_does_not_follow_its_comma
     frames(arcade, mat, lambda _, at=match.match.seconds: match.match.seconds > at + 1.0, 10.0)  # type: ignore[misc]
 
 
+@pytest.mark.again
 @pytest.mark.long
-@pytest.mark.parametrize("game", repeated(["pitanks", "race"]))
+@pytest.mark.parametrize("game", ["pitanks", "race"])
 def test_a_block_that_is_moved_by_hand_is_a_wall_where_it_is_and_in_the_replay(
     arcade: Arcade, cleared: EmulatedSession, game: str
 ) -> None:
