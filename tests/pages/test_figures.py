@@ -28,7 +28,7 @@ COMPILED = (
     "auto",
     "seats",
     "sensitivity",
-    "race sensitivity",
+    "beginner sensitivity",
 )  # each compiles more line-ups, which takes minutes
 
 

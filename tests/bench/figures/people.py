@@ -104,9 +104,15 @@ def sensitivity(share: float) -> list[list[str]]:
     return _leant("pitanks", LEANT, share)
 
 
-def race_sensitivity(share: float) -> list[list[str]]:
-    """The same in Robot Race, of beginners."""
-    return _leant("race", LEANT[:1], share)
+def beginner_sensitivity(share: float) -> list[list[str]]:
+    """The same in the other games, of beginners against level 1."""
+    others = [game for game in GAMES if game != "pitanks"]
+    head = [f"{GAMES[game]}, × {factor}" for game in others for factor in (0.7, 1.3)]
+    tables = [_leant(game, LEANT[:1], share)[1:] for game in others]
+    return [
+        ["", *head],
+        *([rows[0][0], *(cell for row in rows for cell in row[1:])] for rows in zip(*tables, strict=True)),
+    ]
 
 
 def _leant(game: str, leant: Sequence[tuple[str, str]], share: float) -> list[list[str]]:

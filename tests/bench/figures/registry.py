@@ -57,8 +57,11 @@ MEASURED = {
     "sensitivity": Measured(
         PEOPLE, f"{MAIN} people pitanks level1 --people beginner --scale reaction=0.7 --seed 0", people.sensitivity, 10
     ),
-    "race sensitivity": Measured(
-        PEOPLE, f"{MAIN} people race level1 --people beginner --scale reaction=0.7 --seed 0", people.race_sensitivity, 3
+    "beginner sensitivity": Measured(
+        PEOPLE,
+        f"{MAIN} people GAME level1 --people beginner --scale reaction=0.7 --seed 0",
+        people.beginner_sensitivity,
+        15,
     ),
     "exploits": Measured(OPPONENTS, f"{MAIN} exploits GAME --hands HANDS --matches 200", exploits.wins, 30),
     "network": Measured(NETWORKS, f"{BENCH}network_wins net --matches {networks.EACH}", networks.wins, 10),
