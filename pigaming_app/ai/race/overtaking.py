@@ -2,8 +2,8 @@
 
 Standing and slow robots are obstacles to drive round. Racing robots are followed until they leave room on the fastest
 line, and then overtaken there, mostly on the inside of a bend, where the way is shorter. A robot beside another gives
-way. In `party` a robot with charge in its meter pulls out of the slipstream to pass, steers for boost pads and item
-boxes, stays in a slipstream while its meter is low, and avoids oil.
+way. In `party`, and last in `draft`, a robot with charge in its meter pulls out of the slipstream to pass, steers for
+boost pads and item boxes, stays in a slipstream while its meter is low, and avoids oil.
 """
 
 from typing import Protocol
@@ -86,7 +86,7 @@ def lane_cost(obs: RaceObservation, mind: Overtaker, lane: float) -> float:
 
 @kernel
 def eagerness(obs: RaceObservation) -> float:
-    """Cost of staying behind a robot right ahead, px: in `party`, with a charged meter, on a straight."""
+    """Cost of staying behind a robot right ahead, px: where slipstreams work, with a charged meter, on a straight."""
     if not obs.boosts or (obs.turbo < CHARGED and not obs.surge):
         return 0.0
     cost: float = PASSING * (1.0 - abs(obs.turn) / STRAIGHT)

@@ -410,3 +410,13 @@ def test_pads_of_draft_shine_in_the_colour_of_the_last(screen, last):
     pixels = [screen.get_at((x, y))[:3] for x in range(box.left, box.right) for y in range(box.top, box.bottom)]
     bright = max(pixels, key=lambda pixel: max(pixel) - min(pixel))  # the road is grey
     assert min(range(4), key=lambda seat: sum((a - b) ** 2 for a, b in zip(bright, PLAYERS[seat], strict=True))) == last
+
+
+def test_pads_of_draft_are_grey_for_who_drives_alone(screen):
+    scene = BusyRace(1, variant="draft")
+    pad = scene.state.pads[0]
+    scene.state.robots[0].x, scene.state.robots[0].y = pad.x + 400.0, pad.y + 200.0
+    seen(scene).draw(screen, scene.state, 1.0, 0.0)
+    box = around(pad.x, pad.y, 40)
+    pixels = [screen.get_at((x, y))[:3] for x in range(box.left, box.right) for y in range(box.top, box.bottom)]
+    assert not any(pixel[0] > pixel[2] + 40 for pixel in pixels), "gold would promise what it does not do"

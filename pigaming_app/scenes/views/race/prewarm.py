@@ -12,7 +12,7 @@ from pigaming_app.scenes.views.race.recovery import beam, way_dot
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import ghost as blank
 from pigaming_app.scenes.views.view import decimal
-from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, THIN, WHITE
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, STEEL, SUB, THIN, WHITE
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS, step
 from pigaming_app.ui.draw.text import glyph
@@ -85,7 +85,7 @@ def _light(seats: Sequence[int], party: bool) -> Iterator[Job]:
 
 def party_jobs(state: Race, seats: Sequence[int], finish: LineFrame | None) -> Iterator[Job]:
     """One small job per sprite; a cached sprite costs nothing. `finish`: the common finish line; None: in draft."""
-    colors = [FOCUS] if finish else [FOCUS, *(PLAYERS[seat] for seat in seats)]
+    colors = [FOCUS] if finish else [PLAYERS[seat] for seat in seats] if len(seats) > 1 else [STEEL]
     for turn in sorted({step(pad.heading, HEADINGS) for pad in state.pads}):
         for color in colors:
             yield from (partial(things.pad, turn, phase, color) for phase in range(things.PAD_PHASES))

@@ -10,7 +10,7 @@ from pigaming_app.scenes.views.race.lines import START, LineFrame
 from pigaming_app.scenes.views.race.party import sprites as things
 from pigaming_app.scenes.views.view import Pose
 from pigaming_app.sim.world import HZ, ROBOTS
-from pigaming_app.ui.draw import FOCUS, PLAYERS
+from pigaming_app.ui.draw import FOCUS, PLAYERS, STEEL
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
 
 PAD_SPEED = 1.4  # waves of light over a boost pad, per second
@@ -23,9 +23,10 @@ CLEAR = 50.0  # px between a robot's centre and the air
 
 
 def draw_floor(under: Batch, over: Batch, state: Race, clock: float) -> None:
-    """Draw pads, boxes and oil; pads that only the last can use in its colour."""
-    owner = next((seat for seat in range(ROBOTS) if is_last(state, seat)), None) if state.rules.draft else None
-    color = FOCUS if owner is None else PLAYERS[owner]
+    """Draw pads, boxes and oil; pads that only the last can use in its colour, or grey for who drives alone."""
+    color = FOCUS
+    if state.rules.draft:
+        color = next((PLAYERS[seat] for seat in range(ROBOTS) if is_last(state, seat)), STEEL)
     for pad in state.pads:
         phase = int(clock * PAD_SPEED * things.PAD_PHASES) % things.PAD_PHASES
         put(under, things.pad(step(pad.heading, HEADINGS), phase, color), LEFT + pad.x, TOP + pad.y)
