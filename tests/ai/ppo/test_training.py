@@ -15,6 +15,7 @@ from pigaming_app.ai.ppo import product
 from pigaming_app.ai.ppo import training as training_module
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.registry import TASKS
+from pigaming_app.ai.ppo.task_file import parse_task_file
 from pigaming_app.ai.ppo.training import Training, in_threads, start_of, whole_layers
 from pigaming_app.ai.ppo.win_rates import DuelScore, win_rates
 from pigaming_app.ai.registry import find_brain
@@ -84,18 +85,19 @@ def test_a_damaged_or_foreign_checkpoint_is_refused_in_one_line(halfway, tmp_pat
         with pytest.raises(BrainFileError, match=f"^a.checkpoint.npz: .*{reason}"):
             product.restore(Training(TASK, 5, 4, TINY), path)
     path.write_bytes(raw)
-    for other, reason in ((Training(TASK, 6, 4, TINY), "seed"), (Training(TASK, 5, 5, TINY), "planned updates")):
+    for other, reason in ((Training(TASK, 6, 4, TINY), "seed"), (Training(TASK, 5, 5, TINY), "updates")):
         with pytest.raises(BrainFileError, match=f"another {reason}$"):
             product.restore(other, path)
 
 
 def test_the_file_of_the_network_names_its_recipe(halfway):
     network = decode(encode(trained_network(halfway, "mine")), "mine.npz")
-    assert network.recipe["rate"] == TINY.rate
-    assert network.recipe["WIN"] == 2.0
-    assert network.recipe["line_ups"] == [
-        f"1 learner {name} off off" for name in ("hand3", "learner", "exploiter", "pool")
-    ]
+    task = parse_task_file(str(network.recipe["task"]))
+    assert task.training == TINY
+    assert task.rewards
+    assert task.rewards["win"] == 2.0
+    assert [line_up.seats[1] for line_up in task.line_ups] == ["hand3", "learner", "exploiter", "pool"]
+    assert (task.seed, task.updates) == (5, 4)
     assert (network.updates, network.decisions, network.licence) == (2, halfway.decisions, "MIT")
     assert json.dumps(network.recipe)
     played = packed_layers(halfway.layers())

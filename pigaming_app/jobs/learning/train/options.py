@@ -11,7 +11,6 @@ from pigaming_app.jobs.terminal.options import (
     GameOption,
     Groups,
     JsonOption,
-    SeedOption,
     decimal,
     flag,
     integer,
@@ -20,6 +19,7 @@ from pigaming_app.jobs.terminal.options import (
     word,
 )
 from pigaming_app.jobs.terminal.refusal import Refusal, require
+from pigaming_app.sim.rng import SEEDS
 from pigaming_app.storage.safe_files import require_writable
 
 T = TypeVar("T")
@@ -76,7 +76,7 @@ def check_outputs(options: OutputOptions, noun: str, beside: Sequence[Path] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
-class PpoOptions(OutputOptions, JsonOption, SeedOption, GameOption):
+class PpoOptions(OutputOptions, JsonOption, GameOption):
     """What is learned, for how long, and by which machines."""
 
     GROUPS: ClassVar[Groups] = {
@@ -84,6 +84,8 @@ class PpoOptions(OutputOptions, JsonOption, SeedOption, GameOption):
         ("several machines", "The same network, bit for bit, as without them."): ("ray", "workers"),
     }
 
+    task: Path | None = option("task file (.toml); default: the game's own, see `train task`", path, metavar="FILE")
+    seed: int | None = option("random seed; default: that of the task file", integer(0, SEEDS - 1), metavar="NUMBER")
     updates: int | None = option(
         "length; the same seed gives the same network", integer(high=1_000_000), metavar="NUMBER"
     )
@@ -92,7 +94,7 @@ class PpoOptions(OutputOptions, JsonOption, SeedOption, GameOption):
         integer(high=10**12),
         metavar="NUMBER",
     )
-    minutes: float | None = option(f"length; default {DEFAULT_MINUTES:g}", decimal(0.01, 10_000.0), metavar="NUMBER")
+    minutes: float | None = option("length; default: that of the task file", decimal(0.01, 10_000.0), metavar="NUMBER")
     base: str | None = option("network to continue, a name or a file", name=("--from",), metavar="AI")
     against: str | None = option(
         "learn to beat this one alone, from its own weights if it is a network, and print the curve", metavar="AI"

@@ -5,6 +5,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from time import monotonic
@@ -17,14 +18,21 @@ from pigaming_app.ai.ppo.product import encode, restore, trained_network
 from pigaming_app.ai.ppo.ray_workers import NoCluster, RayShards
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import is_compiled
-from pigaming_app.ai.ppo.task import SHARDS, Task
+from pigaming_app.ai.ppo.task import NO_LENGTH, SHARDS, Length, Task
+from pigaming_app.ai.ppo.task_file import read_task
 from pigaming_app.ai.ppo.training import Diverged, Gather, Origin, Training, in_threads, scores_at, start_of
 from pigaming_app.ai.ppo.win_rates import DuelScore
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
-from pigaming_app.jobs.learning.train.options import DEFAULT_WORKERS, PpoOptions, changed
+from pigaming_app.jobs.learning.train.options import (
+    DEFAULT_DECISIONS,
+    DEFAULT_MINUTES,
+    DEFAULT_WORKERS,
+    PpoOptions,
+    changed,
+)
 from pigaming_app.jobs.learning.train.outputs import png_of, two_plots
 from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
 from pigaming_app.jobs.learning.train.telemetry import TrainingTable
@@ -79,16 +87,17 @@ def _begin(options: PpoOptions, beside: Path) -> Training:
         raise Refusal(f"train ppo: learns {', '.join(TASKS)} only, not {options.game}")
     if (options.workers or 0) > SHARDS:
         raise Refusal(f"--workers: {options.workers}; the matches are divided among {SHARDS} at most")
+    start = _start(options)
     task = _task(options)
     _rehearse(task)
-    start = _start(options)
+    length = _length(options, task)
     try:
-        hyper = changed(task.hyper.continued if start else task.hyper, options.set)
-        training = Training(task, options.seed, options.updates or 0, hyper, options.minutes, start)
+        task = replace(task, hyper=changed(task.hyper, options.set))
+        training = Training(task, length.seed, length.updates or 0, None, length.minutes, start)
     except ValueError as wrong:
         raise Refusal(f"--set: {wrong}" if options.set else str(wrong)) from None
-    if options.decisions is not None:
-        training.planned = -(-options.decisions // training.decisions_of_update)
+    if length.decisions is not None:
+        training.planned = -(-length.decisions // training.decisions_of_update)
     if options.resume:
         restore(training, beside)
     return training
@@ -103,9 +112,21 @@ def _rehearse(task: Task) -> None:
     rehearse(setup, [find_brain(task.game, "random")] * ROBOTS)
 
 
+def _length(options: PpoOptions, task: Task) -> Length:
+    """Seed and length: those of the command, else of the task."""
+    length = NO_LENGTH._replace(updates=options.updates, decisions=options.decisions, minutes=options.minutes)
+    if length[1:] == NO_LENGTH[1:]:
+        length = NO_LENGTH._replace(decisions=DEFAULT_DECISIONS) if options.against else task.length
+    if length[1:] == NO_LENGTH[1:]:
+        length = NO_LENGTH._replace(minutes=DEFAULT_MINUTES)
+    return length._replace(seed=task.length.seed if options.seed is None else options.seed)
+
+
 def _task(options: PpoOptions) -> Task:
     """The game as it is to be learned. Raises ChoiceError."""
     task = TASKS[options.game]
+    if options.task is not None:
+        task = read_task(options.task, task)
     if options.against is None:
         return task.populated() if options.population else task
     find_brain(options.game, options.against)
