@@ -15,6 +15,7 @@ matches = 160
 
 import json
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any
@@ -83,8 +84,8 @@ class TaskFile:
     sharpness: Annotated[float, between(0.0, 10.0)] = 1.0
     line_ups: Annotated[tuple[FiledLineUp, ...], Meta(min_length=1, max_length=200)]
     training: Hyper = STANDARD
-    rewards: Annotated[Mapping[str, Weight], Meta(max_length=100)] | None = None
-    habits: Annotated[Mapping[str, Weight], Meta(max_length=100)] | None = None
+    rewards: Mapping[str, float] | None = None
+    habits: Mapping[str, float] | None = None
 
     def __post_init__(self) -> None:
         if sum(length is not None for length in (self.updates, self.decisions, self.minutes)) > 1:
@@ -116,7 +117,24 @@ def parse_task_file(text: str) -> TaskFile:
     for k, line_up in enumerate(line_ups if isinstance(line_ups, list) else []):
         _require_known(line_up, FiledLineUp, f"line_ups[{k}].")
     _require_known(tables.get("training"), Hyper, "training.")
+    for table in ("rewards", "habits"):
+        for key, number in _entries(tables.get(table)):
+            with _within(f"{table}.{key}: "):
+                typed(number, Weight)
     return typed(tables, TaskFile)
+
+
+@contextmanager
+def _within(place: str) -> Iterator[None]:
+    """Names the place in a ParseError of this context."""
+    try:
+        yield
+    except ParseError as error:
+        raise ParseError(f"{place}{error}") from None
+
+
+def _entries(table: object) -> list[tuple[str, object]]:
+    return list(table.items()) if isinstance(table, dict) else []
 
 
 def with_file(code: Task, file: TaskFile) -> Task:
@@ -253,6 +271,6 @@ def _fields_of(called: Any) -> Mapping[str, float] | None:
 def _require_known(table: object, kind: Any, place: str = "") -> None:
     """Raises ParseError if a table has a key that is no field of a dataclass."""
     names = [field.name for field in fields(kind)]
-    for key in table if isinstance(table, dict) else ():
+    for key, _ in _entries(table):
         if key not in names:
             raise ParseError(f"{place}{key} is not a key here; there are {', '.join(names)}")

@@ -138,6 +138,34 @@ def test_what_continues_a_network_begins_with_its_weights_and_values_them_before
     assert not np.array_equal(trained_network(training, "later").matrices[0], shipped.matrices[0])
 
 
+def test_a_network_that_grows_plays_on_as_before_and_learns_with_all_its_units():
+    """New units have nothing to say at first, so all outputs are the same whole numbers."""
+    start, random = start_of("pitanks", "net"), np.random.default_rng(4)
+    task = replace(TASK, units=start.layers.units + 32, hyper=replace(TINY, held=1, rate=0.05))
+    training = Training(task, 5, 4, start=start)
+    seen = random.integers(-256, 257, (200, task.encoding.size)) * (random.random((200, task.encoding.size)) < 0.5)
+    assert training.layers().logits_of(seen) == start.layers.logits_of(seen)
+    rows = np.column_stack([seen / 256, np.ones(len(seen))]).astype(np.float32)
+    same = Training(replace(task, units=start.layers.units), 5, 4, start=start).learner.policy.forward(rows)[0]
+    first = training.learner.policy.forward(rows)[0]
+    assert chances(task, first) == pytest.approx(chances(task, same), abs=1e-5)
+    before = [matrix.copy() for matrix in training.learner.policy.weights]
+    trained(3, training=training)
+    for matrix, old in zip(training.learner.policy.weights, before, strict=True):
+        assert (matrix != old).any(axis=0).all(), "each unit learns"
+    grown = decode(encode(trained_network(training, "grown")), "grown.npz")
+    assert grown.units == start.layers.units + 32
+    assert brain_of(grown).weights(False)[0].logits_of(seen) == training.layers().logits_of(seen)
+    smaller = Training(TASK, 5, 4, TINY, start=start._replace(layers=training.layers()))
+    assert smaller.task.units == grown.units, "a network never shrinks"
+
+
+def chances(task, logits):
+    """Probabilities of all choices (outputs, n) from logits."""
+    heads = np.split(np.exp(logits), np.cumsum([count for _, count in task.encoding.heads])[:-1])
+    return np.concatenate([head / head.sum(axis=0) for head in heads])
+
+
 def test_who_has_no_weights_cannot_be_continued():
     with pytest.raises(ChoiceError, match=r"^hand3 is not a network"):
         start_of("pitanks", "hand3")
