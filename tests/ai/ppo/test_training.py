@@ -144,18 +144,23 @@ def test_a_network_that_grows_plays_on_as_before_and_learns_with_all_its_units()
     task = replace(TASK, units=start.layers.units + 32, hyper=replace(TINY, held=1, rate=0.05))
     training = Training(task, 5, 4, start=start)
     seen = random.integers(-256, 257, (200, task.encoding.size)) * (random.random((200, task.encoding.size)) < 0.5)
-    assert training.layers().logits_of(seen) == start.layers.logits_of(seen)
+    assert training.layers().logits_of(seen.tolist()) == start.layers.logits_of(seen.tolist())
     rows = np.column_stack([seen / 256, np.ones(len(seen))]).astype(np.float32)
     same = Training(replace(task, units=start.layers.units), 5, 4, start=start).learner.policy.forward(rows)[0]
     first = training.learner.policy.forward(rows)[0]
     assert chances(task, first) == pytest.approx(chances(task, same), abs=1e-5)
     before = [matrix.copy() for matrix in training.learner.policy.weights]
     trained(3, training=training)
-    for matrix, old in zip(training.learner.policy.weights, before, strict=True):
-        assert (matrix != old).any(axis=0).all(), "each unit learns"
+    pairs = zip(training.learner.policy.weights, before, strict=True)
+    first_layer, second, last = ((matrix != old)[:-1] for matrix, old in pairs)
+    new = slice(start.layers.units, None)
+    assert first_layer[:, new].any(axis=0).all(), "each new unit learns"
+    assert second[new].any(axis=1).all()
+    assert second[:, new].any(axis=0).all()
+    assert last[new].any(axis=1).all()
     grown = decode(encode(trained_network(training, "grown")), "grown.npz")
     assert grown.units == start.layers.units + 32
-    assert brain_of(grown).weights(False)[0].logits_of(seen) == training.layers().logits_of(seen)
+    assert brain_of(grown).weights(False)[0].logits_of(seen.tolist()) == training.layers().logits_of(seen.tolist())
     smaller = Training(TASK, 5, 4, TINY, start=start._replace(layers=training.layers()))
     assert smaller.task.units == grown.units, "a network never shrinks"
 

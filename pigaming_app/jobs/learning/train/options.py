@@ -89,17 +89,12 @@ class PpoOptions(OutputOptions, JsonOption, GameOption):
     updates: int | None = option(
         "length; the same seed gives the same network", integer(high=1_000_000), metavar="NUMBER"
     )
-    decisions: int | None = option(
-        f"length, in decisions of the network; default with --against {DEFAULT_DECISIONS}",
-        integer(high=10**12),
-        metavar="NUMBER",
-    )
+    decisions: int | None = option("length, in decisions of the network", integer(high=10**12), metavar="NUMBER")
     minutes: float | None = option("length; default: that of the task file", decimal(0.01, 10_000.0), metavar="NUMBER")
     base: str | None = option("network to continue, a name or a file", name=("--from",), metavar="AI")
-    against: str | None = option(
-        "learn to beat this one alone, from its own weights if it is a network, and print the curve", metavar="AI"
-    )
     population: bool = flag("against exploiters that start from its present weights, and members of a pool that win")
-    variant: str | None = option("with --against: set of rules; default: the game's first")
+    tensorboard: Path | None = option("folder for TensorBoard, a row each update", path, metavar="FOLDER")
     ray: str | None = option("Ray cluster, auto, or local (extra `ray`)", word, metavar="ADDRESS")
     workers: int | None = option(f"processes that play; default {DEFAULT_WORKERS}", integer(), metavar="NUMBER")
+    against: str | None = None  # to beat this one alone, by this set of rules; see the job `exploit`
+    variant: str | None = None

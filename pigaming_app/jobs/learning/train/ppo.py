@@ -1,6 +1,5 @@
 """A network, learned by proximal policy optimisation against rivals, earlier copies and itself.
 
-With --against it becomes a best response to one AI, and its curve tells how far that one can be exploited.
 Ctrl-C ends the training after the current update and saves the result; the same command with --resume continues it,
 bit for bit with --updates. The checkpoint for that lies beside the network.
 """
@@ -18,10 +17,6 @@ def run(options: PpoOptions) -> int:
         require("ray")
     checkpoint = options.out.with_suffix(".checkpoint.npz")
     check_outputs(options, "network", beside=[checkpoint])
-    if options.population and options.against is not None:
-        raise Refusal("--population: not with --against, which has one opponent")
-    if options.variant is not None and options.against is None:
-        raise Refusal("--variant: only with --against")
     from pigaming_app.jobs.learning.train.ppo_training import train_and_save
 
     return train_and_save(options, checkpoint)

@@ -26,16 +26,16 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
+from pigaming_app.jobs.learning.train.live_page import page_of
 from pigaming_app.jobs.learning.train.options import (
-    DEFAULT_DECISIONS,
     DEFAULT_MINUTES,
     DEFAULT_WORKERS,
     PpoOptions,
     changed,
 )
-from pigaming_app.jobs.learning.train.outputs import png_of, two_plots
 from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
 from pigaming_app.jobs.learning.train.telemetry import TrainingTable
+from pigaming_app.jobs.learning.train.tensorboard import EventFile
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic, write_atomic
@@ -58,6 +58,7 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
     """Train, save and print the result; 130 after Ctrl-C. `beside`: the checkpoint. Raises Refusal or NotSaved."""
     with refused(ChoiceError, BrainFileError):
         training = _begin(options, beside)
+    events = EventFile(options.tensorboard, training.updates) if options.tensorboard else None
     if not is_compiled(training.task):
         note("compiling the training, once; it takes a minute")
     with (
@@ -71,11 +72,9 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
             note("Ctrl-C ends the training after the current update and saves the result")
             table = TrainingTable(training, options.csv if options.resume else None)
             save = partial(_save, table, sync, options, beside)
-            _train(table, measures, scores, gather, threads, save, stopped)
+            _train(table, measures, scores, gather, threads, save, events, stopped)
             scores = training.measure(measures.at_end, threads)
             save()
-            if options.curve:
-                write_atomic(options.curve, _curve_of(training))
     _print(training, scores, options, bool(stopped))
     return end_of(stopped)
 
@@ -116,7 +115,7 @@ def _length(options: PpoOptions, task: Task) -> Length:
     """Seed and length: those of the command, else of the task."""
     length = NO_LENGTH._replace(updates=options.updates, decisions=options.decisions, minutes=options.minutes)
     if length[1:] == NO_LENGTH[1:]:
-        length = NO_LENGTH._replace(decisions=DEFAULT_DECISIONS) if options.against else task.length
+        length = task.length
     if length[1:] == NO_LENGTH[1:]:
         length = NO_LENGTH._replace(minutes=DEFAULT_MINUTES)
     return length._replace(seed=task.length.seed if options.seed is None else options.seed)
@@ -168,6 +167,7 @@ def _train(
     gather: Gather,
     threads: Executor,
     save: Callable[[], None],
+    events: EventFile | None,
     stopped: list[int],
 ) -> None:
     """Train to the end of the plan, or until stopped. `scores`: of the network as it is."""
@@ -179,23 +179,27 @@ def _train(
         if measured:
             scores = training.measure(measures.matches, threads)
         show(_line(training, scores), milestone=measured)
-        if monotonic() - saved > SAVED_EVERY:
-            saved = monotonic()
-            try:
+        try:
+            if events:
+                events.add(training.updates, table.numbers())
+            if monotonic() - saved > SAVED_EVERY:
+                saved = monotonic()
                 save()
-            except NotSaved as error:  # there may be room later
-                end_line()
-                note(str(error))
+        except NotSaved as error:  # there may be room later
+            end_line()
+            note(str(error))
     end_line()
 
 
 def _save(table: TrainingTable, sync: Callable[[], None], options: PpoOptions, beside: Path) -> None:
-    """Write network, checkpoint and table. Raises NotSaved or NoCluster."""
+    """Write network, checkpoint, table and page. Raises NotSaved or NoCluster."""
     sync()
     training, out = table.training, options.out
     write_all_atomic({out: encode_network(trained_network(training, out.stem)), beside: encode(training)})
     if options.csv:
         write_atomic(options.csv, table.csv())
+    if options.curve:
+        write_atomic(options.curve, page_of(table))
 
 
 def _line(training: Training, scores: Mapping[str, DuelScore]) -> str:
@@ -206,22 +210,6 @@ def _line(training: Training, scores: Mapping[str, DuelScore]) -> str:
         done = f"{training.updates} updates  {training.seconds / 60:.1f}/{training.minutes:g} min"
     ends = "  ".join(f"{rival} {score.wins}-{score.ties}-{score.losses}" for rival, score in scores.items())
     return f"{bar(training.share)} {done}  {training.decisions / training.seconds:,.0f} decisions/s  {ends}"
-
-
-def _curve_of(training: Training) -> bytes:
-    """The learning curve as a PNG file: wins against the rivals, and the policy's entropy."""
-    figure, upper, lower = two_plots()
-    millions = [point[1] / 1e6 for point in training.points]
-    for rival in training.task.rivals:
-        scores = [scores_at(training.task, point)[rival] for point in training.points]
-        low, high = zip(*(score.interval for score in scores), strict=True)
-        upper.plot(millions, [score.share for score in scores], label=f"wins against {rival}")
-        upper.fill_between(millions, low, high, alpha=0.2)
-    upper.set(title=f"{training.task.game}, seed {training.seed}", ylabel="share of wins", ylim=(-0.03, 1.03))
-    upper.legend()
-    lower.plot(millions, [point[3] for point in training.points], color="tab:orange")
-    lower.set(xlabel="decisions, millions", ylabel="entropy of the policy, nats")
-    return png_of(figure)
 
 
 def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOptions, stopped: bool) -> None:
