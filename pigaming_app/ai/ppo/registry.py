@@ -3,6 +3,8 @@
 from pathlib import Path
 
 from pigaming_app.ai.networks.files import BRAINS
+from pigaming_app.ai.networks.registry import ENCODINGS
+from pigaming_app.ai.ppo.standard import standard_task
 from pigaming_app.ai.ppo.task import Task
 from pigaming_app.ai.ppo.task_file import SUFFIX, TaskFileError, read_task
 from pigaming_app.games.registry import OURS
@@ -35,6 +37,7 @@ def _fault(game: str, code: Task) -> str:
 
 _CODE = {
     **{game: room.TASK for game in OURS if (room := optional(f"ai.ppo.{game}"))},
+    **{game: standard_task(encoding) for game, encoding in ENCODINGS.items() if game not in OURS},
     **parts("training", "TASK", Task, _fault),
 }
 TASKS: dict[str, Task] = {game: _filed(game, code) for game, code in _CODE.items()}

@@ -101,7 +101,7 @@ class Task:
 
         Two against two where there are two teams, else duels, on the arenas of the game.
         """
-        line_up, game = self._versus(rival, variant), self.game
+        line_up, game = versus(self.game, rival, variant), self.game
         return replace(
             self,
             arenas=tuple(shipped_arenas(game)),
@@ -118,12 +118,13 @@ class Task:
         kept = [line_up for line_up in self.line_ups if {*line_up.seats} - {OFF} not in replaced]
         total = sum(line_up.share for line_up in kept)
         variant = games()[self.game].default.name
-        against = [self._versus(other, variant)._replace(share=total) for other in (EXPLOITER, POOL)]
+        against = [versus(self.game, other, variant)._replace(share=total) for other in (EXPLOITER, POOL)]
         return replace(self, line_ups=(*(one._replace(share=2 * one.share) for one in kept), *against), population=True)
 
-    def _versus(self, other: str, variant: str) -> LineUp:
-        """The learner against somebody: two against two where there are two teams, else a duel."""
-        teams = games()[self.game].variants[variant].teams
-        if len({*teams}) == 2:
-            return LineUp(1, tuple(LEARNER if team == teams[0] else other for team in teams))
-        return LineUp(1, (LEARNER, other, OFF, OFF))
+
+def versus(game: str, other: str, variant: str) -> LineUp:
+    """The learner against somebody: two against two where there are two teams, else a duel."""
+    teams = games()[game].variants[variant].teams
+    if len({*teams}) == 2:
+        return LineUp(1, tuple(LEARNER if team == teams[0] else other for team in teams))
+    return LineUp(1, (LEARNER, other, OFF, OFF))
