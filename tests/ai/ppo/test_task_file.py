@@ -1,8 +1,9 @@
 """Task files: they say what the shipped networks say of themselves, and a network's own makes the same bits again."""
 
 import json
+import re
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from pigaming_app.ai.networks.files import BRAINS, encode
 from pigaming_app.ai.ppo.product import recorded_task, trained_network
 from pigaming_app.ai.ppo.registry import TASKS, shipped_file
 from pigaming_app.ai.ppo.task_file import (
+    TaskFile,
     TaskFileError,
     check_names,
     file_of,
@@ -119,6 +121,15 @@ def test_a_file_is_written_as_it_is_read(game):
         TASKS[game].line_ups,
         TASKS[game].reward,
     )
+
+
+def test_the_page_lists_every_key():
+    page = (Path(__file__).parents[3] / "docs" / "networks.md").read_text(encoding="utf-8")
+    table = page.partition("## Task files")[2].partition("| key | content |")[2].partition("\n\n")[0]
+    listed = [
+        key for row in table.splitlines() for key in re.findall(r"`(\w+)`", row.partition("|")[2].partition("|")[0])
+    ]
+    assert sorted(listed) == sorted(field.name for field in fields(TaskFile))
 
 
 RACE = (BRAINS / "race.task.toml").read_text(encoding="utf-8")
