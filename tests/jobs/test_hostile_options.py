@@ -54,7 +54,7 @@ OPTIONS = {
     tuple(TRAIN): ("--reward", "--matches", "--minutes", "--seed", "--arena", "--out", "--set", "--curve", "--csv", ""),
     tuple(PPO): (
         "--updates", "--decisions", "--minutes", "--from", "--task", "--seed", "--out", "--set",
-        "--curve", "--csv", "--population", "--tensorboard", "--ray", "--workers", "",
+        "--curve", "--csv", "--population", "--tensorboard", "--copies", "--ray", "--workers", "",
     ),
     ("exploit", *SET, "--out", "foreign.npz", "--resume"): (
         "--game", "--variant", "--decisions", "--seed", "--set", "--out", "--curve", "--csv", "",

@@ -12,6 +12,7 @@ from time import monotonic
 from typing import Any, NamedTuple
 
 from pigaming_app.ai.brain.archive import BrainFileError
+from pigaming_app.ai.learning.league import League
 from pigaming_app.ai.learning.rollout import rehearse
 from pigaming_app.ai.networks.files import encode as encode_network
 from pigaming_app.ai.ppo.product import encode, restore, trained_network
@@ -26,6 +27,9 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
+from pigaming_app.jobs.learning.league import plain
+from pigaming_app.jobs.learning.league import table as league_table
+from pigaming_app.jobs.learning.train.copies import FrozenCopies
 from pigaming_app.jobs.learning.train.live_page import page_of
 from pigaming_app.jobs.learning.train.options import (
     DEFAULT_MINUTES,
@@ -59,6 +63,9 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
     with refused(ChoiceError, BrainFileError):
         training = _begin(options, beside)
     events = EventFile(options.tensorboard, training.updates) if options.tensorboard else None
+    copies = FrozenCopies(training, options.copies, options.out.stem) if options.copies else None
+    if copies:
+        copies.add()
     if not is_compiled(training.task):
         note("compiling the training, once; it takes a minute")
     with (
@@ -72,10 +79,12 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
             note("Ctrl-C ends the training after the current update and saves the result")
             table = TrainingTable(training, options.csv if options.resume else None)
             save = partial(_save, table, sync, options, beside)
-            _train(table, measures, scores, gather, threads, save, events, stopped)
+            follow = partial(_follow, table, events, copies)
+            _train(table, measures, scores, gather, threads, save, follow, stopped)
             scores = training.measure(measures.at_end, threads)
             save()
-    _print(training, scores, options, bool(stopped))
+    standings = copies.league() if copies and not stopped else None
+    _print(training, scores, options, bool(stopped), standings)
     return end_of(stopped)
 
 
@@ -167,7 +176,7 @@ def _train(
     gather: Gather,
     threads: Executor,
     save: Callable[[], None],
-    events: EventFile | None,
+    follow: Callable[[], None],
     stopped: list[int],
 ) -> None:
     """Train to the end of the plan, or until stopped. `scores`: of the network as it is."""
@@ -180,8 +189,7 @@ def _train(
             scores = training.measure(measures.matches, threads)
         show(_line(training, scores), milestone=measured)
         try:
-            if events:
-                events.add(training.updates, table.numbers())
+            follow()
             if monotonic() - saved > SAVED_EVERY:
                 saved = monotonic()
                 save()
@@ -189,6 +197,14 @@ def _train(
             end_line()
             note(str(error))
     end_line()
+
+
+def _follow(table: TrainingTable, events: EventFile | None, copies: FrozenCopies | None) -> None:
+    """Tell of an update, and freeze a copy. Raises NotSaved."""
+    if events:
+        events.add(table.training.updates, table.numbers())
+    if copies:
+        copies.add()
 
 
 def _save(table: TrainingTable, sync: Callable[[], None], options: PpoOptions, beside: Path) -> None:
@@ -212,8 +228,10 @@ def _line(training: Training, scores: Mapping[str, DuelScore]) -> str:
     return f"{bar(training.share)} {done}  {training.decisions / training.seconds:,.0f} decisions/s  {ends}"
 
 
-def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOptions, stopped: bool) -> None:
-    """Print the result."""
+def _print(
+    training: Training, scores: Mapping[str, DuelScore], options: PpoOptions, stopped: bool, standings: League | None
+) -> None:
+    """Print the result. `standings`: of its frozen copies."""
     speed = training.decisions / training.seconds if training.seconds else 0.0
     if options.json:
         result = {
@@ -230,6 +248,7 @@ def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOpti
                 for point in training.points
                 for found in [scores_at(training.task, point)]
             ],
+            "copies": standings and plain(standings),
             "finished": not stopped,
             "out": str(options.out),
         }
@@ -242,6 +261,8 @@ def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOpti
             print(f"{point[1] / 1e6:6.2f} million  {_sentence(scores_at(training.task, point)[options.against])}")
     for rival, score in scores.items():
         print(f"against {rival}: {_sentence(score)}")
+    if standings:
+        print("", *(line.rstrip() for line in league_table(standings)), sep="\n")
 
 
 def _described(score: DuelScore) -> dict[str, Any]:
