@@ -69,3 +69,8 @@ def test_a_game_with_an_encoding_alone_learns_by_its_points(tag: Path, tmp_path:
     ended = run(tmp_path, f"{TRAIN} --task mine.toml")
     assert ended.returncode == 0, ended.stderr
     assert "against level3: " in ended.stdout
+    (tag / "brains").mkdir()
+    (tag / "brains" / "tag.task.toml").write_text("speed = 1")
+    ended = run(tmp_path, TRAIN)
+    assert ended.returncode == 1
+    assert "is left out: tag.task.toml: speed is not a key here" in ended.stderr

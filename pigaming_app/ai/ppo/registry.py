@@ -1,5 +1,6 @@
 """Tasks by game: the games that PPO learns, by the task files that ship beside their networks."""
 
+from collections.abc import Container, Iterator
 from pathlib import Path
 
 from pigaming_app.ai.networks.files import BRAINS
@@ -9,7 +10,7 @@ from pigaming_app.ai.ppo.task import Task
 from pigaming_app.ai.ppo.task_file import SUFFIX, TaskFileError, read_task
 from pigaming_app.games.registry import OURS
 from pigaming_app.storage.optional import optional
-from pigaming_app.storage.plugins.parts import data_folders, parts
+from pigaming_app.storage.plugins.parts import data_folders, has_failed, leave_out, parts
 
 
 def shipped_file(game: str) -> Path | None:
@@ -35,9 +36,19 @@ def _fault(game: str, code: Task) -> str:
     return ""
 
 
-_CODE = {
+def _by_points(own: Container[str]) -> Iterator[tuple[str, Task]]:
+    """Tasks of the plug-ins that have an encoding alone; `own`: games that have a task."""
+    for game, encoding in ENCODINGS.items():
+        if game in own or game in OURS or has_failed(game):
+            continue
+        if reason := _fault(game, task := standard_task(encoding)):
+            leave_out(game, reason)
+        else:
+            yield game, task
+
+
+_OWN = {
     **{game: room.TASK for game in OURS if (room := optional(f"ai.ppo.{game}"))},
-    **{game: standard_task(encoding) for game, encoding in ENCODINGS.items() if game not in OURS},
     **parts("training", "TASK", Task, _fault),
 }
-TASKS: dict[str, Task] = {game: _filed(game, code) for game, code in _CODE.items()}
+TASKS: dict[str, Task] = {game: _filed(game, code) for game, code in (*_OWN.items(), *_by_points(_OWN))}
