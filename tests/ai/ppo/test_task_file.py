@@ -89,7 +89,7 @@ def trained(training, updates=2):
     return training
 
 
-@pytest.mark.parametrize("kind", ["fresh", "continued", "population", "wider"])
+@pytest.mark.parametrize("kind", ["fresh", "population", "wider"])
 def test_the_file_in_a_network_makes_the_same_bits_again(kind, tmp_path, monkeypatch):
     play_plain(monkeypatch)
     task, start = TASK, None if kind == "fresh" else start_of("pitanks", "net")
