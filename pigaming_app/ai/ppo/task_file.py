@@ -35,7 +35,7 @@ from pigaming_app.storage.schema import Line, Share, between, one_of, typed
 
 SUFFIX = ".task.toml"
 UNIFORM, PRIORITISED = "uniform", "pfsp"  # how members of the pool are drawn
-MOST_SURPRISES = 1_000
+MOST_SURPRISES, MOST_RIVALS = 1_000, 5  # each rival has columns in the curve of a network's file
 
 Names = Annotated[tuple[Line, ...], Meta(min_length=1, max_length=1_000)]
 Minutes = Annotated[float, between(0.05, 60.0)]
@@ -57,8 +57,6 @@ class FiledLineUp:
     arenas: tuple[Line, ...] = ()
 
     def __post_init__(self) -> None:
-        if LEARNER not in self.seats:
-            raise ValueError("seats: nobody is learner")
         if self.teams and len(self.teams) != ROBOTS:
             raise ValueError(f"teams: {ROBOTS} numbers are needed, one for each seat")
 
@@ -77,7 +75,7 @@ class TaskFile:
     surprises: Annotated[int, between(0, MOST_SURPRISES)] = 0  # arenas made from seeds, for half of the matches
     variants: Names
     match_minutes: Annotated[tuple[Minutes, ...], Meta(min_length=1, max_length=100)]
-    rivals: Annotated[tuple[Line, ...], Meta(min_length=1, max_length=6)]
+    rivals: Annotated[tuple[Line, ...], Meta(min_length=1, max_length=MOST_RIVALS)]
     pairs: bool = False
     pool: Annotated[str, one_of(UNIFORM, PRIORITISED)] = UNIFORM
     cut: Share = 0.0
@@ -90,6 +88,8 @@ class TaskFile:
     def __post_init__(self) -> None:
         if sum(length is not None for length in (self.updates, self.decisions, self.minutes)) > 1:
             raise ValueError("updates, decisions, minutes: one of them at most")
+        if not any(LEARNER in line_up.seats for line_up in self.line_ups):
+            raise ValueError(f"line_ups: nobody is {LEARNER}")
         others = [{*line_up.seats} - {OFF} for line_up in self.line_ups]
         if self.pool == PRIORITISED and not ({LEARNER, EXPLOITER} in others and {LEARNER, POOL} in others):
             raise ValueError(f"pool: {PRIORITISED} needs line-ups of {LEARNER} and {EXPLOITER}, {LEARNER} and {POOL}")

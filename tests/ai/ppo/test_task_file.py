@@ -149,7 +149,6 @@ RACE = (BRAINS / "race.task.toml").read_text(encoding="utf-8")
         ("win = 0.5", "win = inf", "rewards.win: expected a number <= 1000000.0"),
         ("[rewards]", "[habits]\nlate = 0.5\n[rewards]", "habits: the game has no numbers there"),
         ('game = "race"', 'game = "pitanks"', "game: it is for 'pitanks', not race"),
-        ('["learner"] }', '["pool"] }', "line_ups[0]: seats: nobody is learner"),
         ('["learner"] }', '["learner", "somebody"] }', "line_ups[0].seats: no brain 'somebody'; "),
         ('["learner"] }', '["learner"], team = 1 }', "line_ups[0].team is not a key here; there are share, seats"),
         ('["learner"] }', '["learner"], teams = [0] }', "line_ups[0]: teams: 4 numbers are needed"),
@@ -158,6 +157,12 @@ RACE = (BRAINS / "race.task.toml").read_text(encoding="utf-8")
         ('rivals = ["hand3"]', 'rivals = ["hand9"]', "rivals: no brain 'hand9'"),
         ("line_ups = [", "line_ups = [ 3,", "line_ups[0]: expected a table, got a whole number"),
         ("seed = 1", "seed = ", "Invalid value"),
+        ('rivals = ["hand3"]', f"rivals = {['hand3'] * 6}", "rivals: expected a list of length <= 5"),
+        (
+            RACE[RACE.index("line_ups") : RACE.index("[training]")],
+            'line_ups = [{ share = 1, seats = ["pool"] }]\n',
+            "line_ups: ",
+        ),
     ],
 )
 def test_a_wrong_file_is_refused_in_one_line_with_file_key_and_what_is_possible(tmp_path, old, new, reason):
