@@ -9,7 +9,7 @@ import pytest
 
 from pigaming_app.jobs.cli import main
 from pigaming_app.jobs.learning.train import ppo_training
-from pigaming_app.jobs.learning.train.tensorboard import EventFile, crc32c
+from pigaming_app.jobs.learning.train.tensorboard import TensorboardFile, crc32c
 from pigaming_app.storage.safe_files import NotSaved, write_atomic
 from tests.ai.ppo.plain import SET, play_plain
 
@@ -80,7 +80,7 @@ def masked(content):
 
 
 def test_an_event_has_its_step_and_its_finite_numbers(tmp_path):
-    events = EventFile(tmp_path / "runs", 0)
+    events = TensorboardFile(tmp_path / "runs", 0)
     events.add(300, {"learner/kl": 0.125, "learner/explained": float("nan"), "wins/hand3": -2.0})
     first, second = events_in(tmp_path / "runs")
     assert first.file_version == "brain.Event:2"
@@ -94,7 +94,7 @@ def test_an_event_has_its_step_and_its_finite_numbers(tmp_path):
 
 def test_what_an_older_file_has_from_a_resumption_on_counts_no_longer(tmp_path):
     """A start of a session, by which TensorBoard drops it."""
-    EventFile(tmp_path, 200)
+    TensorboardFile(tmp_path, 200)
     _, start = events_in(tmp_path)
     assert (start.step, start.session_log.status) == (201, 1)
 
@@ -102,7 +102,7 @@ def test_what_an_older_file_has_from_a_resumption_on_counts_no_longer(tmp_path):
 def test_a_folder_that_is_a_file_is_refused(tmp_path):
     (tmp_path / "a").write_text("text")
     with pytest.raises(NotSaved, match=r"a was not made: "):
-        EventFile(tmp_path / "a", 0)
+        TensorboardFile(tmp_path / "a", 0)
 
 
 def test_a_training_tells_the_same_in_its_table_and_to_tensorboard(tmp_path, monkeypatch):

@@ -39,7 +39,7 @@ from pigaming_app.jobs.learning.train.options import (
 )
 from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
 from pigaming_app.jobs.learning.train.telemetry import TrainingTable
-from pigaming_app.jobs.learning.train.tensorboard import EventFile
+from pigaming_app.jobs.learning.train.tensorboard import TensorboardFile
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic, write_atomic
@@ -62,7 +62,7 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
     """Train, save and print the result; 130 after Ctrl-C. `beside`: the checkpoint. Raises Refusal or NotSaved."""
     with refused(ChoiceError, BrainFileError):
         training = _begin(options, beside)
-    events = EventFile(options.tensorboard, training.updates) if options.tensorboard else None
+    events = TensorboardFile(options.tensorboard, training.updates) if options.tensorboard else None
     copies = FrozenCopies(training, options.copies, options.out.stem) if options.copies else None
     if copies:
         copies.add()
@@ -199,7 +199,7 @@ def _train(
     end_line()
 
 
-def _follow(table: TrainingTable, events: EventFile | None, copies: FrozenCopies | None) -> None:
+def _follow(table: TrainingTable, events: TensorboardFile | None, copies: FrozenCopies | None) -> None:
     """Tell of an update, and freeze a copy. Raises NotSaved."""
     if events:
         events.add(table.training.updates, table.numbers())

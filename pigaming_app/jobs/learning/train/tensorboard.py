@@ -22,7 +22,7 @@ VALUE, TAG, NUMBER, STATUS = 1, 1, 2, 1  # of Summary, of its Value twice, of Se
 START = 1  # SessionLog: what an older file has from this step on counts no longer
 
 
-class EventFile:
+class TensorboardFile:
     """A new file in a folder, to which numbers are added while a training runs."""
 
     def __init__(self, folder: Path, step: int) -> None:
