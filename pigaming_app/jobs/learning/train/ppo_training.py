@@ -83,7 +83,10 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
             _train(table, measures, scores, gather, threads, save, follow, stopped)
             scores = training.measure(measures.at_end, threads)
             save()
-    standings = copies.league() if copies and not stopped else None
+    standings = None
+    if copies and not stopped:
+        note("playing a league of the copies")
+        standings = copies.league()
     _print(training, scores, options, bool(stopped), standings)
     return end_of(stopped)
 
