@@ -14,7 +14,7 @@ from pigaming_app.ai.ppo.training import Training
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.safe_files import NotSaved, write_atomic
 
-COPIES, MATCHES = 10, 20  # after the first one; matches of each pair
+COPIES, MATCHES = 10, 10  # after the first one; matches of each pair
 SEED = 1_000_000  # of the first match
 
 
