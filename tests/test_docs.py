@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.brain import driving
+from pigaming_app.ai.factory import steering_help as factory_help
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.pitanks.brains import HANDICAPS
@@ -59,7 +60,7 @@ RULES = {"pitanks": pitanks.PiTanksRules, "factory": FactoryRules, "race": race_
 CONSTANTS = {  # by section of docs/games.md, the modules in which its constants are looked up
     "Units, arena, robots": (world, robots, drivetrain, action, contact, driving, steering_help),
     "PiTanks": (pitanks, arena),
-    "Robot Factory": (state, walker, factory_rules, stars),
+    "Robot Factory": (state, walker, factory_rules, stars, factory_help),
     "Robot Race": (race, race_rules, race_state, furniture, party, recovery),
     "Things": (mud, passages, race, starts, spec),
     "Results and tables of best scores": (table, initials),
