@@ -8,8 +8,8 @@ from typing import Protocol
 from aiohttp import WSMessage, WSMsgType, web
 
 from pigaming_app.ui.web.certificate import Certificate
-from pigaming_app.ui.web.token_page import MAX_BODY, TokenPageServer
 from pigaming_app.ui.web.socket import DeviceSocket, closed, stop_reading
+from pigaming_app.ui.web.token_page import MAX_BODY, TokenPageServer
 
 MAX_PICTURE = 2_000_000  # bytes
 MAX_RATE = 300  # messages in a second: pictures of 120 Hz, an echo of each, and some

@@ -15,8 +15,8 @@ from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones.connection import Connection
 from pigaming_app.ui.input.phones.memory import Hall
 from pigaming_app.ui.input.phones.roster import Refusal, Roster
-from pigaming_app.ui.web.token_page import TokenPageServer
 from pigaming_app.ui.web.socket import closed
+from pigaming_app.ui.web.token_page import TokenPageServer
 
 ALPHABET = "abcdefghjkmnpqrstuvwxyz23456789"  # without signs that look alike: the address may be typed
 TOKEN_LENGTH = 10  # 49 bits, guessed over a network within one session
