@@ -13,8 +13,8 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.learning.batch import initial_states
 from pigaming_app.ai.learning.q_learner import learn, learn_last, temperature
 from pigaming_app.ai.learning.rollout import Batch
-from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe, RecipeRecord
-from pigaming_app.ai.qlearning.table import Learned, LearnerMind, QTable, player
+from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe
+from pigaming_app.ai.qlearning.table import Learned, LearnerMind, QTable, player, set_recipe
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.engine_hash import engine_hash
@@ -22,7 +22,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import can_compile, compiled, compiled_before
-from pigaming_app.sim.record import copy, fields_of, packed, unpack
+from pigaming_app.sim.record import copy, packed, unpack
 from pigaming_app.sim.rng import seeded, training_seed
 from pigaming_app.sim.world import HZ
 
@@ -126,12 +126,7 @@ class TableTraining:
     @recipe.setter
     def recipe(self, recipe: Recipe) -> None:
         self._recipe = recipe
-        for field in fields_of(RecipeRecord):
-            value = field.kind(getattr(recipe, field.name))
-            if self.fast:
-                self._tables["knobs"][field.name] = value
-            else:
-                setattr(self._tables[0].knobs, field.name, value)
+        set_recipe(self._tables[0], recipe)
 
     @property
     def match(self) -> Any:

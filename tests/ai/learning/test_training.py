@@ -44,6 +44,7 @@ def short(fast=False, seed=1, recipe=RECIPES[2], table=None):
         *RECIPES.values(),
         replace(RECIPES[2], loaded=1, in_sight=0, period=7, last=0, incoming=0, moving=1, ramp=0),
         replace(RECIPES[1], exposure=0, off_wall=0, look=1, behind_from=5, behind_to=11),
+        replace(RECIPES[1], rest="(3 - distance / 250 if fired else -0.01*turned) - 5*taken"),
     ],
 )
 def test_both_bodies_learn_the_same_table_to_the_last_bit(recipe):
