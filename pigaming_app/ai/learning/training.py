@@ -97,7 +97,7 @@ class TableTraining:
         self.loop = compiled_training() if self.fast else plain_training()
         self._tables = self._row(fresh_table(seed) if table is None else to_plain(table))
         self.recipe = recipe
-        self._fresh = self._row(initial_states([self._setup()])[0])
+        self._fresh, self._mind = self._row(initial_states([self._setup()])[0]), self._row(LearnerMind())
         self._begin()
 
     def run(self, ticks: int) -> None:
@@ -160,8 +160,8 @@ class TableTraining:
 
     def checkpoint(self, name: str = "q") -> Checkpoint:
         """A frozen copy of the table as a brain."""
-        frozen = self._tables.copy() if self.fast else copy(self._tables[0])
-        return Checkpoint(player(name, Learned(frozen)), self.matches, self.experiences)
+        frozen = _copy(self._tables)
+        return Checkpoint(player(name, Learned(frozen if self.fast else frozen[0])), self.matches, self.experiences)
 
     def trained(self, name: str) -> Trained:
         """A copy of the table with the parameters of its training, ready for a file."""
@@ -183,8 +183,8 @@ class TableTraining:
 
     def _begin(self) -> None:
         """Begin the next match with fresh minds."""
-        self._matches = self._fresh.copy() if self.fast else [copy(self._fresh[0])]
-        self._ones, self._twos = self._row(LearnerMind()), self._row(LearnerMind())
+        self._matches = _copy(self._fresh)
+        self._ones, self._twos = _copy(self._mind), _copy(self._mind)
         self._seen = self._matches
 
 
@@ -207,6 +207,11 @@ def as_record(row: Any) -> Any:
     import numpy as np
 
     return row.view(np.recarray)[0]
+
+
+def _copy(row: Any) -> Any:
+    """A copy of a row of one record, plain or NumPy."""
+    return [copy(row[0])] if isinstance(row, list) else row.copy()
 
 
 def to_plain(table: Any) -> QTable:
