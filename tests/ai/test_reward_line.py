@@ -37,11 +37,10 @@ def drawn(draw: random.Random, deep: int) -> str:
     if deep == 0 or draw.random() < 0.15:
         return draw.choice([*NAMES, f"{draw.randint(0, 9)}", f"{draw.randint(1, 99) / 100}"])
     a, b, c = (drawn(draw, deep - 1) for _ in range(3))
-    return draw.choice(
-        [f"{a} + {b}", f"{a} - {b}", f"({a})*({b})", f"-({a})", f"({a}) / 4", f"min({a}, {b}, {c})", f"max({a}, {b})"]
-        + [f"abs({a})", f"({a} if {b} else {c})", f"({a} {draw.choice(['<', '<=', '>', '>=', '==', '!='])} {b})"]
-        + [f"({a} < {b} <= {c})", f"{draw.randint(-10, 10)}*{draw.choice(NAMES)} - {a}"]
-    )
+    sign = draw.choice(["<", "<=", ">", ">=", "==", "!="])
+    forms = f"{a} + {b}", f"{a} - {b}", f"({a})*({b})", f"-({a})", f"({a}) / 4", f"({a} {sign} {b})"
+    calls = f"({a} < {b} <= {c})", f"min({a}, {b}, {c})", f"max({a}, {b})", f"abs({a})", f"({a} if {b} else {c})"
+    return draw.choice([*forms, *calls, f"{draw.randint(-10, 10)}*{draw.choice(NAMES)} - {a}"])
 
 
 def test_a_line_means_what_python_means_by_it() -> None:
@@ -90,9 +89,7 @@ def test_knobs_and_rest_together_mean_the_line_and_give_it_back() -> None:
         ("0*hit", {"hit": 0.0}, "", "0"),
     ],
 )
-def test_the_terms_of_knobs_are_told_from_the_rest(
-    text: str, weights: dict[str, float], rest: str, shown: str
-) -> None:
+def test_the_terms_of_knobs_are_told_from_the_rest(text: str, weights: dict[str, float], rest: str, shown: str) -> None:
     line = parsed(text, NAMES, KNOBS)
     assert (line.weights, line.rest) == (weights, rest)
     assert line_of(with_line(Weights(), text, NAMES, KNOBS), KNOBS) == shown
@@ -141,7 +138,27 @@ def test_what_is_no_reward_is_refused_in_one_line(text: str, reason: str) -> Non
 
 def test_random_text_is_a_finite_reward_or_refused() -> None:
     draw = random.Random(9)
-    parts = [*NAMES, "1", "0", ".5", "e9", "+", "-", "*", "/", "(", ")", "if", "else", "<", "==", "min", "abs", ",", " "]
+    parts = [
+        *NAMES,
+        "1",
+        "0",
+        ".5",
+        "e9",
+        "+",
+        "-",
+        "*",
+        "/",
+        "(",
+        ")",
+        "if",
+        "else",
+        "<",
+        "==",
+        "min",
+        "abs",
+        ",",
+        " ",
+    ]
     lines = 0
     for _ in range(20_000):
         text = "".join(draw.choice(parts) for _ in range(draw.randint(1, 12)))

@@ -101,9 +101,10 @@ def observe_action(
         direction = opponent_of(state)
         if knobs.look < direction < SECTORS - knobs.look:
             seen[MISS] = 1.0
-        elif wall_of(state) != direction or not knobs.off_wall:
-            if not knobs.in_sight or is_clear(match, robot.x, robot.y, other.x, other.y, 0.0):
-                seen[HIT] = 1.0
+        elif (wall_of(state) != direction or not knobs.off_wall) and (
+            not knobs.in_sight or is_clear(match, robot.x, robot.y, other.x, other.y, 0.0)
+        ):
+            seen[HIT] = 1.0
     still = (-CREEP < robot.linear < CREEP) if knobs.moving else action.linear == 0.0
     seen[STILL] = 1.0 if still else 0.0
     seen[TURNED] = 1.0 if action.angular != 0.0 else 0.0
