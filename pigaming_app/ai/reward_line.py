@@ -9,17 +9,16 @@ true comparison 1; rewards end at 1000 and -1000.
 """
 
 import ast
+import logging
 import warnings
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+from importlib import import_module
+from typing import Annotated, Any, TypeVar
 
 from pigaming_app.sim.kernel import compiled, kernel
 from pigaming_app.sim.record import packed, record
-
-if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
 
 LONGEST = 80  # characters of a line
 STEPS, DEPTH = 128, 32  # of a program, and numbers on its stack
@@ -45,7 +44,8 @@ REASONS = {
     "syntax": "'{found}' cannot be understood",
 }
 
-Recipe = TypeVar("Recipe", bound="DataclassInstance")
+log = logging.getLogger("pigaming")
+Recipe = TypeVar("Recipe")
 
 
 class LineError(ValueError):
@@ -132,6 +132,22 @@ def points_of(program: RewardProgram, rows: Any, fast: bool) -> Any:
     return worths.reshape(rows.shape[:-1])
 
 
+def elementwise(function: Callable[..., float], count: int, fast: bool) -> Callable[..., Any]:
+    """A function of `count` numbers as one of arrays; `fast`: compiled, if numba can."""
+    import numpy as np
+
+    if fast:
+        numba: Any = import_module("numba")
+        quick: Callable[..., Any] = numba.vectorize(function)
+        try:
+            quick(*np.zeros((count, 1)))
+        except numba.core.errors.NumbaError as error:
+            log.info("%s is not compiled: %s", function, error)
+        else:
+            return quick
+    return np.vectorize(function, otypes=[float])
+
+
 @dataclass(frozen=True)
 class RewardLine:
     """A line, in parts."""
@@ -175,11 +191,11 @@ def program_of(text: str, names: Sequence[str]) -> RewardProgram:
     return program
 
 
-def line_of(recipe: "DataclassInstance", weighted: Sequence[str]) -> str:
-    """The line of a recipe: its weights, which are fields of these names, and its field `rest`."""
+def line_of(recipe: Any, weighted: Sequence[str]) -> str:
+    """The line of a recipe, a dataclass: its weights, which are fields of these names, and its field `rest`."""
     weights = [(name, float(getattr(recipe, name))) for name in weighted]
     terms = [(weight < 0, _term(abs(weight), name)) for name, weight in weights if weight]
-    rest: str = recipe.rest  # type: ignore[attr-defined]
+    rest: str = recipe.rest
     if rest:
         tree = _tree(rest)
         parts = list(_terms(tree))
@@ -191,7 +207,7 @@ def with_line(recipe: Recipe, text: str, names: Sequence[str], weighted: Sequenc
     """The recipe with the reward of a line. Raises LineError."""
     line = parsed(text, names, weighted)
     changes: dict[str, Any] = {name: line.weights.get(name, 0.0) for name in weighted}
-    return replace(recipe, **changes, rest=line.rest)
+    return replace(recipe, **changes, rest=line.rest)  # type: ignore[type-var]
 
 
 def _tree(text: str) -> ast.expr:

@@ -6,9 +6,9 @@ from math import isfinite
 
 import pytest
 
-from pigaming_app.ai.pitanks.quantities import QUANTITIES, WEIGHTED
 from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe
 from pigaming_app.ai.reward_line import LONGEST, MOST, LineError, line_of, parsed, points, program_of, with_line
+from pigaming_app.ai.reward_quantities import QUANTITIES, WEIGHTED
 
 NAMES = "hit", "miss", "behind", "still", "turned", "distance"
 KNOBS = NAMES[:4]

@@ -6,11 +6,11 @@ from the Boltzmann distribution exp(Q / T), and T falls as experience grows.
 
 from math import sqrt
 
-from pigaming_app.ai.pitanks.quantities import BEHIND, DISTANCE, FIRED, HIT, MISS, STILL, TAKEN, TURNED
 from pigaming_app.ai.qlearning.features import SECTORS, nearest_opponent, opponent_of, situation, wall_of
 from pigaming_app.ai.qlearning.recipe import RecipeNumbers
 from pigaming_app.ai.qlearning.table import ACTIONS, LearnerMind, QTable, apply_move, max_value, sample_move
 from pigaming_app.ai.reward_line import points
+from pigaming_app.ai.reward_quantities import BEHIND, DISTANCE, FARTHEST, FIRED, HIT, MISS, STILL, TAKEN, TURNED
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.sweep import is_clear
@@ -110,7 +110,7 @@ def observe_action(
     seen[TURNED] = 1.0 if action.angular != 0.0 else 0.0
     seen[FIRED] = 1.0 if action.fire and not tank.cooldown else 0.0
     dx, dy = other.x - robot.x, other.y - robot.y
-    seen[TAKEN], seen[DISTANCE] = -float(tank.taken), sqrt(dx * dx + dy * dy)
+    seen[TAKEN], seen[DISTANCE] = -float(tank.taken), min(FARTHEST, sqrt(dx * dx + dy * dy))
 
 
 @kernel

@@ -14,8 +14,8 @@ docs/thesis.md has the results of both readings.
 
 from dataclasses import dataclass, fields, replace
 
-from pigaming_app.ai.pitanks.quantities import QUANTITIES
 from pigaming_app.ai.reward_line import program_of
+from pigaming_app.ai.reward_quantities import QUANTITIES
 from pigaming_app.sim.record import record
 from pigaming_app.sim.toml_table import quote
 from pigaming_app.storage.schema import Line

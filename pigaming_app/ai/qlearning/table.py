@@ -6,10 +6,10 @@ from typing import Annotated, Any, NamedTuple
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.unstick import Reflex, act_on_reflex
-from pigaming_app.ai.pitanks.quantities import QUANTITIES
 from pigaming_app.ai.qlearning.features import STATES, nearest_opponent, situation
 from pigaming_app.ai.qlearning.recipe import Recipe, RecipeRecord
 from pigaming_app.ai.reward_line import RewardProgram, program_of
+from pigaming_app.ai.reward_quantities import QUANTITIES
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel

@@ -2,7 +2,7 @@
 
 import pygame
 
-from pigaming_app.ai.pitanks.quantities import WEIGHTED
+from pigaming_app.ai.reward_quantities import WEIGHTED
 from pigaming_app.scenes.brain.rose import BAD, GOOD
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import ORANGE

@@ -32,7 +32,7 @@ class Measure:
 
 
 @dataclass(frozen=True)
-class Course:
+class WinCourse:
     """What the curve of one robot shows. `changes`: matches after which its reward was changed."""
 
     measures: Sequence[Measure] = ()
@@ -65,7 +65,7 @@ class LearningCurve:
         self.drawn: list[tuple[int, int]] = []  # numbers of measurements and changes drawn
         self.above = False  # label of the hand-made robot above its line, because the curves run below
 
-    def show(self, courses: Sequence[Course]) -> None:
+    def show(self, courses: Sequence[WinCourse]) -> None:
         """Update the plot with all measurements so far."""
         counts = [(len(course.measures), len(course.changes)) for course in courses]
         if counts == self.drawn:

@@ -26,7 +26,7 @@ from pigaming_app.scenes.lab.network.kind_switch import KINDS, NETWORK, TABLE, k
 from pigaming_app.scenes.lab.network.trainer import NetworkProgress, NetworkTrainer
 from pigaming_app.scenes.lab.progress import TrainingProgress
 from pigaming_app.scenes.lab.saved_robots import RobotFileError
-from pigaming_app.scenes.lab.sides import Side
+from pigaming_app.scenes.lab.sides import LabSide
 from pigaming_app.scenes.lab.trainer import Trainer
 from pigaming_app.scenes.lab.view import SPEEDS, LabPage, LabState, notice, speed_at
 from pigaming_app.scenes.pages.page import Hints, Page
@@ -165,7 +165,7 @@ class Lab(Page):
         return Push(Challenge(self.context, robot.kind, driver, self.trainer.arena))
 
     @property
-    def side(self) -> Side:
+    def side(self) -> LabSide:
         """The robot that is shown."""
         return self.sides[self.shown_side]
 
@@ -246,9 +246,9 @@ class Lab(Page):
 
     # ---- inside
 
-    def _new_side(self, seed: int) -> Side:
+    def _new_side(self, seed: int) -> LabSide:
         compilers = self._background.compiler, self._background.network_compiler
-        return Side(Trainer(FIRST, seed, self._fast, compilers[0]), NetworkTrainer(seed, compilers[1]))
+        return LabSide(Trainer(FIRST, seed, self._fast, compilers[0]), NetworkTrainer(seed, compilers[1]))
 
     def _pause(self) -> None:
         for side in self.sides:

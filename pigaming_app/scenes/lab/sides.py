@@ -2,7 +2,7 @@
 
 from collections import deque
 
-from pigaming_app.scenes.lab.learning_curve import Course
+from pigaming_app.scenes.lab.learning_curve import WinCourse
 from pigaming_app.scenes.lab.network.kind_switch import KINDS, TABLE
 from pigaming_app.scenes.lab.network.trainer import NetworkProgress, NetworkTrainer
 from pigaming_app.scenes.lab.progress import TrainingProgress
@@ -11,7 +11,7 @@ from pigaming_app.scenes.lab.trainer import Trainer
 WINDOW = 2.0  # s over which matches a second are counted
 
 
-class Side:
+class LabSide:
     """One of the robots, as a table and as a network."""
 
     def __init__(self, table: Trainer, network: NetworkTrainer) -> None:
@@ -54,9 +54,9 @@ class Side:
         if matches and matches not in self._changes:
             self._changes = [*self._changes, matches]
 
-    def course(self, kind: str) -> Course:
+    def course(self, kind: str) -> WinCourse:
         progress = self.trainer(kind).progress
-        return Course(progress.measures, self._changes if progress is self._changed else ())
+        return WinCourse(progress.measures, self._changes if progress is self._changed else ())
 
     def close(self) -> None:
         """Pause."""

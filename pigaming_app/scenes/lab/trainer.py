@@ -15,10 +15,10 @@ from typing import Any
 from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.ai.learning.evaluation import compile_all
 from pigaming_app.ai.learning.training import Checkpoint, TableTraining, resumed
-from pigaming_app.ai.pitanks.quantities import QUANTITIES, WEIGHTED
 from pigaming_app.ai.qlearning.recipe import Recipe
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.ai.reward_line import line_of, with_line
+from pigaming_app.ai.reward_quantities import QUANTITIES, WEIGHTED
 from pigaming_app.scenes.lab.progress import TrainingProgress, TrainingState
 from pigaming_app.scenes.lab.saved_robots import RobotFileError, save_robot
 from pigaming_app.sim.arena import ArenaError
@@ -136,6 +136,7 @@ class Trainer:
     def save(self, name: str) -> None:
         """Save the robot. Raises RobotFileError."""
         with self._lock:
+            self._follow_recipe()
             save_robot(self.training, name)
 
     def open(self, trained: Trained) -> None:

@@ -33,7 +33,7 @@ from pigaming_app.scenes.lab.layout import (
     WORDS_X,
     knob_rect,
 )
-from pigaming_app.scenes.lab.learning_curve import Course, LearningCurve
+from pigaming_app.scenes.lab.learning_curve import LearningCurve, WinCourse
 from pigaming_app.scenes.lab.network.kind_switch import TABLE, kind_rect, kind_switch
 from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.ui import draw as kit
@@ -58,7 +58,7 @@ class LabState:
 
     matches: int = 0
     rate: int = 0  # matches a second
-    courses: Sequence[Course] = (Course(),)  # of A, or of A and B
+    courses: Sequence[WinCourse] = (WinCourse(),)  # of A, or of A and B
     side: int = 0  # the one that is shown
     line: str = ""  # its reward
     levels: list[int] = field(default_factory=lambda: [0] * PETALS)  # petal length of each direction

@@ -15,7 +15,6 @@ from pigaming_app.ai.learning.q_learner import (
     update,
 )
 from pigaming_app.ai.learning.training import fresh_table, training_setup
-from pigaming_app.ai.pitanks.quantities import HIT, QUANTITIES
 from pigaming_app.ai.qlearning.features import (
     NONE,
     SECTORS,
@@ -41,6 +40,7 @@ from pigaming_app.ai.qlearning.table import (
     set_recipe,
     think,
 )
+from pigaming_app.ai.reward_quantities import HIT, QUANTITIES
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.action import set_action

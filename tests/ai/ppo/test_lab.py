@@ -8,13 +8,13 @@ import pytest
 
 from pigaming_app.ai.networks.pitanks import GUN, OTHERS, SIZE
 from pigaming_app.ai.networks.policy import packed_layers
-from pigaming_app.ai.pitanks.quantities import WEIGHTED
 from pigaming_app.ai.ppo.lab import lesson
 from pigaming_app.ai.ppo.lab.lesson import SECTORS, LabTraining, Situations
 from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin
 from pigaming_app.ai.ppo.lab.task import HYPER, RIVAL, TASK, NetworkRecipe, reward_of
 from pigaming_app.ai.ppo.learner import PolicyNetwork
 from pigaming_app.ai.ppo.win_rates import win_rates
+from pigaming_app.ai.reward_quantities import WEIGHTED
 from pigaming_app.sim.kernel import can_compile
 from tests.scenes.lab.plain_process import shrink
 

@@ -10,8 +10,8 @@ from typing import Any, cast
 import pygame
 import pytest
 
-from pigaming_app.ai.pitanks.quantities import QUANTITIES
 from pigaming_app.ai.qlearning.recipe import RECIPES
+from pigaming_app.ai.reward_quantities import QUANTITIES
 from pigaming_app.scenes.brain.rose import PETALS
 from pigaming_app.scenes.flow.stack import Home, Pop, Stack, StackOperation
 from pigaming_app.scenes.lab import progress, scene
@@ -25,7 +25,7 @@ from pigaming_app.scenes.lab.pages.compare_page import ComparePage
 from pigaming_app.scenes.lab.pages.line_page import LinePage
 from pigaming_app.scenes.lab.pages.menu import LabMenu
 from pigaming_app.scenes.lab.scene import Lab
-from pigaming_app.scenes.lab.sides import Side
+from pigaming_app.scenes.lab.sides import LabSide
 from pigaming_app.scenes.lab.view import notice
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.title.scene import Title
@@ -511,7 +511,7 @@ def test_matches_a_second_are_counted_as_they_come() -> None:
     class Counted:
         snapshot = SimpleNamespace(matches=0)
 
-    side = Side(cast(Any, Counted()), cast(Any, None))
+    side = LabSide(cast(Any, Counted()), cast(Any, None))
     assert side.rate == 0.0
     for _ in range(300):
         Counted.snapshot.matches += 8

@@ -15,9 +15,9 @@ from threading import Condition, Thread
 from time import monotonic
 from typing import BinaryIO
 
-from pigaming_app.ai.pitanks.quantities import QUANTITIES
 from pigaming_app.ai.ppo.lab.messages import PATIENCE, Begin, Report, TrainingOrder
 from pigaming_app.ai.reward_line import RewardProgram, points_of
+from pigaming_app.ai.reward_quantities import QUANTITIES
 from pigaming_app.storage.background import exit_with_parent
 
 PAUSE = TrainingOrder()

@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 
 from pigaming_app.ai.networks.encoding import UNIT, Inputs
-from pigaming_app.ai.networks.pitanks import ENCODING, OTHERS, TURNS, WAY
-from pigaming_app.ai.pitanks.quantities import QUANTITIES, WEIGHTED
+from pigaming_app.ai.networks.pitanks import ENCODING, OTHERS, WAY
+from pigaming_app.ai.networks.pitanks_rewards import quantities_of
 from pigaming_app.ai.ppo.learner import Hyper
 from pigaming_app.ai.ppo.pitanks import duel, result
-from pigaming_app.ai.ppo.rewards import quantities_of
 from pigaming_app.ai.ppo.task import LEARNER, Task
 from pigaming_app.ai.reward_line import points_of, program_of
+from pigaming_app.ai.reward_quantities import QUANTITIES, WEIGHTED
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.kernel import can_compile, kernel
 
@@ -25,8 +25,6 @@ ARENA, VARIANT, MINUTES, RIVAL = "classic", "classic", 2.0, "hand3"
 POINTS, TAKEN, POTENTIAL = range(3)  # gauges
 POINT = 0.1  # reward per point of the recipe
 SHAPING = 0.5  # weight of the potential
-STAND = 1  # choice of the first head: neither forwards nor backwards
-AHEAD = len(TURNS) // 2  # choice of the second head: no turn
 
 HYPER = Hyper(
     matches=48, decisions=5, epochs=3, minibatch=300, rate=1e-3, last_rate=1e-3, entropy=0.01, last_entropy=0.01
@@ -38,7 +36,7 @@ class NetworkRecipe:
     """Rewards of the network in points."""
 
     hit: float = 10.0  # a hit
-    miss: float = -0.5  # fires with no opponent in the line of fire
+    miss: float = -0.5  # fires with a wall between it and the opponent
     behind: float = -0.3  # the opponent is behind, at every decision
     still: float = 0.0  # no linear command, at every decision
     rest: str = "-3*taken"  # of the reward: see reward_line.py
@@ -59,8 +57,7 @@ def reward_of(recipe: NetworkRecipe) -> Callable[[Any, Any, Any, float], Any]:
     weights, rest = [getattr(recipe, name) for name in WEIGHTED], program_of(recipe.rest, QUANTITIES)
 
     def reward(gains: np.ndarray, inputs: np.ndarray, choices: np.ndarray, share: float) -> Any:
-        still, turned, fire = choices[..., 0] == STAND, choices[..., 1] != AHEAD, choices[..., 2] == 1
-        rows = quantities_of(gains[..., POINTS], gains[..., TAKEN], inputs, still, turned, fire)
+        rows = quantities_of(gains[..., POINTS], gains[..., TAKEN], inputs, choices)
         worths = rows[..., : len(weights)] @ weights + points_of(rest, rows, can_compile())
         return (POINT * worths + SHAPING * gains[..., POTENTIAL]).astype(np.float32)
 

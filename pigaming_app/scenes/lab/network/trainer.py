@@ -18,10 +18,10 @@ from pigaming_app.ai.networks.files import TrainedNetwork, TrainingCurve
 from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain
 from pigaming_app.ai.networks.registry import ENCODINGS
-from pigaming_app.ai.pitanks.quantities import QUANTITIES, WEIGHTED
 from pigaming_app.ai.ppo.lab.messages import PATIENCE, UNTRAINED, Begin, Habit, Report, State, TrainingOrder, Weights
 from pigaming_app.ai.ppo.lab.task import NetworkRecipe
 from pigaming_app.ai.reward_line import line_of, with_line
+from pigaming_app.ai.reward_quantities import QUANTITIES, WEIGHTED
 from pigaming_app.scenes.brain.rose import PETALS
 from pigaming_app.scenes.lab.learning_curve import Measure
 from pigaming_app.scenes.lab.network.exhibition import Exhibition

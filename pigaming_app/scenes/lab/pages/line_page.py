@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.ai.pitanks.quantities import QUANTITIES
 from pigaming_app.ai.reward_line import LONGEST
+from pigaming_app.ai.reward_quantities import QUANTITIES
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.pages.text_page import LINE_BOX, TextPage
 from pigaming_app.ui.draw import BODY, FOCUS, MIST, text_width

@@ -7,10 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from pigaming_app.ai.networks.pitanks import GUN, OTHERS
-from pigaming_app.ai.pitanks.quantities import (
+from pigaming_app.ai.networks.pitanks import GUN, OTHERS, TURNS
+from pigaming_app.ai.reward_quantities import (
     BEHIND,
     DISTANCE,
+    FARTHEST,
     FIRED,
     HIT,
     MISS,
@@ -20,21 +21,24 @@ from pigaming_app.ai.pitanks.quantities import (
     TURNED,
 )
 
+STAND = 1  # choice of the first head: neither forwards nor backwards
+AHEAD = len(TURNS) // 2  # choice of the second head: no turn
 RELOADED = 0.15  # of the gun's cooldown, from which on a shot counts
-FAR = 800.0  # px, half of the longest distance that is seen
 
 
-def quantities_of(hits: Any, taken: Any, inputs: Any, still: Any, turned: Any, fire: Any) -> Any:
+def quantities_of(hits: Any, taken: Any, inputs: Any, actions: Any, sticks: bool = False) -> Any:
     """The quantities (..., k) of decisions.
 
     `hits` and `taken` (...): made and taken until the next decision; `inputs` (..., inputs): seen before, units of 1;
-    `still`, `turned`, `fire` (...): no linear command, an angular one, the button.
+    `actions` (..., 4): choices, or `sticks`.
     """
     rows = np.zeros((*np.shape(hits), len(QUANTITIES)))
+    drive, turn, fire = actions[..., 0], actions[..., 1], actions[..., 2] > 0.5
+    still, turned = drive == (0.0 if sticks else STAND), turn != (0.0 if sticks else AHEAD)
     fired = fire & (inputs[..., GUN] < RELOADED)
     rows[..., HIT], rows[..., TAKEN] = hits, taken
     rows[..., MISS] = fired & (inputs[..., OTHERS + 11] <= 0)
     rows[..., BEHIND] = inputs[..., OTHERS + 4] < 0
     rows[..., STILL], rows[..., TURNED], rows[..., FIRED] = still, turned, fired
-    rows[..., DISTANCE] = FAR * (inputs[..., OTHERS + 2] + 1.0)
+    rows[..., DISTANCE] = 0.5 * FARTHEST * (inputs[..., OTHERS + 2] + 1.0)
     return rows
