@@ -108,7 +108,7 @@ class TableTraining:
             before = int(self.match.tick)
             self.loop(self._matches, self._ones, self._twos, self._tables, ticks)
             ticks -= int(self.match.tick) - before
-        self._seen = self._matches.copy() if self.fast else self._matches
+        self._seen = _copy(self._matches) if self.fast else self._matches
 
     def warm(self) -> None:
         """Compile the loop now rather than on the first tick."""
@@ -210,8 +210,8 @@ def as_record(row: Any) -> Any:
 
 
 def _copy(row: Any) -> Any:
-    """A copy of a row of one record, plain or NumPy."""
-    return [copy(row[0])] if isinstance(row, list) else row.copy()
+    """A copy of a row of one record, plain or NumPy; as bytes, since NumPy copies records field by field."""
+    return [copy(row[0])] if isinstance(row, list) else row.view(f"V{row.itemsize}").copy().view(row.dtype)
 
 
 def to_plain(table: Any) -> QTable:

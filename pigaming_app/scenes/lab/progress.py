@@ -96,7 +96,8 @@ class TrainingProgress:
             played, now = self.played, perf_counter()
             grain = max(1.0, played / EXAMS_PER_CURVE)
             since, seconds = played - self._exam_start, now - self._exam_time
-            rests = at_full_speed and played > EXAMS_PER_CURVE and seconds * EXAM_SHARE < self._exam_seconds
+            pause = min(self._exam_seconds / EXAM_SHARE, EXAM_INTERVAL)
+            rests = at_full_speed and played > EXAMS_PER_CURVE and seconds < pause
             if (since >= grain or (since > 0 and seconds >= EXAM_INTERVAL)) and not rests:
                 self._exam_start, self._exam_time = played, now
                 self._exam = self._evaluation(self.training.checkpoint().kind)

@@ -33,6 +33,7 @@ MAX_BACKLOG = 4  # frames of ticks to catch up at most; the rest is dropped
 FEED_TIMEOUT = 0.7  # s without `feed` after which the thread ends
 SLICE = 0.007  # s per frame for interpreted training and evaluation; rendering takes 2 of the 16 ms
 TRAINING_SHARE = 0.4  # share of a slice for training at full speed
+FIRST_SHARE = 0.1  # the same until the first point of the curve
 
 log = logging.getLogger("pigaming")
 
@@ -176,7 +177,8 @@ class Trainer:
         if self.speed < FASTEST:
             self.progress.train(self._due(seconds))
         else:
-            while perf_counter() < end - (1 - TRAINING_SHARE) * slice_:
+            share = TRAINING_SHARE if self.progress.measures else FIRST_SHARE
+            while perf_counter() < end - (1 - share) * slice_:
                 self.progress.train(20)
         self.progress.publish(self.speed == FASTEST)
         exam = self.progress.exam_due(self.speed == FASTEST)
