@@ -10,6 +10,7 @@ from pigaming_app.ai.learning.q_learner import (
     learn,
     learn_last,
     observe_action,
+    observe_transition,
     reward,
     temperature,
     update,
@@ -40,7 +41,8 @@ from pigaming_app.ai.qlearning.table import (
     set_recipe,
     think,
 )
-from pigaming_app.ai.reward_quantities import HIT, QUANTITIES
+from pigaming_app.ai.reward_line import with_line
+from pigaming_app.ai.reward_quantities import HIT, QUANTITIES, WEIGHTED
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.action import set_action
@@ -247,6 +249,23 @@ def test_what_counts_as_ahead_and_a_wall_ahead_are_knobs():
     assert shot(match, replace(RECIPES[1], look=1)) == -1.0
     match = standing((200.0, 300.0, 0.0), (270.0, 300.0, pi))  # on this side of the wall at x = 300
     assert [shot(match, replace(RECIPES[1], off_wall=off_wall)) for off_wall in (1, 0)] == [0.0, 10.0]
+
+
+def test_a_line_is_rewarded_with_what_is_seen():
+    """By Python's own arithmetic, of a decision whose quantities are known by hand."""
+    line = "10*hit-miss-3*behind+2*still-turned+fired-7*taken-(distance/99 if fired else 0)"
+    match, mind = without_walls(standing((300.0, 300.0, 0.0), (900.0, 300.0, pi))), LearnerMind()
+    recipe = with_line(RECIPES[2], line, QUANTITIES, WEIGHTED)
+    action = match.actions[0]
+    set_action(action, 0.0, 1.0, 1, 0)
+    match.tanks[0].taken = 4
+    mind.state = situation(match, 0, 1, 1)
+    observe_action(match, 0, 1, mind.state, action, recipe, mind.seen)
+    match.tanks[0].taken, match.robots[0].heading = 6, pi  # hit twice, and turned away
+    observe_transition(match, 0, mind, situation(match, 0, 1, 1), recipe)
+    seen = {"hit": 1, "miss": 0, "behind": 1, "still": 1, "turned": 1, "fired": 1, "taken": 2, "distance": 600.0}
+    assert dict(zip(QUANTITIES, mind.seen, strict=True)) == seen
+    assert reward(taught(recipe), mind.seen) == pytest.approx(eval(line, {}, seen))
 
 
 @pytest.mark.parametrize(
