@@ -1,0 +1,146 @@
+"""The lessons of docs/lessons: pages in Markdown, and the notebooks that are made of them.
+
+A block ```python of a page is a cell; a block ```text after it is what the cell prints. The notebook has the sections
+with cells, without what they print: a class is to guess first. The last picture of a page lies beside it.
+
+python -m tests.pages.lessons --write [PART OF A NAME]    runs pages, renews printed text and pictures, and the notebooks
+python -m tests.pages.lessons --run PAGE                  prints what each cell prints, as JSON
+"""
+
+import argparse
+import ast
+import contextlib
+import io
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from tests.pages.commands import ROOT
+
+FOLDER = ROOT / "docs" / "lessons"
+PAGES = {language: sorted((FOLDER / language).glob("*.md")) for language in ("en", "pt")}
+CELL = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.MULTILINE | re.DOTALL)
+SHOWN = re.compile(r"^!\[.*\]\(.*\)\n\n?", re.MULTILINE)  # pictures: a notebook draws its own
+WORDS = {
+    "title",
+    "suptitle",
+    "label",
+    "labels",
+    "xlabel",
+    "ylabel",
+    "xticklabels",
+    "yticklabels",
+}  # hold texts for people
+KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
+
+
+def cells(page: Path) -> list[str]:
+    """The code of each cell of a page."""
+    return [code for code, _ in CELL.findall(page.read_text(encoding="utf-8"))]
+
+
+def printed(page: Path) -> list[str]:
+    """What each cell of a page prints, as the page shows it."""
+    return [text for _, text in CELL.findall(page.read_text(encoding="utf-8"))]
+
+
+def notebook(page: Path) -> str:
+    """The notebook of a page, as the text of its file."""
+    text = page.read_text(encoding="utf-8")
+    head, *sections = re.split(r"^(?=## )", text, flags=re.MULTILINE)
+    title = head.splitlines()[0]
+    kept = "".join(section for section in sections if CELL.search(section))
+    parts = [("markdown", f"{title}\n\n[{page.name}]({page.name})\n")]
+    end = 0
+    for cell in CELL.finditer(kept):
+        parts += [("markdown", kept[end : cell.start()]), ("code", cell[1])]
+        end = cell.end()
+    parts.append(("markdown", kept[end:]))
+    filled = [(kind, SHOWN.sub("", part).strip("\n")) for kind, part in parts]
+    found = [_cell(kind, part, f"cell-{n}") for n, (kind, part) in enumerate(filled) if part]
+    book = {"cells": found, "metadata": {"kernelspec": KERNEL}, "nbformat": 4, "nbformat_minor": 5}
+    return json.dumps(book, indent=1, ensure_ascii=False) + "\n"
+
+
+def _cell(kind: str, text: str, name: str) -> dict[str, Any]:
+    made: dict[str, Any] = {"cell_type": kind, "id": name, "metadata": {}, "source": text.splitlines(keepends=True)}
+    return made | ({"execution_count": None, "outputs": []} if kind == "code" else {})
+
+
+def without_words(code: str) -> str:
+    """A cell without what may differ between languages: comments, and texts in `print` and in the words of a picture."""
+    tree = ast.parse(code)
+    for node in ast.walk(tree):
+        spoken: list[ast.AST] = []
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "print":
+            spoken = [*node.args]
+        elif isinstance(node, ast.keyword) and node.arg in WORDS:
+            spoken = [node.value]
+        elif isinstance(node, ast.FunctionDef) and ast.get_docstring(node):
+            spoken = [node.body[0]]
+        for text in (part for whole in spoken for part in ast.walk(whole)):
+            if isinstance(text, ast.Constant) and isinstance(text.value, str):
+                text.value = ""
+    return ast.dump(tree)
+
+
+def run(page: Path, picture: Path | None = None) -> list[str]:
+    """What each cell of a page prints, run one after the other in this process; `picture`: where to save the last one."""
+    import matplotlib.pyplot as plt
+
+    space: dict[str, Any] = {"__name__": "__main__"}
+    found = []
+    plt.show = lambda: None
+    for code in cells(page):
+        with contextlib.redirect_stdout(io.StringIO()) as out:
+            exec(compile(code, page.name, "exec"), space)
+        found.append(out.getvalue())
+    if picture:
+        plt.gcf().savefig(picture, dpi=80, pil_kwargs={"lossless": True})
+    return found
+
+
+def run_apart(page: Path, folder: Path, *options: str) -> list[str]:
+    """`run` in a process of its own, without a window; `folder`: where it writes files."""
+    command = [sys.executable, "-W", "error", "-m", "tests.pages.lessons", "--run", str(page), *options]
+    variables = {**os.environ, "MPLBACKEND": "Agg", "PYTHONPATH": str(ROOT), "SDL_VIDEODRIVER": "dummy"}
+    done = subprocess.run(command, capture_output=True, text=True, env=variables, cwd=folder)
+    if done.returncode:
+        raise RuntimeError(f"{page.name}: {done.stderr[-3000:]}")
+    return list(json.loads(done.stdout))
+
+
+def write(page: Path) -> None:
+    """Run a page and renew what it shows, its picture and its notebook."""
+    with TemporaryDirectory() as folder:
+        texts = iter(run_apart(page, Path(folder), "--picture", str(page.with_suffix(".webp"))))
+
+    def renewed(cell: re.Match[str]) -> str:
+        text = next(texts)
+        return f"```python\n{cell[1]}```\n" + (f"\n```text\n{text}```\n" if text else "")
+
+    page.write_text(CELL.sub(renewed, page.read_text(encoding="utf-8")), encoding="utf-8")
+    page.with_suffix(".ipynb").write_text(notebook(page), encoding="utf-8")
+
+
+def main() -> None:
+    """The command line."""
+    parser = argparse.ArgumentParser(description="runs the lessons")
+    parser.add_argument("--write", nargs="?", const="", metavar="PART")
+    parser.add_argument("--run", type=Path)
+    parser.add_argument("--picture", type=Path)
+    options = parser.parse_args()
+    if options.run:
+        print(json.dumps(run(options.run, options.picture)))
+    for page in [*PAGES["en"], *PAGES["pt"]]:
+        if options.write is not None and options.write in page.as_posix():
+            write(page)
+
+
+if __name__ == "__main__":
+    main()
