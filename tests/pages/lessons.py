@@ -3,7 +3,7 @@
 A block ```python of a page is a cell; a block ```text after it is what the cell prints. The notebook has the sections
 with cells, without what they print: a class is to guess first. The last picture of a page lies beside it.
 
-python -m tests.pages.lessons --write [PART OF A NAME]    runs pages, renews printed text and pictures, and the notebooks
+python -m tests.pages.lessons --write [PART OF A NAME]    runs pages; renews texts, pictures and notebooks
 python -m tests.pages.lessons --run PAGE                  prints what each cell prints, as JSON
 """
 
@@ -35,7 +35,8 @@ WORDS = {
     "ylabel",
     "xticklabels",
     "yticklabels",
-}  # hold texts for people
+}  # of a picture
+QUIET = ("-W", "error", "-W", "ignore:FigureCanvasAgg")  # a warning is an error, but that no window opens
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 
 
@@ -73,7 +74,7 @@ def _cell(kind: str, text: str, name: str) -> dict[str, Any]:
 
 
 def without_words(code: str) -> str:
-    """A cell without what may differ between languages: comments, and texts in `print` and in the words of a picture."""
+    """A cell without what may differ between languages: comments, texts in `print`, `names` and pictures."""
     tree = ast.parse(code)
     for node in ast.walk(tree):
         spoken: list[ast.AST] = []
@@ -81,7 +82,9 @@ def without_words(code: str) -> str:
             spoken = [*node.args]
         elif isinstance(node, ast.keyword) and node.arg in WORDS:
             spoken = [node.value]
-        elif isinstance(node, ast.FunctionDef) and ast.get_docstring(node):
+        elif isinstance(node, ast.Assign) and [ast.unparse(target) for target in node.targets] == ["names"]:
+            spoken = [node.value]
+        elif isinstance(node, ast.FunctionDef | ast.ClassDef) and ast.get_docstring(node):
             spoken = [node.body[0]]
         for text in (part for whole in spoken for part in ast.walk(whole)):
             if isinstance(text, ast.Constant) and isinstance(text.value, str):
@@ -90,12 +93,11 @@ def without_words(code: str) -> str:
 
 
 def run(page: Path, picture: Path | None = None) -> list[str]:
-    """What each cell of a page prints, run one after the other in this process; `picture`: where to save the last one."""
+    """What each cell of a page prints, run one after the other in this process; `picture`: where to save the last."""
     import matplotlib.pyplot as plt
 
     space: dict[str, Any] = {"__name__": "__main__"}
     found = []
-    plt.show = lambda: None
     for code in cells(page):
         with contextlib.redirect_stdout(io.StringIO()) as out:
             exec(compile(code, page.name, "exec"), space)
@@ -107,7 +109,7 @@ def run(page: Path, picture: Path | None = None) -> list[str]:
 
 def run_apart(page: Path, folder: Path, *options: str) -> list[str]:
     """`run` in a process of its own, without a window; `folder`: where it writes files."""
-    command = [sys.executable, "-W", "error", "-m", "tests.pages.lessons", "--run", str(page), *options]
+    command = [sys.executable, *QUIET, "-m", "tests.pages.lessons", "--run", str(page), *options]
     variables = {**os.environ, "MPLBACKEND": "Agg", "PYTHONPATH": str(ROOT), "SDL_VIDEODRIVER": "dummy"}
     done = subprocess.run(command, capture_output=True, text=True, env=variables, cwd=folder)
     if done.returncode:
