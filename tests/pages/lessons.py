@@ -78,14 +78,15 @@ def without_words(code: str) -> str:
     tree = ast.parse(code)
     for node in ast.walk(tree):
         spoken: list[ast.AST] = []
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "print":
-            spoken = [*node.args]
-        elif isinstance(node, ast.keyword) and node.arg in WORDS:
-            spoken = [node.value]
-        elif isinstance(node, ast.Assign) and [ast.unparse(target) for target in node.targets] == ["names"]:
-            spoken = [node.value]
-        elif isinstance(node, ast.FunctionDef | ast.ClassDef) and ast.get_docstring(node):
-            spoken = [node.body[0]]
+        match node:
+            case ast.Call(func=ast.Name(id="print")):
+                spoken = [*node.args]
+            case ast.keyword(arg=name) if name in WORDS:
+                spoken = [node.value]
+            case ast.Assign(targets=[ast.Name(id="names")]):
+                spoken = [node.value]
+            case ast.FunctionDef() | ast.ClassDef() if ast.get_docstring(node):
+                spoken = [node.body[0]]
         for text in (part for whole in spoken for part in ast.walk(whole)):
             if isinstance(text, ast.Constant) and isinstance(text.value, str):
                 text.value = ""
