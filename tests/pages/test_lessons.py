@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.pages.commands import commands
 from tests.pages.lessons import PAGES, cells, notebook, printed, run_apart, without_words
 
 PAIRS = [*zip(PAGES["en"], PAGES["pt"], strict=True)]
@@ -34,6 +35,11 @@ def test_both_languages_run_the_same_code_and_show_the_same_numbers(page: Path, 
         assert without_words(ours) == without_words(theirs)
     for ours, theirs in zip(printed(page), printed(other), strict=True):
         assert NUMBER.findall(ours) == NUMBER.findall(theirs)
+
+
+@pytest.mark.parametrize(("page", "other"), PAIRS, ids=lambda page: page.stem)
+def test_both_languages_have_the_same_commands(page: Path, other: Path) -> None:
+    assert [one.text for one in commands(page)] == [one.text for one in commands(other)]
 
 
 def test_only_words_may_differ_between_languages() -> None:
