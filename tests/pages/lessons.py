@@ -4,7 +4,7 @@ A block ```python of a page is a cell; a block ```text after it is what the cell
 with cells, without what they print: a class is to guess first. The last picture of a page lies beside it.
 
 python -m tests.pages.lessons --write [PART OF A NAME]    runs pages; renews texts, pictures and notebooks
-python -m tests.pages.lessons --run PAGE                  prints what each cell prints, as JSON
+python -m tests.pages.lessons --run PAGE …                prints what each of their cells prints, as JSON
 """
 
 import argparse
@@ -99,6 +99,7 @@ def run(page: Path, picture: Path | None = None) -> list[str]:
 
     space: dict[str, Any] = {"__name__": "__main__"}
     found = []
+    plt.close("all")
     for code in cells(page):
         with contextlib.redirect_stdout(io.StringIO()) as out:
             exec(compile(code, page.name, "exec"), space)
@@ -108,20 +109,21 @@ def run(page: Path, picture: Path | None = None) -> list[str]:
     return found
 
 
-def run_apart(page: Path, folder: Path, *options: str) -> list[str]:
-    """`run` in a process of its own, without a window; `folder`: where it writes files."""
-    command = [sys.executable, *QUIET, "-m", "tests.pages.lessons", "--run", str(page), *options]
+def run_apart(pages: list[Path], folder: Path, *options: str) -> list[list[str]]:
+    """`run` of each page, in a process of their own, without a window; `folder`: where they write files."""
+    command = [sys.executable, *QUIET, "-m", "tests.pages.lessons", *options, "--run", *map(str, pages)]
     variables = {**os.environ, "MPLBACKEND": "Agg", "PYTHONPATH": str(ROOT), "SDL_VIDEODRIVER": "dummy"}
-    done = subprocess.run(command, capture_output=True, text=True, env=variables, cwd=folder)
+    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", env=variables, cwd=folder)
     if done.returncode:
-        raise RuntimeError(f"{page.name}: {done.stderr[-3000:]}")
+        raise RuntimeError(done.stderr[-3000:])
     return list(json.loads(done.stdout))
 
 
 def write(page: Path) -> None:
     """Run a page and renew what it shows, its picture and its notebook."""
     with TemporaryDirectory() as folder:
-        texts = iter(run_apart(page, Path(folder), "--picture", str(page.with_suffix(".webp"))))
+        (found,) = run_apart([page], Path(folder), "--picture", str(page.with_suffix(".webp")))
+    texts = iter(found)
 
     def renewed(cell: re.Match[str]) -> str:
         text = next(texts)
@@ -135,11 +137,11 @@ def main() -> None:
     """The command line."""
     parser = argparse.ArgumentParser(description="runs the lessons")
     parser.add_argument("--write", nargs="?", const="", metavar="PART")
-    parser.add_argument("--run", type=Path)
+    parser.add_argument("--run", type=Path, nargs="+", metavar="PAGE")
     parser.add_argument("--picture", type=Path)
     options = parser.parse_args()
     if options.run:
-        print(json.dumps(run(options.run, options.picture)))
+        print(json.dumps([run(page, options.picture) for page in options.run]))
     for page in [*PAGES["en"], *PAGES["pt"]]:
         if options.write is not None and options.write in page.as_posix():
             write(page)
