@@ -14,6 +14,8 @@ NUMBER = re.compile(r"\d[\d.,]*\d|\d")
 
 
 def test_lessons_print_what_their_pages_show(tmp_path: Path) -> None:
+    pytest.importorskip("gymnasium")
+    pytest.importorskip("matplotlib")
     assert run_apart(PAGES["en"], tmp_path) == [printed(page) for page in PAGES["en"]]
 
 
