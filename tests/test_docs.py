@@ -72,7 +72,7 @@ GAMES_PAGE, OPPONENTS_PAGE, NETWORKS_PAGE, THESIS_PAGE = (
     ROOT / "docs" / f"{name}.md" for name in ("games", "opponents", "networks", "thesis")
 )
 PAGES = [ROOT / name for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md")]
-PAGES += sorted((ROOT / "docs").glob("*.md"))
+PAGES += sorted((ROOT / "docs").rglob("*.md"))
 NEVER_NAMED = re.compile(r"\b(DESIGN|HOUSE|LOOK|HARDWARE|OPPONENTS|THESIS)\.md\b|\bshared/")
 QUANTITY = re.compile(r"×?(?P<numbers>−?[\d./]+(?:(?:, | to )[\d./]+)*) ?(?P<unit>[^\d(]*)")
 WORDS = {"yes": 1, "no": 0}
