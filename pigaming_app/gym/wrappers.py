@@ -19,9 +19,8 @@ from pigaming_app.games.registry import games
 from pigaming_app.games.simple import MatchState
 from pigaming_app.gym.matches import Matches
 from pigaming_app.gym.options import number
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import bounds_contact, disc_contact, wall_contact
-from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, ROBOTS, WIDTH
 
 REACH = 1000.0  # px, of the lidar
 

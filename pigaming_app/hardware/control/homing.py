@@ -12,8 +12,7 @@ from pigaming_app.hardware.control.path_planner import Point, find_path, inflate
 from pigaming_app.hardware.control.virtual_walls import GAMMA, speed_limits
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.plant import Pose, Twist
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import HZ, ROBOTS, World
+from pigaming_app.sim.world import HZ, RADIUS, ROBOTS, World
 
 POSITION_TOLERANCE, HEADING_TOLERANCE = 12.0, 0.10  # px and rad, tolerances of the goal pose
 SLOWEST, FASTEST = 45.0, 220.0  # px/s

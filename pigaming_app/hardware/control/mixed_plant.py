@@ -14,9 +14,9 @@ from pigaming_app.hardware.control.rig import Rig, RobotSnapshot
 from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.sim.contact import MOVED, ROUNDS, SLOP, limit_step, push_out_of_walls, put_back, separate
 from pigaming_app.sim.plant import Pose, Twist
-from pigaming_app.sim.robot import RADIUS, integrate
+from pigaming_app.sim.robot import integrate
 from pigaming_app.sim.sweep import offset_from_wall
-from pigaming_app.sim.world import HEIGHT, WIDTH, World
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH, World
 
 BERTH = 7.0  # px, clearance from walls of a real robot that takes over
 

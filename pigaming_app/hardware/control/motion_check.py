@@ -19,8 +19,7 @@ from typing import NamedTuple
 from pigaming_app.hardware.signals import Fix
 from pigaming_app.sim.drivetrain import Drivetrain
 from pigaming_app.sim.plant import Twist
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 
 SHORT, LONG = 0.15, 0.4  # s, windows of comparison: for a robot astray, and for one that is stuck
 LATENESS = (-0.03, 0.0, 0.03, 0.07)  # s, tolerated delays on top of the drivetrain's dead time

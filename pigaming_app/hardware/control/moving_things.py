@@ -11,10 +11,10 @@ from math import hypot
 from typing import Any
 
 from pigaming_app.sim.arena import replace_things
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.things.convex import distance
 from pigaming_app.sim.things.spec import ThingSpec, Use
 from pigaming_app.sim.toml_table import FieldError
+from pigaming_app.sim.world import RADIUS
 
 SAME = 1.5  # px by which a corner may move before a thing counts as moved
 NEAR = 15.0  # px between the middles of the same mud in two scans

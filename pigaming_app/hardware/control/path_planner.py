@@ -9,9 +9,8 @@ from typing import Any
 
 from pigaming_app.sim.flow_field import Route, expand, free_node, update_route
 from pigaming_app.sim.grid import BLOCKED, block_rim, wall_on_grid
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
-from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, WIDTH, Wall
+from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, RADIUS, WIDTH, Wall
 
 MAX_POINTS = 40  # of a path
 

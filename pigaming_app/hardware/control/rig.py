@@ -25,8 +25,7 @@ from pigaming_app.hardware.tracking.motion_delay import DriveTrace, network_dela
 from pigaming_app.hardware.tracking.pose_filters import PoseFilters
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, ROBOTS
+from pigaming_app.sim.world import DT, RADIUS, ROBOTS
 
 # A 3pi that was not measured: a typical deadband, and dead time (s) of tick, serial line and air.
 UNMEASURED = replace(

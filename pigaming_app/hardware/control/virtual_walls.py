@@ -10,9 +10,9 @@ from math import cos, sin, sqrt
 from typing import Any, NamedTuple
 
 from pigaming_app.sim.plant import Pose, Twist
-from pigaming_app.sim.robot import LAG, RADIUS
+from pigaming_app.sim.robot import LAG
 from pigaming_app.sim.sweep import offset_from_wall
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 
 GAMMA = 4.0  # 1/s, speed per gap, with a predicted pose
 SHARED = 0.5 * GAMMA  # 1/s, between two robots, each of which may approach

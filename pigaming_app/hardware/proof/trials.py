@@ -13,9 +13,8 @@ from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.proof.testbed import Testbed
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.plant import Sighting, Twist
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import offset_from_wall
-from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH, World
+from pigaming_app.sim.world import DT, HEIGHT, HZ, RADIUS, ROBOTS, WIDTH, World
 
 SPEED = 350.0  # mm/s
 

@@ -13,8 +13,7 @@ from pigaming_app.hardware.recordings import Floats, Recording, RobotRecording
 from pigaming_app.hardware.sysid.identify import fit_pieces, identify, move_pieces, track
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain, twist
 from pigaming_app.sim.plant import SimPlant
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH, World
+from pigaming_app.sim.world import DT, HEIGHT, RADIUS, ROBOTS, WIDTH, World
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 HORIZONS = (1.0, 2.0, 5.0)  # s

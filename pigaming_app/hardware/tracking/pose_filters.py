@@ -9,8 +9,7 @@ from pigaming_app.hardware.tracking.ekf import COAST, PoseFilter
 from pigaming_app.hardware.tracking.motion_model import WheelCorrection
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import RADIUS, ROBOTS
 
 
 class PoseFilters:

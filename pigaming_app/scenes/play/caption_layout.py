@@ -5,8 +5,7 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 
 ARENA = pygame.Rect(LEFT + 24, TOP, int(WIDTH) - 48, int(HEIGHT))
 BODY = round(RADIUS) + 8  # px, half the side of a robot's box

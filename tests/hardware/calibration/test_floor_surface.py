@@ -11,8 +11,7 @@ from pigaming_app.hardware.control.rig import unmeasured
 from pigaming_app.hardware.robot_kinds import DEFAULT
 from pigaming_app.sim.arena import build
 from pigaming_app.sim.drivetrain import twist
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import World
+from pigaming_app.sim.world import RADIUS, World
 from tests.hardware.sentences import sentence
 
 

@@ -8,8 +8,8 @@ import pytest
 from pigaming_app.games.arenas import load
 from pigaming_app.hardware.control.path_planner import find_path, inflated_floor
 from pigaming_app.hardware.control.real_plant import RealPlant
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import offset_from_wall
+from pigaming_app.sim.world import RADIUS
 from tests.cases import one_in
 from tests.floor import floor
 from tests.hardware.mat import NOMINAL_MM, STARTS, Mat

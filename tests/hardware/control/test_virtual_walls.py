@@ -7,9 +7,8 @@ import pytest
 
 from pigaming_app.hardware.control.virtual_walls import GAMMA, SHARED, SPARE, clip_twist, speed_limits, stopping_pose
 from pigaming_app.sim.drivetrain import MM
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import offset_from_wall
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 from tests.floor import floor
 
 ACROSS = (800.0, 0.0, 800.0, 900.0)  # a vertical wall at the centre, 30 px thick

@@ -18,8 +18,7 @@ from pigaming_app.scenes.mat.paper.marker_sheet import marker
 from pigaming_app.scenes.mat.paper.paper_canvas import PaperCanvas
 from pigaming_app.scenes.views.game_screens import GameScreens
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 from pigaming_app.ui.draw import MIST, PLAYERS, WALL, dim, shape_points
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.pdf import PdfFile, op, path, placed, written

@@ -8,8 +8,7 @@ from typing import NamedTuple
 
 from pigaming_app.games.pitanks.scoring import is_finale, is_overtime
 from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, Bullet, PiTanks
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, SOLID, WIDTH
 
 NEAR = RADIUS + 20.0  # px, maximum distance between a bullet and the robot that stopped it
 
