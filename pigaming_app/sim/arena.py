@@ -206,6 +206,11 @@ def read_radius(table: TomlTable) -> float:
     return robots.number("radius", None, RADIUS, WIDEST, " px")
 
 
+def written_radius(radius: float) -> str:
+    """The table [robots], to append to the text of an arena file. `radius`: px."""
+    return f"\n[robots]\nradius = {radius:.1f}\n"
+
+
 def read_floor(table: TomlTable) -> str:
     """Parse the table [floor]; empty without one. Raises FieldError."""
     if "floor" not in table:

@@ -33,7 +33,7 @@ from pigaming_app.games.factory.state import (
     ENTRY,
     EXIT,
     FIRE,
-    FORK,
+    HOLD,
     ICE,
     INPUT,
     MACHINES,
@@ -258,10 +258,11 @@ def _reach_faults(layout: Layout, floor: Floor) -> Iterator[FieldError]:
     world = layout.built()
     field = Route()
     expand(world, field, free_node(world, layout.starts[0].x, layout.starts[0].y), -1)
+    fork = layout.radius + HOLD
     free = [(node % COLUMNS * CELL, node // COLUMNS * CELL) for node in range(NODES) if field.reach[node]]
     for k, slot in enumerate(floor.slots):
         at = slot.x, slot.y, PALLET
-        if not any(FORK - REACH < sqrt((x - slot.x) ** 2 + (y - slot.y) ** 2) < FORK + REACH for x, y in free):
+        if not any(fork - REACH < sqrt((x - slot.x) ** 2 + (y - slot.y) ** 2) < fork + REACH for x, y in free):
             yield FieldError(_name(k, slot), f"no robot can reach its slot at ({slot.x:g}, {slot.y:g})", at)
         for other in floor.slots[:k]:
             if abs(slot.x - other.x) < 68 and abs(slot.y - other.y) < 68:

@@ -29,6 +29,7 @@ BEHIND = 55.0  # px between a robot's start and its line
 ROW, FARTHEST_ROW = 110, 300  # px between the rows of the grid: on a straight, and the limit in bends
 COLUMN = 10.0  # px between the middle of the course and a robot in either column
 SPACE = 6.0  # px, least gap between robots on the grid; virtual walls of real robots need 4
+WIDE_SPACE = 24.0  # px, that of robots that are wide on their surface, which drive to their places one by one
 STEP_BACK = 10  # px between tried places on the grid
 PAD_RUN = 300.0  # px of straight wanted after a pad
 PAD_ASIDE, BOX_ASIDE = 0.4, 0.5  # of half the width
@@ -110,11 +111,12 @@ def _grid_beside(course: Course, line: float, spans: Sequence[Span], radius: flo
     Raises FieldError if there is no room within half a lap.
     """
     poses: list[StartPose] = []
+    apart = 2 * radius + (WIDE_SPACE if radius > RADIUS else SPACE)
     for back in range(round(BEHIND), round(course.length / 2), STEP_BACK):
         half = half_width_at(course, *segment_at(course, line - back))
         for side in (-1.0, 1.0):
             pose = clear_pose(course, line - back, side * min(radius + COLUMN, half - radius), spans)
-            free = all(hypot(pose.x - other.x, pose.y - other.y) >= 2 * radius + SPACE for other in poses)
+            free = all(hypot(pose.x - other.x, pose.y - other.y) >= apart for other in poses)
             if free and len(poses) < ROBOTS:
                 poses.append(pose)
     if len(poses) < ROBOTS:

@@ -38,7 +38,7 @@ from pigaming_app.games.race.passages import Span, passages
 from pigaming_app.games.race.racing_line import Line, line_round
 from pigaming_app.games.race.state import LINES, MAX_LAPS, Race, RaceRules, TimingLine
 from pigaming_app.games.starts import dealt, dealt_to_all
-from pigaming_app.sim.arena import Arena, Layout, StartPose, build, raise_first, read_radius
+from pigaming_app.sim.arena import Arena, Layout, StartPose, build, raise_first, read_radius, start_faults
 from pigaming_app.sim.record import copy
 from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.things.cover import CoverPart
@@ -132,11 +132,16 @@ def faults(table: TomlTable) -> Iterator[FieldError]:
     try:
         table.only("title", "track", "corner", "thing", "robots")
         laps_of(table)
-        (course, found), things = examined(read_corners(table)), read_things(table)
+        (course, found), things, radius = examined(read_corners(table)), read_things(table), read_radius(table)
         yield from found
+        yield from width_faults(course, radius)
         lines = _lines(table.table("track"), course, taped(course, things) if not found else ())
         if solid := tuple(wall_capsules(things, WALLS)):
-            passages(course, solid, [0.0] * POINTS, lines)
+            passages(course, solid, [0.0] * POINTS, lines, radius)
+        elif not found:
+            starts = tuple(pose_at(course, line - BEHIND) for line in lines)
+            yield from start_faults(Layout((), starts, radius=radius))
+            grid(course, lines[common_line(course, lines)], (), radius)
     except FieldError as fault:
         yield fault
 

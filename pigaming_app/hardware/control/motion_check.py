@@ -72,6 +72,7 @@ class RobotMotionCheck:
 
     def __init__(self, drivetrain: Drivetrain) -> None:
         self.drivetrain = drivetrain
+        self.radius = RADIUS  # px, of its body
         self.contradiction = MotionMismatch()
         self._command = (0.0, 0.0)  # px/s of the wheels
         self._speeds = [0.0, 0.0]  # px/s: speeds of the model's wheels
@@ -195,7 +196,7 @@ class RobotMotionCheck:
         for (out_x, out_y), edge in EDGES:
             gone = out_x * (now.x - since.x) + out_y * (now.y - since.y)
             expected = max(0.0, *((out_x * cos(heading) + out_y * sin(heading)) * travel for travel in ahead))
-            over = out_x * now.x + out_y * now.y + RADIUS - edge
+            over = out_x * now.x + out_y * now.y + self.radius - edge
             if gone > STRONG * expected + nudge and over + COASTS * gone / dt > 0.0:
                 return True
         return False

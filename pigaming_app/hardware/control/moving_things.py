@@ -14,7 +14,6 @@ from pigaming_app.sim.arena import replace_things
 from pigaming_app.sim.things.convex import distance
 from pigaming_app.sim.things.spec import ThingSpec, Use
 from pigaming_app.sim.toml_table import FieldError
-from pigaming_app.sim.world import RADIUS
 
 SAME = 1.5  # px by which a corner may move before a thing counts as moved
 NEAR = 15.0  # px between the middles of the same mud in two scans
@@ -57,7 +56,9 @@ class MovingThings:
         return [move for move in moves if move is not None]
 
     def _replace(self, simulated: Sequence[Any]) -> ThingsMove | None:
-        free = tuple(thing for thing in self.wanted if not any(_covers(thing, robot) for robot in simulated))
+        free = tuple(
+            thing for thing in self.wanted if not any(_covers(thing, robot, self.world.radius) for robot in simulated)
+        )
         if alike(free, self.shown):
             return None
         self.shown = free
@@ -100,9 +101,9 @@ def alike(one: Sequence[ThingSpec], other: Sequence[ThingSpec]) -> bool:
     )
 
 
-def _covers(thing: ThingSpec, robot: Any) -> bool:
-    """True if a wall would stand where a robot is."""
-    return thing.use is Use.WALL and distance(thing.outline, robot.x, robot.y) < RADIUS + thing.margin
+def _covers(thing: ThingSpec, robot: Any, radius: float) -> bool:
+    """True if a wall would stand where a robot of a radius, px, is."""
+    return thing.use is Use.WALL and distance(thing.outline, robot.x, robot.y) < radius + thing.margin
 
 
 def same_mud(one: Sequence[ThingSpec], other: Sequence[ThingSpec]) -> bool:

@@ -19,7 +19,7 @@ from pigaming_app.hardware.proof.trials import FigureEight, follow, play
 from tests.hardware.paper import SURFACE, PrintedSession
 from tests.matches import setup_of
 
-SMALL, LOW = FloorSurface.smallest(47.5), TrueLens((50.0, 170.0, 1600.0), (5.0, 16.0), 0.021)
+SMALL, LOW = FloorSurface(1439.0, 809.0), TrueLens((45.0, 153.0, 1440.0), (5.0, 16.0), 0.021)  # 65 inches
 DARK = np.zeros((1080, 1920), np.uint8)
 
 

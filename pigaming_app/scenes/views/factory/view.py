@@ -11,7 +11,6 @@ from pigaming_app.games.factory.start import floor_of
 from pigaming_app.games.factory.state import (
     DAMAGED,
     DONE,
-    FORK,
     HALF,
     IN_SLOT,
     PALLETS,
@@ -167,7 +166,7 @@ class FactoryView(MatchView):
         self.light_up(under, seat, (x, y, heading), bool(robot.boosting))
         put(over, crates.forks(robot.team, fine), x, y)
         put(over, tank.tank(seat, fine), x, y)
-        ahead = FORK if seat not in self.real else BEFORE
+        ahead = state.rules.fork if seat not in self.real else BEFORE
         fork_x, fork_y = x + ahead * math.cos(heading), y + ahead * math.sin(heading)
         if load.pallet:
             self._crate(over, light, top, state, load.pallet - 1, fork_x, fork_y)
