@@ -1,11 +1,12 @@
 """Homing: drives real robots to their start poses, round walls and each other, several at once where there is room.
 
 A robot that sets out reserves its path; another sets out only if its own path is clear of all reserved paths and
-standing robots. When no robot can move, one makes room, each in its turn, those that have arrived last. All others stand
-still.
+standing robots. When no robot can move, one makes room, each in its turn, at last those that have arrived; these wait
+until the others are home. All others stand still.
 """
 
 from collections.abc import Collection, Mapping, Sequence
+from itertools import pairwise
 from math import atan2, cos, dist, pi, sqrt
 from typing import Any, NamedTuple
 
@@ -60,6 +61,7 @@ class Homing:
         }
         self._paths: dict[int, list[Point]] = {}
         self._yielded: dict[int, int] = {}  # tick at which a robot last set out to make room
+        self._waiting: set[int] = set()  # robots that had arrived and have made room
         self._arrived: set[int] = set()  # at the goal's position; only the turn is left
         self._home: set[int] = set()
         self._tick = 0
@@ -75,7 +77,9 @@ class Homing:
         """One tick: the twist of each robot of `goals`, px/s and rad/s. `poses`: all robots on the mat."""
         self._tick += 1
         self.places = [self._placed(robot, poses.get(robot)) for robot in self.goals]
-        for robot in sorted(self.goals, key=self._turn):
+        if not self._blocked(poses):
+            self._waiting.clear()
+        for robot in sorted(self.goals.keys() - self._waiting):
             due = robot not in self._paths or (self._tick + 5 * robot) % REPLAN == 0
             if due and robot in poses and robot not in self._home and robot not in self._arrived:
                 self._set_out(robot, poses)
@@ -118,28 +122,39 @@ class Homing:
                 return
 
     def _make_room(self, poses: Mapping[int, Pose]) -> None:
-        """Send one robot to a free spot clear of all goals and robots.
+        """Send one robot to a free spot clear of all goals and robots, and if possible of the ways of the others.
 
         If only one has not arrived, moving it would help no other.
         """
-        blocked = {robot for robot in self.goals if robot in poses and robot not in self._home}
-        if not blocked:
-            return
-        others = [robot for robot in self.goals if robot in poses and {robot} != blocked]
-        for robot in sorted(others, key=lambda robot: (self._turn(robot), robot in self._home, robot)):
+        blocked = self._blocked(poses)
+        others = [robot for robot in self.goals if robot in poses and {robot} != blocked and robot not in self._waiting]
+        for robot in sorted(others, key=lambda robot: (self._yielded.get(robot, -1), robot in self._home, robot)):
+            if robot in self._home:
+                self._waiting.add(robot)
+            elif robot in self._yielded:  # all have made room, in vain
+                self._waiting.clear()
             self._yielded[robot] = self._tick
             floor = self._among(self._floors[self._margins[robot]][0], robot, poses)
             taken = [pose[:2] for other, pose in poses.items() if other != robot]
             taken += [goal[:2] for goal in self.goals.values()]
-            for spot in reachable_nodes(floor, poses[robot][:2]):
-                wide = 2.0 * (self.world.radius + MARGIN + max(self._margins))
-                if all(dist(spot, point) > wide for point in taken):
-                    self._paths[robot] = find_path(floor, poses[robot][:2], spot) or [spot]
-                    return
+            wide = 2.0 * (self.world.radius + MARGIN + max(self._margins))
+            nodes = reachable_nodes(floor, poses[robot][:2])
+            spots = [spot for spot in nodes if all(dist(spot, point) > wide for point in taken)]
+            ways = [self._way(other, poses[other]) for other in blocked - {robot}]
+            aside = (spot for spot in spots if all(_off(way, spot) > wide for way in ways))
+            if spots:
+                spot = next(aside, spots[0])
+                self._paths[robot] = find_path(floor, poses[robot][:2], spot) or [spot]
+                return
 
-    def _turn(self, robot: int) -> int:
-        """The tick at which a robot last made room: who did so later sets out later, and makes room again later."""
-        return self._yielded.get(robot, -1)
+    def _way(self, robot: int, pose: Pose) -> list[Point]:
+        """The way of a robot to its goal if it were alone."""
+        floor = self._floors[self._margins[robot]][-1]
+        return [pose[:2], *(find_path(floor, pose[:2], self.goals[robot][:2]) or [self.goals[robot][:2]])]
+
+    def _blocked(self, poses: Mapping[int, Pose]) -> set[int]:
+        """The robots that are not at their goals, but for those that wait."""
+        return {robot for robot in self.goals if robot in poses} - self._home - self._waiting
 
     def _among(self, floor: Any, robot: int, poses: Mapping[int, Pose]) -> Any:
         """The floor with all other robots and their paths as obstacles."""
@@ -185,6 +200,17 @@ class Homing:
             self._push[robot] = max(1.0, EASE * self._push[robot])
         elif self._tick - since > PATIENCE:
             self._push[robot] = min(self._push[robot] + PUSH, MAX_PUSH)
+
+
+def _off(way: Sequence[Point], point: Point) -> float:
+    """Distance of a point from a way, px."""
+    gaps = []
+    for (ax, ay), (bx, by) in pairwise(way):
+        ex, ey = bx - ax, by - ay
+        along = ((point[0] - ax) * ex + (point[1] - ay) * ey) / max(ex * ex + ey * ey, 1e-9)
+        share = min(max(along, 0.0), 1.0)
+        gaps.append(dist(point, (ax + share * ex, ay + share * ey)))
+    return min(gaps)
 
 
 def _on_the_spot(angle: float, push: float) -> float:
