@@ -3,9 +3,10 @@
 from math import ceil
 from pathlib import Path
 
-from pigaming_app.games.arenas import arenas, has_room, load, widest
+from pigaming_app.games.arenas import arenas, has_room, load, on_mat, widest
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.calibration.floor_surface import FloorSurface
+from pigaming_app.hardware.control.rig import in_play
 from pigaming_app.hardware.control.virtual_walls import SPARE
 from pigaming_app.hardware.robot_kinds import widest_radius
 from pigaming_app.hardware.session.real import RealSession
@@ -44,7 +45,7 @@ def with_room(chosen: list[Chosen], surface: FloorSurface, settings: Settings) -
         wide, high = (ceil(side / 10.0) / 100.0 for side in (least.width, least.height))
         size = f"{surface.width / 1000.0:g}x{surface.height / 1000.0:g}"
         raise Refusal(f"{size} m is too small for robots of {2.0 * radius:g} mm: the smallest is {wide:g}x{high:g}")
-    return found
+    return [(game, on_mat(game, arena, (), in_play(wide))) for game, arena in found]
 
 
 def write(target: Path, surface: FloorSurface, chosen: list[Chosen], paper: str, language: str) -> str:

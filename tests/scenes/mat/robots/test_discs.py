@@ -25,6 +25,9 @@ class Seen:
         self.sightings = list(sightings)
         self.asked = 0.0
 
+    def margin(self, robot: int, usual: float) -> float:
+        return 0.0
+
     def sense(self, ahead: float = 0.0) -> list[Sighting]:
         self.asked = ahead
         return self.sightings
