@@ -31,11 +31,20 @@ def gap_to_walls(world, x, y):
 def random_world():
     """Four robots of some radius among six walls, none in any."""
     radius = random.uniform(36.0, 110.0)
-    ends = [random.uniform(0.0, size) for _ in range(12) for size in (WIDTH, HEIGHT)]
-    walls = tuple(WallSpec(*ends[4 * i : 4 * i + 4], random.uniform(5.0, 40.0), SOLID) for i in range(6))
+    walls = [
+        WallSpec(
+            random.uniform(0.0, WIDTH),
+            random.uniform(0.0, HEIGHT),
+            random.uniform(0.0, WIDTH),
+            random.uniform(0.0, HEIGHT),
+            random.uniform(5.0, 40.0),
+            SOLID,
+        )
+        for _ in range(6)
+    ]
     world = World()
-    build(world, Arena("", {}, walls, (StartPose(0.0, 0.0, 0.0),) * 4, "", radius=radius))
-    placed = []
+    build(world, Arena("", {}, tuple(walls), (StartPose(0.0, 0.0, 0.0),) * 4, "", radius=radius))
+    placed: list[tuple[float, float]] = []
     for robot in world.robots:
         for _ in range(3000):
             x, y = random.uniform(0.0, WIDTH), random.uniform(0.0, HEIGHT)

@@ -67,7 +67,7 @@ class RealSession(RobotSession):
 
             try:
                 ground = store.load(store.calibration_file("real"), self.projection())
-                drivetrains = store.load_robots(store.robots_file(emulated=False), self._declared(ground.mm))
+                drivetrains = store.load_robots(store.robots_file(emulated=False), ground.mm, self._declared(ground.mm))
                 camera = SizedCamera(Camera(self.settings.camera, kept=ground.quality.kept), ground)
                 try:
                     link, kinds = self._new_link(), self.settings.kinds
