@@ -127,6 +127,8 @@ class Homing:
         If only one has not arrived, moving it would help no other.
         """
         blocked = self._blocked(poses)
+        if not blocked:
+            return
         others = [robot for robot in self.goals if robot in poses and {robot} != blocked and robot not in self._waiting]
         for robot in sorted(others, key=lambda robot: (self._yielded.get(robot, -1), robot in self._home, robot)):
             if robot in self._home:

@@ -85,6 +85,7 @@ def test_wider_robots_change_places_without_touching_each_other_or_a_wall():
 
 
 @pytest.mark.long
+@pytest.mark.again
 def test_wide_robots_at_home_make_room_for_those_that_they_block():
     """3pis on a television of 65 inches: the first two arrive in the only ways out of the pockets of the others."""
     arena, mm = load("pitanks", "trenches"), 1199.0 / 1600.0
