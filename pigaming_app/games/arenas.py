@@ -14,7 +14,7 @@ from pathlib import Path
 
 from pigaming_app import ASSETS
 from pigaming_app.games.registry import OURS, games
-from pigaming_app.sim.arena import WIDEST, Arena, ArenaError, start_faults, written_radius
+from pigaming_app.sim.arena import WIDEST_ROBOT, Arena, ArenaError, start_faults, written_radius
 from pigaming_app.sim.arena import parse as parse_arena
 from pigaming_app.sim.things.spec import ThingSpec, written
 from pigaming_app.sim.toml_table import FieldError, TomlTable
@@ -195,7 +195,7 @@ def widest(game: str, source: str, berth: float = 0.0, least: float = RADIUS) ->
     `least` if no wider ones can; `berth`: see `has_room`.
     """
     first = round(10 * least) + 1
-    tenths = range(first, round(10 * WIDEST) + 1)
+    tenths = range(first, round(10 * WIDEST_ROBOT) + 1)
 
     def is_too_wide(tenth: int) -> bool:
         return not has_room(game, source, tenth / 10, berth)

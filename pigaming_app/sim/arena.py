@@ -46,7 +46,7 @@ NEEDED = ("en", "pt")  # of the languages; a title that lacks another is shown i
 HEALTH = 5
 FLOORS = "grid", "paving", "waves", "hexagons", "strata", "circuit", "diamonds", "turf"  # patterns, for the eye only
 BUILT = 24  # walls in a file; things need the rest of WALLS
-WIDEST = 150.0  # px, radius of robots
+WIDEST_ROBOT = 150.0  # px, radius of robots
 MAX_TITLE = 40  # characters
 
 
@@ -203,7 +203,7 @@ def read_radius(table: TomlTable) -> float:
         return RADIUS
     robots = table.table("robots")
     robots.only("radius")
-    return robots.number("radius", None, RADIUS, WIDEST, " px")
+    return robots.number("radius", None, RADIUS, WIDEST_ROBOT, " px")
 
 
 def written_radius(radius: float) -> str:

@@ -104,6 +104,7 @@ class SessionMat:
             anew = partial(again, setup, devices, real, rounds=rounds)
             return UnplayablePage(context, setup, devices, anew, partial(anew, things=()))
         except RobotsUnavailable as error:
+            self.session.close()
             log.warning("%s", english().long_sentence(error.message))
             return UnavailablePage(context, setup, devices, real, error.message, partial(again, rounds=rounds))
 
