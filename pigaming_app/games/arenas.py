@@ -178,8 +178,9 @@ def has_room(game: str, source: str, radius: float, berth: float = 0.0) -> bool:
     """
     if radius <= RADIUS:
         return True
-    rules, table = games()[game], TomlTable.parse(source + written_radius(radius))
+    rules = games()[game]
     try:
+        table = TomlTable.parse(source + written_radius(radius))
         if rules.faults and not all(fault.flaw for fault in rules.faults(table)):
             return False
         if rules.faults and "start" not in table:  # no walls, but reading takes long

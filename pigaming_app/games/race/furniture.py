@@ -27,7 +27,7 @@ from pigaming_app.sim.world import RADIUS, ROBOTS
 
 BEHIND = 55.0  # px between a robot's start and its line
 ROW, FARTHEST_ROW = 110, 300  # px between the rows of the grid: on a straight, and the limit in bends
-COLUMN = 10.0  # px between the middle of the course and a robot in either column
+COLUMN = 46.0  # px from the middle of the course to either column; farther for wider robots
 SPACE = 6.0  # px, least gap between robots on the grid; virtual walls of real robots need 4
 WIDE_SPACE = 24.0  # px, that of robots that are wide on their surface, which drive to their places one by one
 STEP_BACK = 10  # px between tried places on the grid
@@ -98,7 +98,7 @@ def grid(course: Course, line: float, spans: Sequence[Span] = (), radius: float 
         poses = []
         for place in range(ROBOTS):
             along = line - BEHIND - row * (place // 2)
-            aside = min(radius + COLUMN, half_width_at(course, *segment_at(course, along)) - radius)
+            aside = min(COLUMN + radius - RADIUS, half_width_at(course, *segment_at(course, along)) - radius)
             poses.append(pose_at(course, along, aside if place % 2 else -aside))
         if min(hypot(a.x - b.x, a.y - b.y) for a in poses[:2] for b in poses[2:]) >= 2 * radius + SPACE:
             break
@@ -115,7 +115,7 @@ def _grid_beside(course: Course, line: float, spans: Sequence[Span], radius: flo
     for back in range(round(BEHIND), round(course.length / 2), STEP_BACK):
         half = half_width_at(course, *segment_at(course, line - back))
         for side in (-1.0, 1.0):
-            pose = clear_pose(course, line - back, side * min(radius + COLUMN, half - radius), spans)
+            pose = clear_pose(course, line - back, side * min(COLUMN + radius - RADIUS, half - radius), spans)
             free = all(hypot(pose.x - other.x, pose.y - other.y) >= apart for other in poses)
             if free and len(poses) < ROBOTS:
                 poses.append(pose)
