@@ -233,7 +233,7 @@ def quoted():
     rules = (("pitanks", "pickups"), ("factory", None), ("race", None))
     tanks, shop, track = (match_of(game, variant).state.rules for game, variant in rules)
     one, two, unknown = RECIPES[1], RECIPES[2], Parameters()
-    yield f"{robots.RADIUS:g} px | **same**; **open**: the radius"
+    yield f"{world.RADIUS:g} px | **same**; **open**: the radius"
     yield f"{world.WIDTH:g} × {world.HEIGHT:g} px; nominal mat 2.11 × 1.19 m, so {drivetrain.MM} mm a pixel"
     yield f"{tanks.speed:g} px/s (0.34 m/s) and {tanks.turn_rate} rad/s"
     yield f"×{tanks.turbo_factor}, from a meter of {1 / tanks.turbo_drain / world.HZ:g} s"
