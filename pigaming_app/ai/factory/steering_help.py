@@ -23,7 +23,7 @@ STRAY = 0.3, 0.5  # rad off the way: from there a turn away counts less, and how
 STRAIGHT = 0.35  # rad off the way up to which it does not slow down
 COAST = 0.4  # forward stick of reverse along the way
 TURN = 2.0  # stick for each rad off the way
-CLOSE, NEAR = 90.0, 150.0  # px from the slot: reverse and turns are as they are; it slows down unless it points there
+CLOSE, NEAR = 26.0, 86.0  # px before the slot: reverse and turns are as they are; it slows down unless it points there
 AT = 26.0  # px between fork and slot within which it waits
 WAITING, LEAVING = 0.1, 0.4  # share of forward stick and turn, and of reverse, at the slot
 
@@ -75,7 +75,7 @@ class View:
             return linear * (WAITING if linear > 0.0 else LEAVING), angular * WAITING
         off = turn_to(atan2(obs.waypoint_y - robot.y, obs.waypoint_x - robot.x) - robot.heading)
         distance = sqrt(dx * dx + dy * dy)
-        if abs(off) < ALONG and not (obs.straight and distance < CLOSE):
+        if abs(off) < ALONG and not (obs.straight and distance - obs.fork < CLOSE):
             linear = linear if linear > 0.0 else -COAST * linear if linear else abs(angular)
         if linear > 0.0:
             linear = min(linear, _speed(obs, off, distance))
@@ -105,11 +105,11 @@ def _cost(obs: FactoryObservation, slot: SlotView, angular: float) -> float:
 def _speed(obs: FactoryObservation, off: float, distance: float) -> float:
     """Highest forward stick: less for a turn, and short of the slot."""
     speed = max(0.1, 1.0 - 0.9 * max(0.0, abs(off) - STRAIGHT))
-    if not obs.straight or distance >= NEAR:
+    short = distance - obs.fork
+    if not obs.straight or short >= NEAR:
         return speed
     if abs(distance * sin(off)) > 20.0:
-        speed = min(speed, max(0.0, (distance - 100.0) / 60.0))
-    short = distance - obs.fork
+        speed = min(speed, max(0.0, (short - 36.0) / 60.0))
     return min(speed, short / 40.0) if short < 20.0 else speed
 
 
