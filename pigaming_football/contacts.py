@@ -4,7 +4,7 @@ Source: D. Baraff, "Fast contact force computation for nonpenetrating rigid bodi
 is that of `sim/sweep.py`.
 """
 
-from pigaming_app.api.rules import HEIGHT, RADIUS, ROBOTS, WIDTH, disc_contact, first_wall, kernel, offset_from_wall
+from pigaming_app.api.rules import HEIGHT, ROBOTS, WIDTH, disc_contact, first_wall, kernel, offset_from_wall
 
 from .state import LEFT, MIDDLE, RIGHT, Ball, Football
 
@@ -30,7 +30,7 @@ def first_contact(match: Football, dx: float, dy: float, left: float, holder: in
         if robot.present and k + 1 != holder:
             rx, ry = robot.x - player.dx * left, robot.y - player.dy * left
             ux, uy = dx - player.dx * left, dy - player.dy * left
-            t = disc_contact(x, y, ux, uy, rx, ry, RADIUS + radius)
+            t = disc_contact(x, y, ux, uy, rx, ry, match.radius + radius)
             if t < first and (t > 0.0 or ux * (x - rx) + uy * (y - ry) < 0.0):
                 hit, first = ROBOT + k, t
     return hit, first

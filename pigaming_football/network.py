@@ -10,7 +10,7 @@ from typing import Any
 
 from pigaming_app.api.brains import set_action
 from pigaming_app.api.networks import Encoding, NetworkSenses, Sight, Subject, encode_room, nearest_robot, whole
-from pigaming_app.api.rules import HEIGHT, HZ, RADIUS, ROBOTS, WIDTH, kernel, record
+from pigaming_app.api.rules import HEIGHT, HZ, ROBOTS, WIDTH, kernel, record
 
 from .physics import can_catch
 from .rules import charge_of, lead_of, side_of
@@ -111,7 +111,7 @@ def encode_ball(
     along, across = ahead_x * dx + ahead_y * dy, ahead_x * dy - ahead_y * dx
     inputs[BALL], inputs[BALL + 1] = whole(along / distance), whole(across / distance)
     inputs[BALL + 2] = whole(NEAR / (NEAR + distance))
-    inputs[BALL + 3] = whole((distance - RADIUS - match.rules.radius) / 100.0 - 1.0)
+    inputs[BALL + 3] = whole((distance - match.radius - match.rules.radius) / 100.0 - 1.0)
     inputs[BALL + 4] = whole((ahead_x * vx + ahead_y * vy) / FAST)
     inputs[BALL + 5] = whole((ahead_x * vy - ahead_y * vx) / FAST)
     loss = match.rules.friction / (sqrt(vx * vx + vy * vy) + 1e-9)

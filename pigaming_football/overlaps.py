@@ -6,7 +6,7 @@ place that no wall separates from it (`nearest_free`).
 
 from math import cos, sin, sqrt
 
-from pigaming_app.api.rules import HEIGHT, RADIUS, ROBOTS, WIDTH, is_clear, kernel, offset_from_wall
+from pigaming_app.api.rules import HEIGHT, ROBOTS, WIDTH, is_clear, kernel, offset_from_wall
 
 from .contacts import SLOP, reflect, touch
 from .state import DT, LEFT, MIDDLE, RIGHT, Ball, Football
@@ -22,7 +22,7 @@ def give_way(match: Football) -> int:
     for _ in range(ROUNDS):
         for k in range(ROBOTS):
             robot, player = match.robots[k], match.players[k]
-            if robot.present and push_out(ball, ball.x - robot.x, ball.y - robot.y, RADIUS + radius):
+            if robot.present and push_out(ball, ball.x - robot.x, ball.y - robot.y, match.radius + radius):
                 touch(ball, k)
                 reflect(ball, ball.x - robot.x, ball.y - robot.y, player.dx / DT, player.dy / DT, 0.0)
         for i in range(match.wall_count):
@@ -74,7 +74,7 @@ def is_free(match: Football, x: float, y: float) -> int:
         nx, ny = min(x, WIDTH - x), half - aside
         if nx * nx + ny * ny < (radius - SLOP) * (radius - SLOP):
             return 0
-    reach = RADIUS + radius - SLOP
+    reach = match.radius + radius - SLOP
     for robot in match.robots:
         if robot.present:
             dx, dy = x - robot.x, y - robot.y

@@ -14,7 +14,7 @@ Where there is no room for it, `settle` finds some, or the ball is dropped anew.
 
 from math import atan2, cos, sin, sqrt
 
-from pigaming_app.api.rules import RADIUS, ROBOTS, WIDTH, kernel, turn_to
+from pigaming_app.api.rules import ROBOTS, WIDTH, kernel, turn_to
 
 from .contacts import LINE, ROBOT, bounce_off, first_contact, reflect, touch
 from .overlaps import give_way, is_free, nearest_free
@@ -88,7 +88,7 @@ def carry(match: Football) -> int:
     k = ball.holder - 1
     robot, player = match.robots[k], match.players[k]
     ball.grip *= GRIP_DECAY
-    reach, angle = RADIUS + match.rules.radius + GRIP, robot.heading + ball.grip
+    reach, angle = match.radius + match.rules.radius + GRIP, robot.heading + ball.grip
     dx, dy = robot.x + reach * cos(angle) - ball.x, robot.y + reach * sin(angle) - ball.y
     if dx * dx + dy * dy > TORN:  # it was carried
         lose(match)

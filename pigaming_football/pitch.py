@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from math import dist, hypot
 
 from pigaming_app.api.arenas import FieldError, Layout, TomlTable, layout_faults, read_layout
-from pigaming_app.api.rules import HEIGHT, RADIUS, ROBOTS, WIDTH, offset_from_wall
+from pigaming_app.api.rules import HEIGHT, ROBOTS, WIDTH, offset_from_wall
 
 from .space import Place, Space, traps
 from .state import MAX_DROPS, MIDDLE, Rules
@@ -23,10 +23,7 @@ from .wedges import wedges
 NARROWEST, WIDEST = 120.0, 500.0  # px, of a goal
 FEWEST = ROBOTS + 2  # drop points: every robot covers at most one, and one is where the ball lies
 BALL = Rules().radius
-APART = 2.0 * (RADIUS + BALL) + 4.0  # px between drop points
-CATCH = RADIUS + BALL + Rules().catch_reach  # px from a robot to a ball that it can catch
-TOUCH = RADIUS + BALL
-SHARP = 1.0 - 2.0 * ((RADIUS - BALL) / TOUCH) ** 2  # cosine of the angle in which a robot just touches a wedged ball
+APART = 4.0  # px between robots with a ball each at two drop points
 SLOP = 0.01  # px, for rounding
 Point = tuple[float, float]
 
@@ -45,7 +42,11 @@ class Ways:
     def __init__(self, layout: Layout) -> None:
         walls = layout.built_walls()
         self.walls, self.mouth = walls, layout.plan.mouth
-        self.ball, self.robots = Space(walls, BALL, layout.plan.mouth), Space(walls, RADIUS)
+        self.ball, self.robots = Space(walls, BALL, layout.plan.mouth), Space(walls, layout.radius)
+        self.touch = layout.radius + BALL  # px between the centres of a robot and a ball that it touches
+        self.catch = self.touch + Rules().catch_reach  # that it can catch
+        # Cosine of the angle in which a robot just touches a wedged ball
+        self.sharp = 1.0 - 2.0 * ((layout.radius - BALL) / self.touch) ** 2
         areas = (self.ball.area(*point) for point in layout.plan.drops)
         self.pitch = next((area for area in areas if area >= 0), -1)
         self.room = self.robots.area(layout.starts[0].x, layout.starts[0].y)
@@ -57,17 +58,17 @@ class Ways:
             return f"a ball at ({point[0]:g}, {point[1]:g}) would lie in a wall"
         if area != self.pitch >= 0:
             return "no ball gets from there to the middle"
-        if self.room >= 0 and not self.robots.is_near(self.room, *point, CATCH):
+        if self.room >= 0 and not self.robots.is_near(self.room, *point, self.catch):
             return "no robot gets to a ball there"
         return ""
 
     def traps(self) -> Iterator[Place]:
         """Where a ball gets stuck: no robot catches it, or it is wedged too deep for a robot to touch it."""
-        yield from traps(self.ball, self.pitch, self.robots, self.room, CATCH)
-        for x, y, out_x, out_y in wedges(self.walls, self.mouth, BALL, SHARP):
+        yield from traps(self.ball, self.pitch, self.robots, self.room, self.catch)
+        for x, y, out_x, out_y in wedges(self.walls, self.mouth, BALL, self.sharp):
             on = [(x + step * out_x, y + step * out_y) for step in range(0, 40, 5)]
             area = next((area for point in on if (area := self.ball.area(*point)) >= 0), -1)
-            if area == self.pitch and self._is_free(x, y) and not self.robots.is_near(self.room, x, y, TOUCH):
+            if area == self.pitch and self._is_free(x, y) and not self.robots.is_near(self.room, x, y, self.touch):
                 yield x, y, 2 * BALL
 
     def _is_free(self, x: float, y: float) -> bool:
@@ -114,15 +115,15 @@ def _parsed(table: TomlTable) -> tuple[Layout, Ways]:
 
 def _faults(table: TomlTable, layout: Layout, ways: Ways) -> Iterator[FieldError]:
     """Drop points that are useless, and goals that no ball reaches."""
-    points, bare = layout.plan.drops, ways
+    points, bare, apart = layout.plan.drops, ways, 2.0 * ways.touch + APART
     if layout.things:
         bare = Ways(replace(layout, things=()))
     for i, point in enumerate(points):
         key, place = f"drop[{i + 1}].at", (*point, BALL)
         if reason := bare.refusal(point):
             yield FieldError(key, reason, place)
-        if any(dist(point, other) < APART for other in points[:i]):
-            yield FieldError(key, f"nearer than {APART:g} px to another drop point", place)
+        if any(dist(point, other) < apart for other in points[:i]):
+            yield FieldError(key, f"nearer than {apart:g} px to another drop point", place)
     if not points or points[0] != (WIDTH / 2, MIDDLE):
         yield table.error("drop", f"the first must be at [{WIDTH / 2:g}, {MIDDLE:g}], the middle")
     free = sum(not ways.refusal(point) for point in points)

@@ -16,7 +16,7 @@ ball is lighter and livelier, and now and then golden: it counts two for either 
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.api.rules import RADIUS, ROBOTS, WIDTH, kernel, steer, stop_all, uniform
+from pigaming_app.api.rules import ROBOTS, WIDTH, kernel, steer, stop_all, uniform
 
 from .overlaps import is_free, nearest_free
 from .physics import (
@@ -170,7 +170,7 @@ def has_room(match: Football, x: float, y: float) -> bool:
     """True if a ball dropped at (x, y) is free and at least ROOM px from every robot."""
     if not is_free(match, x, y):
         return False
-    reach = RADIUS + match.rules.radius + ROOM
+    reach = match.radius + match.rules.radius + ROOM
     for robot in match.robots:
         if robot.present:
             dx, dy = robot.x - x, robot.y - y
@@ -200,7 +200,7 @@ def watch_rest(match: Football) -> None:
 @kernel
 def in_reach(match: Football) -> bool:
     """True if a robot is near the ball."""
-    ball, reach = match.ball, RADIUS + match.rules.radius + match.rules.near
+    ball, reach = match.ball, match.radius + match.rules.radius + match.rules.near
     for robot in match.robots:
         if robot.present:
             dx, dy = robot.x - ball.x, robot.y - ball.y
@@ -264,7 +264,7 @@ def use_feet(match: Football) -> None:
         if not match.actions[ball.holder - 1].fire or ball.charge >= rules.hold:
             shoot(match)
         return
-    nearest, least = -1, RADIUS + rules.radius + rules.catch_reach
+    nearest, least = -1, match.radius + rules.radius + rules.catch_reach
     for k in range(ROBOTS):
         robot = match.robots[k]
         if robot.present and can_catch(match, k):

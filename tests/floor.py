@@ -8,24 +8,37 @@ from pigaming_app.games.pitanks import GAME as PITANKS
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.games.starts import in_order, take_starts
 from pigaming_app.sim.arena import Arena, StartPose, WallSpec, build
-from pigaming_app.sim.world import Wall, World
+from pigaming_app.sim.world import RADIUS, Wall, World
 
 CORNERS = ((110.0, 110.0, 0.0), (1490.0, 790.0, 3.0), (110.0, 790.0, 0.0), (1490.0, 110.0, 3.0))
 Line = tuple[float, float, float, float]
 Pose = tuple[float, float, float]
 
 
-def arena(walls: Sequence[Line] = (), poses: Sequence[Pose] = CORNERS, health: int = 5, half: float = 15.0) -> Arena:
+def arena(
+    walls: Sequence[Line] = (),
+    poses: Sequence[Pose] = CORNERS,
+    health: int = 5,
+    half: float = 15.0,
+    radius: float = RADIUS,
+) -> Arena:
     """An arena with these walls, each from (ax, ay) to (bx, by); robots beyond `poses` wait in the corners."""
     places = (*poses, *CORNERS[len(poses) :])
     specs = tuple(WallSpec(*line, half, health) for line in walls)
-    return Arena("test", {"en": "Test", "pt": "Teste"}, specs, tuple(StartPose(*pose) for pose in places), "")
+    starts = tuple(StartPose(*pose) for pose in places)
+    return Arena("test", {"en": "Test", "pt": "Teste"}, specs, starts, "", radius=radius)
 
 
-def floor(walls: Sequence[Line] = (), poses: Sequence[Pose] = CORNERS, health: int = 5, half: float = 15.0) -> World:
+def floor(
+    walls: Sequence[Line] = (),
+    poses: Sequence[Pose] = CORNERS,
+    health: int = 5,
+    half: float = 15.0,
+    radius: float = RADIUS,
+) -> World:
     """A floor on which the robots of `poses` are present."""
     world = World()
-    build(world, arena(walls, poses, health, half))
+    build(world, arena(walls, poses, health, half, radius))
     for robot in world.robots[: len(poses)]:
         robot.present = 1
     return world

@@ -17,7 +17,7 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
-from pigaming_app.sim.record import to_bytes
+from pigaming_app.sim.record import hashed, to_bytes
 
 FILE = Path(__file__).with_name("golden.json")
 TICKS = 1000
@@ -64,7 +64,7 @@ def played(key: str) -> str:
         match.sit(seat, make_brain(game, "random", SEED + seat))
     for _ in range(TICKS):
         match.tick()
-    sha = hashlib.sha256(to_bytes(match.state))
+    sha = hashlib.sha256(hashed(type(match.state), to_bytes(match.state)))
     for seat in range(4):
         view = rules.observation()
         rules.observe(match.state, seat, rules.senses(), view)

@@ -18,6 +18,7 @@ from typing import Any
 import pytest
 
 from pigaming_app.ai.brain import driving
+from pigaming_app.ai.factory import steering_help as factory_help
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.pitanks.brains import HANDICAPS
@@ -59,7 +60,7 @@ RULES = {"pitanks": pitanks.PiTanksRules, "factory": FactoryRules, "race": race_
 CONSTANTS = {  # by section of docs/games.md, the modules in which its constants are looked up
     "Units, arena, robots": (world, robots, drivetrain, action, contact, driving, steering_help),
     "PiTanks": (pitanks, arena),
-    "Robot Factory": (state, walker, factory_rules, stars),
+    "Robot Factory": (state, walker, factory_rules, stars, factory_help),
     "Robot Race": (race, race_rules, race_state, furniture, party, recovery),
     "Things": (mud, passages, race, starts, spec),
     "Results and tables of best scores": (table, initials),
@@ -71,7 +72,7 @@ GAMES_PAGE, OPPONENTS_PAGE, NETWORKS_PAGE, THESIS_PAGE = (
     ROOT / "docs" / f"{name}.md" for name in ("games", "opponents", "networks", "thesis")
 )
 PAGES = [ROOT / name for name in ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md")]
-PAGES += sorted((ROOT / "docs").glob("*.md"))
+PAGES += sorted((ROOT / "docs").rglob("*.md"))
 NEVER_NAMED = re.compile(r"\b(DESIGN|HOUSE|LOOK|HARDWARE|OPPONENTS|THESIS)\.md\b|\bshared/")
 QUANTITY = re.compile(r"×?(?P<numbers>−?[\d./]+(?:(?:, | to )[\d./]+)*) ?(?P<unit>[^\d(]*)")
 WORDS = {"yes": 1, "no": 0}
@@ -232,7 +233,7 @@ def quoted():
     rules = (("pitanks", "pickups"), ("factory", None), ("race", None))
     tanks, shop, track = (match_of(game, variant).state.rules for game, variant in rules)
     one, two, unknown = RECIPES[1], RECIPES[2], Parameters()
-    yield f"{robots.RADIUS:g} px | **same**; **open**: the radius"
+    yield f"{world.RADIUS:g} px | **same**; **open**: the radius"
     yield f"{world.WIDTH:g} × {world.HEIGHT:g} px; nominal mat 2.11 × 1.19 m, so {drivetrain.MM} mm a pixel"
     yield f"{tanks.speed:g} px/s (0.34 m/s) and {tanks.turn_rate} rad/s"
     yield f"×{tanks.turbo_factor}, from a meter of {1 / tanks.turbo_drain / world.HZ:g} s"

@@ -10,9 +10,9 @@ from pigaming_app.sim.flow_field import random_place
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import uniform
-from pigaming_app.sim.robot import RADIUS, put_back, stop_all
+from pigaming_app.sim.robot import put_back, stop_all
 from pigaming_app.sim.sweep import disc_contact, is_clear, offset_from_wall
-from pigaming_app.sim.world import HEIGHT, HZ, ROBOTS, WIDTH, Wall
+from pigaming_app.sim.world import HEIGHT, HZ, RADIUS, ROBOTS, WIDTH, Wall
 
 __all__ = [
     "HEIGHT",

@@ -6,16 +6,19 @@ The user's own arenas are in `arenas/GAME/` of the data folder. Their names are 
 import hashlib
 import logging
 import re
+from bisect import bisect_left
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
 from pigaming_app import ASSETS
 from pigaming_app.games.registry import OURS, games
-from pigaming_app.sim.arena import Arena, ArenaError
+from pigaming_app.sim.arena import WIDEST_ROBOT, Arena, ArenaError, start_faults, written_radius
 from pigaming_app.sim.arena import parse as parse_arena
 from pigaming_app.sim.things.spec import ThingSpec, written
-from pigaming_app.sim.toml_table import TomlTable
+from pigaming_app.sim.toml_table import FieldError, TomlTable
+from pigaming_app.sim.world import RADIUS
 from pigaming_app.storage.plugins.parts import data_folders
 from pigaming_app.storage.settings import folders
 
@@ -158,6 +161,54 @@ def parse(game: str, source: str, file: str) -> Arena:
     return parse_arena(source, file, games()[game].read)
 
 
-def with_things(game: str, arena: Arena, things: Sequence[ThingSpec]) -> Arena:
-    """An arena of a game with real things on it. Raises ArenaError if it cannot be played with them."""
-    return parse(game, arena.source + written(things), f"{arena.name}.toml") if things else arena
+def on_mat(game: str, arena: Arena, things: Sequence[ThingSpec], radius: float = RADIUS) -> Arena:
+    """An arena of a game with real things on it, for robots of a radius, px.
+
+    Raises ArenaError if it cannot be played with them.
+    """
+    added = written(things) + (written_radius(radius) if radius > RADIUS else "")
+    return parse(game, arena.source + added, f"{arena.name}.toml") if added else arena
+
+
+@lru_cache(maxsize=16 * MOST_OWN)
+def has_room(game: str, source: str, radius: float, berth: float = 0.0) -> bool:
+    """True if robots of a radius, px, can play in an arena with this text, which the usual ones can.
+
+    `berth`: px that they keep from walls on their ways between the starts; real ones do.
+    """
+    if radius <= RADIUS:
+        return True
+    rules = games()[game]
+    try:
+        table = TomlTable.parse(source + written_radius(radius))
+        if rules.faults and not all(fault.flaw for fault in rules.faults(table)):
+            return False
+        if rules.faults and "start" not in table:  # no walls, but reading takes long
+            return True
+        return not any(start_faults(replace(rules.read(table), radius=radius + berth)))
+    except FieldError:
+        return False
+
+
+def widest(game: str, source: str, berth: float = 0.0, least: float = RADIUS) -> float:
+    """The largest radius, px, of robots that can play in an arena with this text, found by trying, to a tenth.
+
+    `least` if no wider ones can; `berth`: see `has_room`.
+    """
+    first = round(10 * least) + 1
+    tenths = range(first, round(10 * WIDEST_ROBOT) + 1)
+
+    def is_too_wide(tenth: int) -> bool:
+        return not has_room(game, source, tenth / 10, berth)
+
+    return least if is_too_wide(first) else (first - 1 + bisect_left(tenths, True, key=is_too_wide)) / 10
+
+
+@lru_cache(maxsize=4)
+def widest_of_all(berth: float) -> float:
+    """The largest radius, px, of robots that can play in any arena that comes with the games; `berth`: as above."""
+    found = RADIUS
+    for game in games():
+        for name in shipped_arenas(game):
+            found = widest(game, load(game, name).source, berth, found)
+    return found

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pigaming_app.games.starts import clear_starts, dealt, take_starts
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.arena import Arena, Layout, build, read_floor, read_starts, read_walls
+from pigaming_app.sim.arena import Arena, Layout, build, read_floor, read_radius, read_starts, read_walls
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import seeded
@@ -94,9 +94,9 @@ def read_layout(table: TomlTable, *own: str, solid: bool = False) -> Layout:
 
     `own`: names of the game's own tables. `solid`: no wall can be broken. Starts that things cover move beside them.
     """
-    table.only("title", "floor", "start", "wall", "thing", *own)
+    table.only("title", "floor", "start", "wall", "thing", "robots", *own)
     walls = tuple(replace(wall, health=SOLID) if solid else wall for wall in read_walls(table))
-    layout = Layout(walls, read_starts(table), things=read_things(table), floor=read_floor(table))
+    layout = Layout(walls, read_starts(table), None, read_things(table), read_floor(table), read_radius(table))
     return replace(layout, starts=clear_starts(layout))
 
 

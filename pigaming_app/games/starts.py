@@ -5,11 +5,10 @@ from dataclasses import replace
 from math import cos, dist, hypot, pi, sin
 from typing import Any
 
-from pigaming_app.sim.arena import Arena, Layout, StartPose, build
+from pigaming_app.sim.arena import Arena, Layout, StartPose
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import Route, expand, free_node
 from pigaming_app.sim.rng import uniform
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.sim.world import ROBOTS, World
 
@@ -77,8 +76,7 @@ def clear_starts(layout: Layout) -> tuple[StartPose, ...]:
     """The starts, those that things cover moved to the nearest free place. Raises FieldError if there is none."""
     if not layout.things:
         return layout.starts
-    world = World()
-    build(world, Arena("", {}, layout.walls, layout.starts, "", things=layout.things))
+    world = layout.built()
     starts = list(layout.starts)
     blocked = [i for i, start in enumerate(starts) if in_wall(world, start.x, start.y)]
     for i in blocked:
@@ -101,7 +99,7 @@ def free_place(world: World, x: float, y: float, others: Sequence[tuple[float, f
         at = x + dx, y + dy
         node = free_node(world, *at)
         connected = not field.root or (node and field.reach[node])
-        if connected and is_roomy(world, *at) and all(dist(at, other) >= 2 * RADIUS + CLEAR for other in others):
+        if connected and is_roomy(world, *at) and all(dist(at, other) >= 2 * world.radius + CLEAR for other in others):
             return at
     raise FieldError("thing", f"one covers the place at ({x:g}, {y:g}), and there is no free one near it")
 

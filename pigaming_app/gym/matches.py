@@ -19,7 +19,7 @@ from pigaming_app.ai.tallies import Tallies
 from pigaming_app.games.registry import games
 from pigaming_app.gym.masks import masks_of
 from pigaming_app.gym.options import EnvironmentTask
-from pigaming_app.gym.rewards import TALLIES
+from pigaming_app.gym.rewards import TALLIES, rows_of
 from pigaming_app.gym.robots import GAIN, LONGEST, PARAMETERS, drawn_robots, hold_back
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.contact import drive
@@ -31,7 +31,7 @@ Loop = Callable[..., None]
 SCALE = 1.0 / UNIT
 
 STREAMS = "start_of", "episodes", "seeded", "_streams"
-KEPT = (*STREAMS, "fresh", "totals", "_trains", "_in_flight")  # of a pickle, beside task and records
+KEPT = (*STREAMS, "fresh", "totals", "_seen", "_trains", "_in_flight")  # of a pickle, beside task and records
 LOWEST = np.array([-1.0, -1.0, 0.0, 0.0])  # continuous action
 STRIDE = np.uint64(0x9E3779B97F4A7C15)  # of a seed's sequence, as in splitmix64
 
@@ -140,6 +140,8 @@ class Matches:
         else:
             self.states, self.minds = [None] * count, [None] * count
             self.senses = [[None] * task.learners for _ in range(count)]
+        seen = count if task.reward else 0
+        self._seen = np.zeros((seen, task.learners, self.encoding.size), np.float32)  # at the last decision
         self._no_actions = np.zeros((*shape, *action_shape(task)), action_type(task))
         driven = count if task.robots else 0
         self._trains, self._in_flight = np.zeros((driven, ROBOTS, PARAMETERS)), np.zeros((driven, ROBOTS, LONGEST, 2))
@@ -199,13 +201,22 @@ class Matches:
         shape = (self.count, self.task.learners)
         observations = np.empty((*shape, self.encoding.size), np.float32)
         rewards, over = np.empty(shape), np.empty(self.count, np.bool_)
+        fresh, before = self.fresh.copy(), self.totals.copy()
         self._run(actions, observations, rewards, over, False)
+        if self.task.reward:
+            gains, task = self.totals - before, self.task
+            rewards = self.task.reward(rows_of(task.game, gains, self._seen, actions, task.continuous))
+            rewards[fresh] = 0.0
+            self._seen[:] = observations
         return observations, rewards, over
 
     def observe(self, observations: Any) -> None:
         """Write the first observations of fresh matches into an array of observations."""
         rewards, over = np.empty((self.count, self.task.learners)), np.empty(self.count, np.bool_)
+        fresh = self.fresh.copy()
         self._run(self._no_actions, observations, rewards, over, True)
+        if self.task.reward:
+            self._seen[fresh] = observations[fresh]
 
     def _run(self, actions: Any, observations: Any, rewards: Any, over: Any, only_fresh: bool) -> None:
         self.loop(

@@ -1,6 +1,6 @@
 """The options of an environment, checked, as a task: who plays what, and for which reward."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from math import ceil, inf, isfinite
@@ -18,7 +18,7 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import ALLIES, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, make_setup
-from pigaming_app.gym.rewards import TALLIES
+from pigaming_app.gym.rewards import TALLIES, CodedReward
 from pigaming_app.gym.robots import read_robots
 from pigaming_app.links import installing
 from pigaming_app.sim.arena import ArenaError
@@ -48,6 +48,7 @@ class EnvironmentTask:
     ticks: int  # a decision
     continuous: bool
     weights: tuple[float, ...]  # of the game's tallies
+    reward: CodedReward | None  # instead of the weights
     starts: int
     fast: bool
     robots: tuple[Drivetrain, ...]  # measured ones, within whose range the robots of an episode are drawn
@@ -93,6 +94,7 @@ def _task(
     ticks: int = PERIOD,
     continuous: bool = False,
     rewards: Mapping[str, float] | None = None,
+    reward: str | Callable[..., float] | None = None,
     starts: int = STARTS,
     compiled: bool | None = None,
     robots: str | Path | None = None,
@@ -132,7 +134,7 @@ def _task(
         reason = "an opponent runs only uncompiled" if can_compile() else f"numba is missing: {installing('train')}"
         raise OptionError(f"compiled: {reason}")
     fast = may_compile if compiled is None else bool(compiled)
-    play = bool(continuous), weights, starts, fast, measured(robots)
+    play = bool(continuous), weights, coded(game, reward, rewards, fast), starts, fast, measured(robots)
     return EnvironmentTask(setup, found, learners, kinds, ticks, *play)
 
 
@@ -172,6 +174,20 @@ def weights_of(game: str, rewards: Mapping[str, float] | None) -> tuple[float, .
             raise OptionError(f"no reward '{name}' in {game}; there are {', '.join(tallies.names)}")
         number(f"rewards, {name}", weight, (int, float))
     return tuple(float(named.get(name, 0.0)) for name in tallies.names)
+
+
+def coded(game: str, reward: Any, rewards: Any, fast: bool) -> CodedReward | None:
+    """A reward as code; None without one. Raises OptionError."""
+    if reward is None:
+        return None
+    if rewards is not None:
+        raise OptionError("reward and rewards: one of them is enough")
+    if not isinstance(reward, str) and not callable(reward):
+        raise OptionError(f"reward: a line of code or a function is needed, not {reward!r}")
+    try:
+        return CodedReward(game, reward, fast)
+    except ValueError as error:
+        raise OptionError(f"reward: {error}") from None
 
 
 def words(name: str, value: Any) -> tuple[str, ...]:

@@ -1,11 +1,21 @@
-"""Rewards: weighted changes of a seat's tallies from one decision to the next.
+"""Rewards: weighted changes of a seat's tallies from one decision to the next, or code over named quantities.
+
+The quantities are the changes of the tallies; in PiTanks also those of the Lab's reward lines.
 
 In every game `win` is 0 until the match is decided for the seat, then 1 for a win, -1 for a defeat and 0 for a tie.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from inspect import signature
 from typing import Any
 
+import numpy as np
+
+from pigaming_app.ai.networks.pitanks_rewards import quantities_of
+from pigaming_app.ai.reward_line import elementwise, points_of, program_of
+from pigaming_app.ai.reward_quantities import QUANTITIES
 from pigaming_app.ai.tallies import Tallies, sign
 from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.games.registry import OURS
@@ -32,3 +42,53 @@ TALLIES: Mapping[str, Tallies] = {
     **{game: room.TALLIES for game in OURS if (room := optional(f"gym.{game}"))},
     **parts("training", "TALLIES", Tallies),
 }  # by game
+
+
+def names_of(game: str) -> tuple[str, ...]:
+    """What the code of a reward may use in a game."""
+    tallies = TALLIES[game].names
+    return (*tallies, *(name for name in QUANTITIES if name not in tallies)) if game == "pitanks" else tallies
+
+
+def rows_of(game: str, gains: Any, inputs: Any, actions: Any, sticks: bool) -> Any:
+    """The quantities (..., k) of decisions: `gains` (..., tallies), `inputs` seen before, `actions` and `sticks`."""
+    if game != "pitanks":
+        return gains
+    tallies = TALLIES[game].names
+    hits, taken = (gains[..., tallies.index(name)] for name in ("hits", "taken"))
+    seen = quantities_of(hits, taken, inputs, actions, sticks)
+    return np.concatenate([gains, seen[..., [name not in tallies for name in QUANTITIES]]], axis=-1)
+
+
+@dataclass(frozen=True)
+class CodedReward:
+    """A reward as code: a line, or a function whose parameters are names of quantities."""
+
+    game: str
+    code: str | Callable[..., float]
+    fast: bool
+
+    def __post_init__(self) -> None:
+        """Raises ValueError."""
+        names = names_of(self.game)
+        if isinstance(self.code, str):
+            program_of(self.code or " ", names)
+            return
+        unknown = [name for name in signature(self.code).parameters if name not in names]
+        if unknown or not signature(self.code).parameters:
+            found = f"parameter '{unknown[0]}'" if unknown else "function without parameters"
+            raise ValueError(f"{found}; there are {', '.join(names)}")
+
+    def __call__(self, rows: Any) -> Any:
+        """The rewards (...) for the quantities of rows (..., k)."""
+        return self._judge(rows)
+
+    @cached_property
+    def _judge(self) -> Callable[[Any], Any]:
+        names = names_of(self.game)
+        if isinstance(self.code, str):
+            program = program_of(self.code, names)
+            return lambda rows: points_of(program, rows, self.fast)
+        places = [names.index(name) for name in signature(self.code).parameters]
+        function = elementwise(self.code, len(places), self.fast)
+        return lambda rows: function(*(rows[..., place] for place in places))

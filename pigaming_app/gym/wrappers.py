@@ -19,9 +19,8 @@ from pigaming_app.games.registry import games
 from pigaming_app.games.simple import MatchState
 from pigaming_app.gym.matches import Matches
 from pigaming_app.gym.options import number
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import bounds_contact, disc_contact, wall_contact
-from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, ROBOTS, WIDTH
 
 REACH = 1000.0  # px, of the lidar
 
@@ -115,7 +114,7 @@ def picture_of(match: MatchState, seat: int, pixels: int, scale: float) -> Any:
             found[0] |= (x - wall.ax - along * ex) ** 2 + (y - wall.ay - along * ey) ** 2 < wall.half**2
     for k in range(ROBOTS):
         if k != seat and (other := match.robots[k]).present:
-            found[1 if other.team == me.team else 2] |= (x - other.x) ** 2 + (y - other.y) ** 2 < RADIUS**2
+            found[1 if other.team == me.team else 2] |= (x - other.x) ** 2 + (y - other.y) ** 2 < match.radius**2
     for bullet in getattr(match, "bullets", ()):
         dx, dy = (bullet.x - me.x) / scale, (bullet.y - me.y) / scale
         row, column = round(middle - c * dx - s * dy), round(middle + c * dy - s * dx)
@@ -134,7 +133,7 @@ def scan(match: MatchState, seat: int, rays: int, reach: float) -> Any:
         way = me.x, me.y, reach * cos(angle), reach * sin(angle)
         times = [wall_contact(*way, wall, 0.0) for wall in walls]
         found[0, ray] = min(1.0, bounds_contact(*way, WIDTH, HEIGHT, 0.0), *times)
-        found[1, ray] = min(1.0, 1.0, *(disc_contact(*way, other.x, other.y, RADIUS) for other in others))
+        found[1, ray] = min(1.0, 1.0, *(disc_contact(*way, other.x, other.y, match.radius) for other in others))
     return found
 
 

@@ -15,6 +15,9 @@ pattern = "waves"        # one of FLOORS
 at = [110, 110]          # px, x right, y down, in an arena of 1600 x 900
 heading = 45             # degrees, 0 to the right, clockwise
 
+[robots]                 # may be left out
+radius = 63.4            # px, of real robots on a small surface, at least 36
+
 [[wall]]
 from = [300, 200]
 to = [300, 420]
@@ -33,16 +36,17 @@ from typing import Any
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import Route, expand, free_node
 from pigaming_app.sim.grid import block_rim, wall_on_grid
-from pigaming_app.sim.robot import GAIN, RADIUS
+from pigaming_app.sim.robot import GAIN
 from pigaming_app.sim.things.spec import ThingSpec, mud_capsules, wall_capsules
 from pigaming_app.sim.toml_table import FieldError, TomlTable, quote
-from pigaming_app.sim.world import MUDS, ROBOTS, SOLID, WALLS, Wall, World
+from pigaming_app.sim.world import MUDS, RADIUS, ROBOTS, SOLID, WALLS, Wall, World
 
 LANGUAGES = ("en", "pt", "es", "fr", "de")
 NEEDED = ("en", "pt")  # of the languages; a title that lacks another is shown in English
 HEALTH = 5
 FLOORS = "grid", "paving", "waves", "hexagons", "strata", "circuit", "diamonds", "turf"  # patterns, for the eye only
 BUILT = 24  # walls in a file; things need the rest of WALLS
+WIDEST_ROBOT = 150.0  # px, radius of robots
 MAX_TITLE = 40  # characters
 
 
@@ -74,7 +78,7 @@ class StartPose:
 @dataclass(frozen=True)
 class Layout:
     """The parts of a file that the game parses: walls, four starts, the game's own plan, things, and the pattern of the
-    floor, one of FLOORS or empty.
+    floor, one of FLOORS or empty, radius of robots.
     """
 
     walls: tuple[WallSpec, ...]
@@ -82,12 +86,18 @@ class Layout:
     plan: Any = None
     things: tuple[ThingSpec, ...] = ()
     floor: str = ""
+    radius: float = RADIUS  # px, of robots
 
     def built_walls(self) -> list[Wall]:
         """The walls as a match has them, those of things included. Raises FieldError if they do not fit."""
-        world = World()
-        build(world, Arena("", {}, self.walls, self.starts, "", things=self.things))
+        world = self.built()
         return world.walls[: world.wall_count]
+
+    def built(self) -> World:
+        """A world with the walls, things and robots. Raises FieldError if they do not fit."""
+        world = World()
+        build(world, self)
+        return world
 
 
 @dataclass(frozen=True)
@@ -102,6 +112,7 @@ class Arena:
     plan: Any = None
     things: tuple[ThingSpec, ...] = ()
     floor: str = ""
+    radius: float = RADIUS  # px, of robots
 
 
 def parse(source: str, file: str, read: Callable[[TomlTable], Layout]) -> Arena:
@@ -113,7 +124,7 @@ def parse(source: str, file: str, read: Callable[[TomlTable], Layout]) -> Arena:
         raise_first(start_faults(layout))
     except FieldError as error:
         raise ArenaError(f"{file}: {error}") from None
-    parts = layout.walls, layout.starts, source, layout.plan, layout.things, layout.floor
+    parts = layout.walls, layout.starts, source, layout.plan, layout.things, layout.floor, layout.radius
     return Arena(file.removesuffix(".toml"), title, *parts)
 
 
@@ -123,11 +134,12 @@ def raise_first(faults: Iterable[FieldError]) -> None:
         raise fault
 
 
-def build(world: World, arena: Arena) -> None:
+def build(world: World, arena: Arena | Layout) -> None:
     """Put an arena's walls and things into a fresh world and robots on its starts. The game sets `present`.
 
     Raises FieldError if there are more things than fit.
     """
+    world.radius = arena.radius
     block_rim(world)
     for spec in arena.walls:
         _add_wall(world, spec)
@@ -162,7 +174,7 @@ def _add_wall(world: World, spec: WallSpec) -> None:
     wall = world.walls[world.wall_count]
     wall.ax, wall.ay, wall.bx, wall.by = spec.ax, spec.ay, spec.bx, spec.by
     wall.half, wall.health, wall.initial_health = spec.half, spec.health, spec.health
-    edge = spec.half + RADIUS
+    edge = spec.half + world.radius
     wall.left, wall.right = min(spec.ax, spec.bx) - edge, max(spec.ax, spec.bx) + edge
     wall.top, wall.bottom = min(spec.ay, spec.by) - edge, max(spec.ay, spec.by) + edge
     wall_on_grid(world, wall, 1)
@@ -183,6 +195,20 @@ def read_starts(table: TomlTable) -> tuple[StartPose, ...]:
     if len(starts) != ROBOTS:
         raise table.error("start", f"{len(starts)} starts, but there must be {ROBOTS}")
     return starts
+
+
+def read_radius(table: TomlTable) -> float:
+    """The radius in the table [robots], px; without one, the usual. Raises FieldError."""
+    if "robots" not in table:
+        return RADIUS
+    robots = table.table("robots")
+    robots.only("radius")
+    return robots.number("radius", None, RADIUS, WIDEST_ROBOT, " px")
+
+
+def written_radius(radius: float) -> str:
+    """The table [robots], to append to the text of an arena file. `radius`: px."""
+    return f"\n[robots]\nradius = {radius:.1f}\n"
 
 
 def read_floor(table: TomlTable) -> str:
@@ -238,20 +264,19 @@ def _start(entry: TomlTable) -> StartPose:
 
 def start_faults(layout: Layout) -> Iterator[FieldError]:
     """Starts in walls, too near to others, or with no way to the first. Raises FieldError as `build`."""
-    world = World()
-    build(world, Arena("", {}, layout.walls, layout.starts, "", layout.plan, layout.things))
-    nodes = []
+    world, radius = layout.built(), layout.radius
+    nodes: list[int] = []
     for i, start in enumerate(layout.starts):
-        key, place = f"start[{i + 1}]", (start.x, start.y, RADIUS)
+        key, place = f"start[{i + 1}]", (start.x, start.y, radius)
         if in_wall(world, start.x, start.y):
             yield FieldError(key, f"a robot at ({start.x:g}, {start.y:g}) would stand inside a wall", place)
         for j, other in enumerate(layout.starts[:i]):
-            if sqrt((start.x - other.x) ** 2 + (start.y - other.y) ** 2) < 2 * RADIUS:
-                yield FieldError(key, f"too near to start[{j + 1}]: robots are {2 * RADIUS:g} px wide", place)
+            if sqrt((start.x - other.x) ** 2 + (start.y - other.y) ** 2) < 2 * radius:
+                yield FieldError(key, f"too near to start[{j + 1}]: robots are {2 * radius:g} px wide", place)
         nodes.append(free_node(world, start.x, start.y))
     field = Route()
     expand(world, field, nodes[0], -1)
     for i, node in enumerate(nodes):
         if not field.reach[node] or not nodes[0]:
-            place = layout.starts[i].x, layout.starts[i].y, RADIUS
+            place = layout.starts[i].x, layout.starts[i].y, radius
             yield FieldError(f"start[{i + 1}]", "there is no way to it from start[1]", place)

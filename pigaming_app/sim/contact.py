@@ -15,9 +15,9 @@ crush catapults a robot.
 
 from math import sqrt
 
-from pigaming_app.sim.grid import NEAR_UNIT, UNSEEN, node_at
+from pigaming_app.sim.grid import NEAR_UNIT, node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS, integrate
+from pigaming_app.sim.robot import integrate
 from pigaming_app.sim.sweep import FAR, offset_from_wall, wall_contact
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH, Robot, World
 
@@ -26,11 +26,9 @@ SHOVE = 16.0  # px, the longest step in a tick with contact
 SLOP = 1e-6  # px by which a robot may overlap a wall, for rounding
 CRUSH = 0.5  # px of overlap above which ROUNDS is exceeded
 OVERLAP = 1.5  # px, permitted between two robots
-BERTH = 2.0 * RADIUS + 8.0  # px between the centres of a robot that is put back and any other
+BERTH = 8.0  # px between a robot that is put back and any other
 ALL = (1 << ROBOTS) - 1  # a bit for each robot
 TOUCHED, MOVED = 1, 2  # by a wall
-APART = 4.0 * RADIUS * RADIUS  # px^2 between centres, from which two robots do not overlap
-TOO_CLOSE = (2.0 * RADIUS - OVERLAP) * (2.0 * RADIUS - OVERLAP)  # px^2, below which OVERLAP is exceeded
 
 
 @kernel
@@ -49,7 +47,7 @@ def drive(world: World) -> None:
     touched = 0
     shifted, unsettled = 0, ALL  # a bit for each robot: moved by contact; perhaps still in a wall
     for n in range(MAX_ROUNDS):
-        deepest = separate(robots)
+        deepest = separate(world)
         if deepest > 0.0:
             shifted = unsettled = ALL
         moved = deepest > SLOP
@@ -70,14 +68,15 @@ def drive(world: World) -> None:
     limit_step(world, r1, x1, y1, shifted & 2)
     limit_step(world, r2, x2, y2, shifted & 4)
     limit_step(world, r3, x3, y3, shifted & 8)
+    near2 = (2.0 * world.radius - OVERLAP) * (2.0 * world.radius - OVERLAP)
     back = 1
     while back:
-        back = undo_overlap(r0, x0, y0, r1, x1, y1)
-        back += undo_overlap(r0, x0, y0, r2, x2, y2)
-        back += undo_overlap(r0, x0, y0, r3, x3, y3)
-        back += undo_overlap(r1, x1, y1, r2, x2, y2)
-        back += undo_overlap(r1, x1, y1, r3, x3, y3)
-        back += undo_overlap(r2, x2, y2, r3, x3, y3)
+        back = undo_overlap(near2, r0, x0, y0, r1, x1, y1)
+        back += undo_overlap(near2, r0, x0, y0, r2, x2, y2)
+        back += undo_overlap(near2, r0, x0, y0, r3, x3, y3)
+        back += undo_overlap(near2, r1, x1, y1, r2, x2, y2)
+        back += undo_overlap(near2, r1, x1, y1, r3, x3, y3)
+        back += undo_overlap(near2, r2, x2, y2, r3, x3, y3)
 
 
 @kernel
@@ -92,18 +91,20 @@ def put_back(world: World, k: int) -> None:
 @kernel
 def is_free(world: World, k: int, x: float, y: float) -> bool:
     """True if robot k would touch no other robot at (x, y)."""
+    berth = 2.0 * world.radius + BERTH
     for j in range(ROBOTS):
         other = world.robots[j]
         dx, dy = other.x - x, other.y - y
-        if j != k and other.present and dx * dx + dy * dy < BERTH * BERTH:
+        if j != k and other.present and dx * dx + dy * dy < berth * berth:
             return False
     return True
 
 
 @kernel
-def separate(robots: list[Robot]) -> float:
+def separate(world: World) -> float:
     """Push overlapping robots apart, half the overlap each. Returns the deepest overlap in px."""
-    deepest = 0.0
+    robots, width, deepest = world.robots, 2.0 * world.radius, 0.0
+    width2 = width * width
     for i in range(ROBOTS - 1):
         robot = robots[i]
         if not robot.present:
@@ -114,14 +115,14 @@ def separate(robots: list[Robot]) -> float:
                 continue
             dx, dy = other.x - robot.x, other.y - robot.y
             distance2 = dx * dx + dy * dy
-            if distance2 >= APART:
+            if distance2 >= width2:
                 continue
             distance = sqrt(distance2)
             if distance > 1e-9:
                 nx, ny = dx / distance, dy / distance
             else:  # on the same spot: any direction will do
                 nx, ny = 1.0, 0.0
-            push = 0.5 * (2.0 * RADIUS - distance)
+            push = 0.5 * (width - distance)
             robot.x -= push * nx
             robot.y -= push * ny
             other.x += push * nx
@@ -137,18 +138,18 @@ def push_out_of_walls(world: World, robot: Robot) -> int:
 
     A robot exactly on the centre line of a wall stays there, TOUCHED.
     """
-    moved = 0
-    if robot.x < RADIUS:
-        robot.x = RADIUS
+    moved, radius = 0, world.radius
+    if robot.x < radius:
+        robot.x = radius
         moved = MOVED
-    elif robot.x > WIDTH - RADIUS:
-        robot.x = WIDTH - RADIUS
+    elif robot.x > WIDTH - radius:
+        robot.x = WIDTH - radius
         moved = MOVED
-    if robot.y < RADIUS:
-        robot.y = RADIUS
+    if robot.y < radius:
+        robot.y = radius
         moved = MOVED
-    elif robot.y > HEIGHT - RADIUS:
-        robot.y = HEIGHT - RADIUS
+    elif robot.y > HEIGHT - radius:
+        robot.y = HEIGHT - radius
         moved = MOVED
     if world.grid[node_at(robot.x, robot.y)] < NEAR_UNIT:
         return moved
@@ -156,7 +157,7 @@ def push_out_of_walls(world: World, robot: Robot) -> int:
         wall = world.walls[i]
         if wall.left < robot.x < wall.right and wall.top < robot.y < wall.bottom and wall.health:
             dx, dy = offset_from_wall(wall, robot.x, robot.y)
-            reach = wall.half + RADIUS
+            reach = wall.half + radius
             gap2 = dx * dx + dy * dy
             if gap2 < reach * reach:
                 gap = sqrt(gap2)
@@ -172,7 +173,8 @@ def push_out_of_walls(world: World, robot: Robot) -> int:
 @kernel
 def in_wall(world: World, x: float, y: float) -> int:
     """1 if a robot with its centre at (x, y) would overlap a wall."""
-    if x < RADIUS or x > WIDTH - RADIUS or y < RADIUS or y > HEIGHT - RADIUS:
+    radius = world.radius
+    if x < radius or x > WIDTH - radius or y < radius or y > HEIGHT - radius:
         return 1
     if world.grid[node_at(x, y)] < NEAR_UNIT:
         return 0
@@ -180,7 +182,7 @@ def in_wall(world: World, x: float, y: float) -> int:
         wall = world.walls[i]
         if wall.left < x < wall.right and wall.top < y < wall.bottom and wall.health:
             dx, dy = offset_from_wall(wall, x, y)
-            reach = wall.half + RADIUS - SLOP
+            reach = wall.half + radius - SLOP
             if dx * dx + dy * dy < reach * reach:
                 return 1
     return 0
@@ -205,13 +207,16 @@ def limit_step(world: World, robot: Robot, from_x: float, from_y: float, shifted
 
 
 @kernel
-def undo_overlap(robot: Robot, x1: float, y1: float, other: Robot, x2: float, y2: float) -> int:
-    """Return two robots to (x1, y1) and (x2, y2) if they overlap too far, and farther than there. 1 if it did."""
+def undo_overlap(near2: float, robot: Robot, x1: float, y1: float, other: Robot, x2: float, y2: float) -> int:
+    """Return two robots to (x1, y1) and (x2, y2) if they overlap too far, and farther than there. 1 if it did.
+
+    `near2`: px^2 between their centres, below which they overlap too far.
+    """
     if not robot.present or not other.present:
         return 0
     dx, dy = other.x - robot.x, other.y - robot.y
     now = dx * dx + dy * dy
-    if now >= TOO_CLOSE:
+    if now >= near2:
         return 0
     dx, dy = x2 - x1, y2 - y1
     if now >= dx * dx + dy * dy:
@@ -222,16 +227,17 @@ def undo_overlap(robot: Robot, x1: float, y1: float, other: Robot, x2: float, y2
 
 @kernel
 def first_wall(world: World, x: float, y: float, dx: float, dy: float, radius: float) -> tuple[int, float]:
-    """The first inner wall, -1 for none, that a circle of at most RADIUS meets on its way by (dx, dy), and the time.
+    """The first inner wall, -1 for none, that a circle meets on its way by (dx, dy), and the time.
 
     Times as in `sweep`: shares of the way, FAR (2) for none. A wall that it touches already counts only if the circle
-    moves into it. The rim of the arena is no inner wall.
+    moves into it. The rim of the arena is no inner wall. The circle is no
+    wider than a robot.
     """
     hit, first = -1, FAR
-    unseen = UNSEEN - radius
+    unseen = world.radius - radius
     if world.grid[node_at(x, y)] < NEAR_UNIT and (unseen > 0.0 and dx * dx + dy * dy <= unseen * unseen):
         return hit, first
-    slack = RADIUS - radius - SLOP  # the walls' bounding boxes include RADIUS
+    slack = world.radius - radius - SLOP  # the walls' bounding boxes include a robot's radius
     west, east = (x + slack, x + dx - slack) if dx > 0.0 else (x + dx + slack, x - slack)
     north, south = (y + slack, y + dy - slack) if dy > 0.0 else (y + dy + slack, y - slack)
     for i in range(world.wall_count):

@@ -3,6 +3,8 @@
 A command is a share of full speed for each wheel: `wheel_shares` computes them from a twist, `twist` is the inverse.
 The job `fidelity` writes the parameters of measured robots to a file, one table for each robot:
 
+mm = 1.32                # of the mat they were measured on, per px; may be left out
+
 [[robot]]
 left = [757.6, 0.02]     # px/s at full share, and the deadband: the share below which the wheel stands still
 right = [741.0, 0.03]
@@ -12,7 +14,7 @@ dead_time = 0.06         # s from sending a command to the motors' response
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import copysign
 
 from pigaming_app.sim.robot import LAG
@@ -66,12 +68,13 @@ def twist(drivetrain: Drivetrain, left: float, right: float) -> tuple[float, flo
     return 0.5 * (fast + slow), (fast - slow) / drivetrain.base
 
 
-def parse(text: str, file: str) -> tuple[Drivetrain, ...]:
-    """Parse a file of robots, at most one for each seat. Raises DrivetrainError."""
+def parse(text: str, file: str, mm: float = MM) -> tuple[Drivetrain, ...]:
+    """Parse a file of robots, at most one for each seat, for a mat of `mm` per arena px. Raises DrivetrainError."""
     try:
         table = TomlTable.parse(text)
-        table.only("robot")
-        drivetrains = tuple(_drivetrain(entry) for entry in table.tables("robot"))
+        table.only("mm", "robot")
+        scale = table.number("mm", MM, 0.1, 100.0, " mm") / mm
+        drivetrains = tuple(scaled(_drivetrain(entry), scale) for entry in table.tables("robot"))
         if not 1 <= len(drivetrains) <= ROBOTS:
             raise table.error("robot", f"{len(drivetrains)} robots, but 1 to {ROBOTS} are possible")
     except FieldError as error:
@@ -79,9 +82,17 @@ def parse(text: str, file: str) -> tuple[Drivetrain, ...]:
     return drivetrains
 
 
-def to_toml(drivetrains: Sequence[Drivetrain]) -> str:
-    """The text of a file with these robots, as `parse` reads it."""
-    return "\n".join(
+def scaled(train: Drivetrain, scale: float) -> Drivetrain:
+    """The same robot where arena px are that many times as many to the mm."""
+    if scale == 1.0:
+        return train
+    left, right = (replace(wheel, speed=wheel.speed * scale) for wheel in (train.left, train.right))
+    return replace(train, left=left, right=right, base=train.base * scale)
+
+
+def to_toml(drivetrains: Sequence[Drivetrain], mm: float = MM) -> str:
+    """The text of a file with these robots, as `parse` reads it. `mm`: of their mat per arena px."""
+    return f"mm = {mm:.4f}\n\n" + "\n".join(
         f"[[robot]]\nleft = [{train.left.speed:.2f}, {train.left.deadband:.4f}]\n"
         f"right = [{train.right.speed:.2f}, {train.right.deadband:.4f}]\nbase = {train.base:.3f}\n"
         f"lag = {train.lag:.4f}\ndead_time = {train.dead_time:.4f}\n"

@@ -10,7 +10,6 @@ from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import uniform
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, NODES_PADDED, ROWS, WIDTH, World
 
@@ -139,7 +138,7 @@ def random_place(world: World) -> tuple[float, float]:
 def update_route(world: World, route: Route, x: float, y: float) -> None:
     """Set the waypoint for a robot at (x, y), along its route."""
     route.waypoint_x, route.waypoint_y, route.straight = route.goal_x, route.goal_y, 1
-    if not route.active or is_clear(world, x, y, route.goal_x, route.goal_y, RADIUS + 1.0):
+    if not route.active or is_clear(world, x, y, route.goal_x, route.goal_y, world.radius + 1.0):
         return
     root = free_node(world, route.goal_x, route.goal_y)
     node = free_node(world, x, y)
@@ -159,7 +158,7 @@ def update_route(world: World, route: Route, x: float, y: float) -> None:
     for _ in range(LOOK):
         node = descend(route, node)
         waypoint_x, waypoint_y = node % COLUMNS * CELL, node // COLUMNS * CELL
-        if not is_clear(world, x, y, waypoint_x, waypoint_y, RADIUS + 1.0):
+        if not is_clear(world, x, y, waypoint_x, waypoint_y, world.radius + 1.0):
             return
         route.waypoint_x, route.waypoint_y = waypoint_x, waypoint_y
         if node == route.root:

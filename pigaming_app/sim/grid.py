@@ -7,13 +7,12 @@ is near, contact and bullets skip all walls.
 from math import sqrt
 
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import offset_from_wall
-from pigaming_app.sim.world import CELL, COLUMNS, ROWS, Wall, World
+from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, ROWS, WIDTH, Wall, World
 
 SPARE = 4.0  # px between a robot on a free node and the wall
-NEAR = 72.0  # px: the node nearest to anything that touches the wall is within RADIUS + half a cell's diagonal
-UNSEEN = NEAR - 36.0  # px: from a node without a wall near it, a point reaches none within this distance
+HALF = 36.0  # px, more than half a cell's diagonal: from a node without a wall within this and a robot's radius, no
+# robot and no point within its radius touches one
 BLOCKED = 63  # mask of the bits that count blocking walls
 NEAR_UNIT = 64  # one nearby wall: a node of at least this value has a wall near it
 
@@ -36,7 +35,8 @@ def node_at(x: float, y: float) -> int:
 @kernel
 def wall_on_grid(world: World, wall: Wall, change: int) -> None:
     """Add a wall to the grid (change 1) or remove it (-1)."""
-    edge = NEAR + wall.half
+    near = world.radius + HALF
+    edge = near + wall.half
     for row in range(ROWS):
         y = row * CELL
         if (y < wall.ay - edge and y < wall.by - edge) or (y > wall.ay + edge and y > wall.by + edge):
@@ -44,18 +44,18 @@ def wall_on_grid(world: World, wall: Wall, change: int) -> None:
         for column in range(COLUMNS):
             dx, dy = offset_from_wall(wall, column * CELL, y)
             gap = sqrt(dx * dx + dy * dy) - wall.half
-            if gap < NEAR:
+            if gap < near:
                 world.grid[row * COLUMNS + column] += NEAR_UNIT * change
-                if gap < RADIUS + SPARE:
+                if gap < world.radius + SPARE:
                     world.grid[row * COLUMNS + column] += change
 
 
 @kernel
 def block_rim(world: World) -> None:
-    """Block the nodes on the outer walls."""
-    for column in range(COLUMNS):
-        world.grid[column] += 1
-        world.grid[(ROWS - 1) * COLUMNS + column] += 1
-    for row in range(1, ROWS - 1):
-        world.grid[row * COLUMNS] += 1
-        world.grid[row * COLUMNS + COLUMNS - 1] += 1
+    """Block the nodes at the outer walls."""
+    room = world.radius + SPARE
+    for row in range(ROWS):
+        for column in range(COLUMNS):
+            x, y = column * CELL, row * CELL
+            if x < room or y < room or WIDTH - x < room or HEIGHT - y < room:
+                world.grid[row * COLUMNS + column] += 1

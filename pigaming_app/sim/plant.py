@@ -6,7 +6,7 @@ from math import exp
 from typing import Any, NamedTuple, Protocol
 
 from pigaming_app.sim.contact import drive
-from pigaming_app.sim.drivetrain import Drivetrain, twist, wheel_shares
+from pigaming_app.sim.drivetrain import MM, Drivetrain, twist, wheel_shares
 from pigaming_app.sim.world import DT, World
 
 Pose = tuple[float, float, float]  # px, px, rad
@@ -25,6 +25,10 @@ class Sighting(NamedTuple):
 class Plant(Protocol):
     """Robots, real or simulated, in the order of their seats."""
 
+    @property
+    def mm(self) -> float:
+        """Length of an arena px on their surface, mm; simulated ones are on the nominal mat."""
+
     def sense(self) -> Sequence[Sighting]:
         """The latest pose of every robot."""
 
@@ -40,6 +44,8 @@ class SimPlant:
 
     With `drivetrains`, the first robots have the speed limits, lag and dead time of measured real ones.
     """
+
+    mm = MM
 
     def __init__(self, world: World, drivetrains: Sequence[Drivetrain] = ()) -> None:
         self.world: Any = world

@@ -10,6 +10,9 @@ or `Annotated[list[float], 64, "f"]` (whole numbers below 2**24, since plain rec
         y: float
         gain: float = 1.0
 
+A single number of a record may be LATE, `Annotated[float, LATE] = 36.0`: as long as it has its default, states have the
+digests that they had before there was this field.
+
 `Robot()` is a plain object; every number without a default is zero. `dtype(Robot)` is the same layout as a NumPy
 record; `packed` and `unpack` copy between the two, and `digest` gives the same hash for both.
 """
@@ -24,6 +27,8 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+LATE = "late"
+
 _CODES = {float: "d", int: "q"}
 _NUMPY = {"d": "<f8", "f": "<f4", "q": "<i8", "h": "<i2"}
 _DTYPES: "dict[type, np.dtype[Any]]" = {}
@@ -36,8 +41,11 @@ class Field:
     def __init__(self, name: str, hint: Any, default: Any = 0) -> None:
         self.name = name
         self.count: int | None = None
+        self.late = getattr(hint, "__metadata__", ()) == (LATE,)
         code: str | None = None
-        if hasattr(hint, "__metadata__"):
+        if self.late:
+            hint = get_args(hint)[0]
+        elif hasattr(hint, "__metadata__"):
             listed, (self.count, *narrow) = get_args(hint)[0], hint.__metadata__
             if get_origin(listed) is not list:
                 raise TypeError(f"{name}: Annotated goes with list[...], not {listed}")
@@ -186,4 +194,24 @@ def copy(state: T) -> T:
 
 def digest(state: Any) -> str:
     """SHA-256 of a plain record or of one element of a NumPy array; equal for equal states."""
-    return hashlib.sha256(to_bytes(state) if hasattr(state, "_fields") else state.tobytes()).hexdigest()
+    if hasattr(state, "_fields"):
+        return hashlib.sha256(hashed(type(state), to_bytes(state))).hexdigest()
+    kind = next(kind for kind, made in _DTYPES.items() if made == state.dtype)
+    return hashlib.sha256(hashed(kind, state.tobytes())).hexdigest()
+
+
+def hashed(kind: type, raw: bytes) -> bytes:
+    """The part of a record's bytes that counts in its digest: without LATE numbers that have their defaults."""
+    parts, at = [], 0
+    for field in fields_of(kind):
+        part = raw[at : at + _size(field)]
+        at += len(part)
+        if not field.late or part != struct.pack(f"<{field.code}", field.default):
+            parts.append(part)
+    return b"".join(parts)
+
+
+def _size(field: Field) -> int:
+    """Bytes of a field of a record."""
+    one = struct.calcsize(f"<{field.code}") if field.code else _layout(field.kind).size
+    return one * (1 if field.count is None else field.count)

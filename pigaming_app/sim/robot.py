@@ -6,7 +6,6 @@ from pigaming_app.sim.angles import wrap
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.world import DT, Robot, World
 
-RADIUS = 36.0  # px
 LAG = 0.08  # s, time constant of the motors
 GAIN = 1.0 - exp(-DT / LAG)  # share of the speed error that the motors remove in one tick
 

@@ -7,7 +7,6 @@ treated as a point moving past the obstacle expanded by the circle's radius (Min
 from math import sqrt
 
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import Capsule, World
 
 FAR = 2.0
@@ -107,7 +106,7 @@ def is_clear(world: World, x: float, y: float, to_x: float, to_y: float, radius:
     dx, dy = to_x - x, to_y - y
     left, right = (x, to_x) if dx > 0.0 else (to_x, x)
     top, bottom = (y, to_y) if dy > 0.0 else (to_y, y)
-    slack = RADIUS - radius  # the walls' bounding boxes include RADIUS
+    slack = world.radius - radius  # the walls' bounding boxes include a robot's radius
     left += slack
     right -= slack
     top += slack

@@ -2,11 +2,12 @@
 
 from typing import Annotated
 
-from pigaming_app.sim.record import record
+from pigaming_app.sim.record import LATE, record
 
 HZ = 50  # ticks per second
 DT = 1.0 / HZ  # s
 WIDTH, HEIGHT = 1600.0, 900.0  # px, of the arena
+RADIUS = 36.0  # px, of a robot, unless real ones are wider on their surface
 ROBOTS = 4  # seats of a match; some may be empty
 WALLS = 63  # what six bits of the grid count
 MUDS = 16
@@ -18,7 +19,7 @@ NODES_PADDED = NODES + 1  # length of the arrays, padded to a multiple of 8 byte
 
 @record
 class Robot:
-    """A circle of radius 36 px on two wheels. Positions in px, angles in rad, times in s."""
+    """A circle on two wheels, as wide as all others of a match. Positions in px, angles in rad, times in s."""
 
     present: int
     team: int
@@ -91,3 +92,4 @@ class World:
     mud_count: int
     muds: Annotated[list[Capsule], MUDS]  # ground on which robots are slow
     shifts: int  # how often walls were replaced during the match (real things that are moved)
+    radius: Annotated[float, LATE] = RADIUS  # px, of every robot; set before any wall

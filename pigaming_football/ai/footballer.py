@@ -22,7 +22,7 @@ from pigaming_app.api.rules import HEIGHT, WIDTH, is_clear, kernel, turn_to, uni
 from ..observation import FREE, MATE, OPPONENT, OWN, Observation, from_left, observe, polar
 from ..rules import side_of
 from ..state import LEFT, MIDDLE, Football, Rules
-from .mind import BALL, CHASER, FRICTION, KEEPER, PERIOD, SUPPORTER, TOUCH, Mind, clearance, notice, time_to_meet
+from .mind import BALL, CHASER, FRICTION, KEEPER, PERIOD, SUPPORTER, Mind, clearance, notice, time_to_meet
 
 LOYALTY = 0.35  # s by which another must be faster to take over the chase
 NEAR_GOAL = 300.0  # px of the ball from the own goal up to which the last robot of a team leaves it like any other
@@ -51,6 +51,7 @@ def think(match: Football, seat: int, mind: Mind, weights: Any) -> None:
     """Observe and decide every PERIOD ticks; the action holds in between."""
     if (match.tick + mind.phase) % PERIOD:
         return
+    mind.touch = match.radius + BALL
     observe(match, seat, mind, mind.obs)
     notice(mind)
     obs, action = mind.obs, match.actions[seat]
@@ -132,22 +133,22 @@ def chase(match: Football, seat: int, mind: Mind) -> None:
         abs(off) > WRONG_SIDE
         and not mind.hasty
         and clearance(obs, x, y, x, y, False) > 260.0
-        and obs.ball_distance > 1.2 * TOUCH
+        and obs.ball_distance > 1.2 * mind.touch
     ):
-        room = TOUCH + BEHIND
+        room = mind.touch + BEHIND
         if abs(off) < EITHER_SIDE or mind.side == 0.0:
             mind.side = 1.0 if off > 0.0 else -1.0
         x += -gx / length * room * 0.6 - mind.side * gy / length * room
         y += -gy / length * room * 0.6 + mind.side * gx / length * room
     else:
         mind.side = 0.0
-    drive_to(match, seat, mind, x, min(max(y, 36.0), HEIGHT - 36.0), 1, grasp(obs))
+    drive_to(match, seat, mind, x, min(max(y, 36.0), HEIGHT - 36.0), 1, grasp(mind, obs))
 
 
 @kernel
-def grasp(obs: Observation) -> int:
+def grasp(mind: Mind, obs: Observation) -> int:
     """1 if FIRE should be pressed to catch the ball."""
-    near = obs.ball_distance - TOUCH < GRASP and abs(obs.ball_bearing) < GRASP_ANGLE
+    near = obs.ball_distance - mind.touch < GRASP and abs(obs.ball_bearing) < GRASP_ANGLE
     return 1 if near and obs.held == FREE and obs.ball_out == 0.0 and obs.can_catch else 0
 
 
@@ -199,11 +200,11 @@ def keep_goal(match: Football, seat: int, mind: Mind) -> None:
             y = crossing
     y = min(max(y, MIDDLE - reach), MIDDLE + reach)
     dx, dy = line - obs.x, y - obs.y
-    fire = grasp(obs)
+    fire = grasp(mind, obs)
     if abs(dx) > KEEPER_ROOM or abs(dy) > 240.0:
         drive_to(match, seat, mind, line, y, 1 if dx < -120.0 else 0, fire)
         return
-    if fire and obs.ball_distance < TOUCH + 30.0:
+    if fire and obs.ball_distance < mind.touch + 30.0:
         steer(match, seat, mind, 0.5, obs.ball_bearing, fire, 0)
         return
     up = abs(turn_to(obs.heading + 0.5 * pi)) < abs(turn_to(obs.heading - 0.5 * pi))
@@ -229,10 +230,10 @@ def support(match: Football, seat: int, mind: Mind) -> None:
         if value > best:
             best, best_x, best_y = value, x, y
     dx, dy = best_x - obs.x, best_y - obs.y
-    if dx * dx + dy * dy < 60.0 * 60.0 or obs.ball_distance < TOUCH + GRASP:
-        steer(match, seat, mind, 0.0, polar(obs, mind.seen_x, mind.seen_y)[1], grasp(obs), 0)
+    if dx * dx + dy * dy < 60.0 * 60.0 or obs.ball_distance < mind.touch + GRASP:
+        steer(match, seat, mind, 0.0, polar(obs, mind.seen_x, mind.seen_y)[1], grasp(mind, obs), 0)
     else:
-        drive_to(match, seat, mind, best_x, best_y, 0, grasp(obs))
+        drive_to(match, seat, mind, best_x, best_y, 0, grasp(mind, obs))
 
 
 # ------------------------------------------------------------------------------------------------------------- driving

@@ -11,7 +11,6 @@ from ..state import Rules
 PERIOD = 5  # ticks between decisions: 10 Hz
 NEW_ERROR = 30  # ticks between draws of the aiming error
 FRICTION, BALL = Rules().friction, Rules().radius  # px/s^2, px: of the standard ball, for predictions
-TOUCH = RADIUS + BALL  # px between the centres of a robot and the ball that it touches
 FULL_SPEED, TURN_RATE = 260.0, 3.0  # px/s, rad/s
 MOMENTS, MOMENT = 16, 0.15  # points in time to which the ball is predicted, and s between them
 CHASER, KEEPER, SUPPORTER = range(3)
@@ -51,6 +50,7 @@ class Mind:
     escape_turn: float
     since: int
     freeing: int  # 1: it is backing out
+    touch: float = RADIUS + BALL  # px between the centres of a robot and the ball that it touches
 
 
 @kernel
@@ -90,7 +90,7 @@ def time_to_meet(mind: Mind, x: float, y: float, turn: float) -> float:
         if not BALL <= ball_y <= HEIGHT - BALL:
             ball_y = folded(ball_y, HEIGHT)
         dx, dy = ball_x - x, ball_y - y
-        gap = sqrt(dx * dx + dy * dy) - TOUCH
+        gap = sqrt(dx * dx + dy * dy) - mind.touch
         after = (gap if gap > 0.0 else 0.0) / FULL_SPEED + turning
         if after <= t or rolled < t or i == MOMENTS:
             mind.meet_x, mind.meet_y = ball_x, ball_y

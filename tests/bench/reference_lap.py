@@ -31,8 +31,7 @@ from pigaming_app.games.race.start import set_rules
 from pigaming_app.games.race.state import MAX_LAPS, RaceRules
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import compiled, kernel
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH
+from pigaming_app.sim.world import DT, HEIGHT, HZ, RADIUS, ROBOTS, WIDTH
 
 ASIDE, ASIDES = 3.0, 111  # px between states of a line, and their number
 LEAN, LEANS = pi / 72, 61  # rad between headings, and their number

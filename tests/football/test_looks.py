@@ -126,6 +126,9 @@ def test_real_robots_stand_in_the_colour_of_their_team(screen):
     seen = [Sighting(300.0 + 300.0 * k, 450.0, 0.0, 0.0) for k in range(4)]
 
     class Seen:
+        def margin(self, robot: int, usual: float) -> float:
+            return 0.0
+
         def sense(self, ahead=0.0):
             return seen
 

@@ -13,6 +13,8 @@ IN_ORDER = 3  # a seed that deals line i, in driving order, to seat i
 class Rails:
     """Robots stay where they were last put; nothing else moves them."""
 
+    mm = 1.32
+
     def __init__(self):
         self.poses = [(0.0, 0.0, 0.0)] * 4
 

@@ -80,6 +80,6 @@ def test_a_moved_module_leaves_it_and_a_changed_one_does_not(tmp_path, monkeypat
     assert source_hash._hash.__wrapped__(()) == engine_hash()
     (package / "games" / "race" / "course.py").rename(package / "sim" / "track.py")
     assert source_hash._hash.__wrapped__(()) == engine_hash()
-    robot = package / "sim" / "robot.py"
+    robot = package / "sim" / "world.py"
     robot.write_text(robot.read_text(encoding="utf-8").replace("RADIUS = 36.0", "RADIUS = 36.5"), encoding="utf-8")
     assert source_hash._hash.__wrapped__(()) != engine_hash()

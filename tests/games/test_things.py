@@ -16,10 +16,10 @@ from pigaming_app.games.replay import decode, encode, to_match, verify
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.arena import ArenaError, replace_things
 from pigaming_app.sim.contact import in_wall
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.things.convex import contains, distance
 from pigaming_app.sim.things.cover import from_capsule
 from pigaming_app.sim.things.spec import ThingSpec, Use, wall_capsules, written
+from pigaming_app.sim.world import RADIUS
 from tests.cases import one_in, repeated
 from tests.floor import box as outline_of
 from tests.matches import finished, match_of, run

@@ -10,6 +10,7 @@ from pigaming_app.jobs.registry import jobs
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES += [ROOT / "docs/lessons/README.md", *sorted((ROOT / "docs/lessons/en").glob("*.md"))]
 PROGRAMS = (
     *("python3", "python", ".venv/bin/python", "main.py", "pigaming", "pip", "pipx", "uv", "uvx", "sudo", "cd", "make"),
     *("roscore", "ray", "mpremote", "tests.bench"),
@@ -37,7 +38,8 @@ def commands(page: Path) -> list[Command]:
     text = page.read_text(encoding="utf-8")
     blocks = FENCE.sub(lambda fence: _indented(fence[2]) if fence[1] in SHELL else _blank(fence[0]), text)
     found = chain(_in_blocks(blocks), _in_sentences(blocks))
-    return [Command(page.name, line, words) for line, words in sorted(found)]
+    name = page.relative_to(ROOT).as_posix()
+    return [Command(name, line, words) for line, words in sorted(found)]
 
 
 def _blank(text: str) -> str:

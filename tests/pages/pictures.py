@@ -88,7 +88,9 @@ def robots() -> pygame.Surface:
     screen = camera.screen.copy()
     seen = [Sighting(robot.x, robot.y, robot.heading, 0.0) for robot in match.state.robots]
     draw_corners(screen)
-    MarkerDiscs(cast(Rig, SimpleNamespace(sense=lambda ahead=0.0: seen))).draw(screen, {0, 1, 2, 3})
+    MarkerDiscs(cast(Rig, SimpleNamespace(sense=lambda ahead=0.0: seen, margin=lambda robot, usual: 0.0))).draw(
+        screen, {0, 1, 2, 3}
+    )
     return pygame.transform.smoothscale(screen, SIZE)
 
 

@@ -107,7 +107,7 @@ class Sandbox:
         """0 if a command of ours accepts its words; of others, those that install this project are looked at."""
         if words[0] in ("pip", "pipx", "uv", "uvx"):
             return int(not is_installable(words))
-        foreign = words[1:3] == ["-m", "pip"] or not {"main.py", "pigaming", "-m"} & {*words}
+        foreign = words[1:3] in (["-m", "pip"], ["-m", "venv"]) or not {"main.py", "pigaming", "-m"} & {*words}
         if foreign and words[0] not in jobs():
             return 0
         if "-m" in words and "parse_args" not in source_of(words[words.index("-m") + 1]):

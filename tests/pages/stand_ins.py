@@ -125,6 +125,7 @@ ELSEWHERE = (
     Elsewhere(r".*tests\.constraints", "it needs uv, and writes into the project", "tests/boot/test_main.py"),
     Elsewhere(r"python3 examples/ppo_torch\.py .*", "it needs PyTorch", "examples/ppo_torch.py"),
     Elsewhere(r"(pip|pipx|uvx|uv|.*-m pip) .*", "packages are fetched", "tests/test_package.py"),
+    Elsewhere(r".*-m venv .*|.*jupyter .*", "Jupyter is fetched, and opens a browser", "tests/pages/test_lessons.py"),
     Elsewhere(r"sudo .*", "packages of the system", ".ci/run"),
     Elsewhere(r"cd pigaming_app/hardware/firmware|make.*", "a compiler and a robot", "tests/hardware/firmware"),
     Elsewhere(r"mpremote .*", "a board on a cable", "tests/hardware/emulator/test_boards.py"),

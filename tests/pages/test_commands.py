@@ -17,8 +17,9 @@ from tests.pages.stand_ins import ELSEWHERE, FORMULAS, MAY_MISS, PLACEHOLDERS
 
 TARGET = r"--(?:out|csv|record|screenshot|poster|curve|matches|json|sheet)|>|event new|export \w+ [\w-]+"
 WRITTEN = re.compile(rf"(?:{TARGET}) (\w[\w.-]*\.\w+)")  # files that a command makes
-PROVEN = {"add-a-game.md": "tests/test_add_a_game.py"}  # pages whose commands have a test of their own
-ALL = {page.name: commands(page) for page in PAGES if page.name not in PROVEN}
+PROVEN = {"docs/add-a-game.md": "tests/test_add_a_game.py"}  # pages whose commands have a test of their own
+NAMES = {page.relative_to(ROOT).as_posix(): page for page in PAGES}
+ALL = {name: commands(page) for name, page in NAMES.items() if name not in PROVEN}
 FIRST = {command.text: command for page in reversed(ALL.values()) for command in reversed(page)}
 
 

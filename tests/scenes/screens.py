@@ -59,6 +59,7 @@ from pigaming_app.scenes.kiosk.operator.page import OperatorPage
 from pigaming_app.scenes.kiosk.operator.trash_page import TrashPage
 from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.network.fetch_page import FetchPage
+from pigaming_app.scenes.lab.pages.line_page import LinePage
 from pigaming_app.scenes.ladder.choice import LadderChoice
 from pigaming_app.scenes.ladder.climber import Climber
 from pigaming_app.scenes.ladder.climbers import Climbers
@@ -582,6 +583,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     "gallery": partial(drawn_arenas, game="race"),
     "page of a drawing": partial(drawn_arenas, game="pitanks", page=True),
     "name of a drawing": lambda arcade: ArenaName(arcade.context, "race", "new-1", WIDEST, lambda name: None),
+    "lab line": lambda arcade: LinePage(arcade.context, "10*distance+" * 6 + "distance", lambda line: ""),
     **{f"lab fetch {state}": partial(fetch_page, state=state) for state in FETCH_STATES},
     "events": events,
     **{f"event setup {form.value}": partial(event_setup, form=form, row="format") for form in Format},

@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import SHOVE, drive, in_wall
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
+from pigaming_app.sim.world import DT, HEIGHT, HZ, RADIUS, WIDTH
 from tests.floor import floor, from_wall
 
 FASTEST = 325.0 * 1.3  # px/s, with turbo on a track; with turbo and the pick-up it is the same

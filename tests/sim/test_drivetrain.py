@@ -44,6 +44,13 @@ def test_a_written_file_is_parsed_to_the_same_robots():
     assert other.left.speed == pytest.approx(NOMINAL.left.speed, abs=0.01)
 
 
+def test_a_robot_measured_on_one_mat_is_the_same_in_mm_on_another():
+    """0.66 mm are half a px of the nominal mat: twice as many px."""
+    (small,) = parse(to_toml([UNEVEN]), "robots.toml", 0.66)
+    assert small == Drivetrain(Wheel(1400.0, 0.05), Wheel(1600.0, 0.10), 120.0, 0.05, 0.06)
+    assert parse(to_toml([small], 0.66), "robots.toml") == (UNEVEN,)
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
     [

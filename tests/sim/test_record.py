@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.sim.record import copy, digest, dtype, numbers, packed, record, to_bytes, unpack
+from pigaming_app.sim.record import LATE, copy, digest, dtype, numbers, packed, record, to_bytes, unpack
 from pigaming_app.sim.rng import seeded, uniform
 from pigaming_app.sim.world import World
 
@@ -162,3 +162,21 @@ def test_narrow_numbers_must_fill_whole_words():
 def test_a_misspelt_field_is_an_error():
     with pytest.raises(AttributeError):
         Cart().laod = 1.0  # type: ignore[attr-defined]  # misspelt
+
+
+def test_a_late_number_counts_in_digests_only_where_it_differs_from_its_default():
+    @record
+    class Before:
+        x: float
+        n: int
+
+    @record
+    class After(Before):
+        wide: Annotated[float, LATE] = 36.0
+
+    before, after = Before(), After()
+    before.x = after.x = 1.5
+    assert digest(after) == digest(before) == digest(packed([after])[0])
+    after.wide = 40.0
+    assert digest(after) == digest(packed([after])[0]) != digest(before)
+    assert unpack(After, packed([after])[0]).wide == 40.0

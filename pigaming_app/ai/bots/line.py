@@ -92,7 +92,7 @@ class BotLine:
             own.wire, own.standing = wire.number, standing
             own.shown = state.tick if due else own.shown
         if new:
-            about = {"game": game, "rules": view.rules(state), **FIELD, **view.layout(state)}
+            about = {"game": game, "rules": view.rules(state), "radius": state.radius, **FIELD, **view.layout(state)}
             wire.send(_text(place, {"type": "begin", **about}))
         elif changed:
             wire.send(_text(place, {"type": "layout", **view.layout(state)}))

@@ -15,7 +15,6 @@ from pigaming_app import __version__
 from pigaming_app.ai.bots import brains, view
 from pigaming_app.ai.bots.book import Name
 from pigaming_app.ai.bots.line import FIELD, BotCommand, BotLine, SeatOfMatch
-from pigaming_app.sim.drivetrain import MM
 from pigaming_app.storage.parsing import ParseError
 from pigaming_app.storage.schema import Finite, between, from_json
 
@@ -59,7 +58,7 @@ class BotSession:
         self.match = 0  # that it observes, by number
         self._line: BotLine | None = None
         self._key = b""
-        send(view.text({"type": "hello", "version": __version__, "nonce": self.nonce, "mm": MM, **FIELD}))
+        send(view.text({"type": "hello", "version": __version__, "nonce": self.nonce, **FIELD}))
 
     def receive(self, text: str) -> int:
         """Handle a message; the code with which to close the connection, or 0."""

@@ -10,7 +10,7 @@ from pigaming_app.sim.record import Field, fields_of
 from pigaming_app.sim.world import World
 
 HIDDEN = {"random", "rules", "actions", "starts", "walls", "muds", "wall_count", "mud_count", "shifts", "grid"}
-HIDDEN |= {"gain", "requested_linear", "requested_angular"}
+HIDDEN |= {"radius", "gain", "requested_linear", "requested_angular"}
 HIDDEN |= {"recover", "recover_x", "recover_y", "recover_heading"}
 ALIVE = ("alive", "exists")  # fields of entries that come and go
 LONGEST = 64  # longer lists are maps for planning

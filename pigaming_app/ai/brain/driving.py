@@ -34,6 +34,17 @@ class Controller(Protocol):
 
 Driving = Callable[[Any, int, Controller], tuple[float, float]]
 """(match state, seat, device) to (linear, angular)."""
+Help = Callable[[Any, int, float, float], tuple[float, float]]
+"""(match state, seat, linear, angular) to (linear, angular), with steering help."""
+
+
+def helped(driving: Driving, help_steer: Help) -> Driving:
+    """A driving style with steering help."""
+
+    def drive(state: Any, seat: int, stick: Controller) -> tuple[float, float]:
+        return help_steer(state, seat, *driving(state, seat, stick))
+
+    return drive
 
 
 def turn_and_drive(state: MatchState, seat: int, stick: Controller) -> tuple[float, float]:

@@ -16,7 +16,6 @@ from pigaming_app.sim.flow_field import Route
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import Rng, uniform
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HZ, Action, Robot
 
@@ -25,7 +24,7 @@ PUSHING = round(1.5 * HZ)  # ticks of pushing in place until the reflex acts
 WAITING = 5 * HZ  # ticks of standing without sight of the opponent until the reflex acts
 OVERRIDE = HZ  # ticks for which the reflex drives
 CLASSIC_PUSHING, CLASSIC_OVERRIDE = round(2.5 * HZ), 10  # PUSHING and OVERRIDE by the classic rules
-TOUCH = 2.0 * RADIUS + 6.0  # px between the centres of robots that push each other
+TOUCH = 6.0  # px between robots that push each other
 STUCK_DISTANCE = 20.0  # px; a smaller displacement counts as stuck
 FREEING = 20  # ticks of one attempt to back out
 
@@ -138,9 +137,9 @@ def update_reflex(match: PiTanks, robot: Robot, opponent: int, reflex: Reflex, a
     if dx * dx + dy * dy > PROGRESS * PROGRESS:
         reflex.x, reflex.y, reflex.stuck_ticks, reflex.waited, reflex.tries = robot.x, robot.y, 0, 0, 0
         return
-    other = match.robots[opponent]
+    other, touch = match.robots[opponent], 2.0 * match.radius + TOUCH
     dx, dy = other.x - robot.x, other.y - robot.y
-    if reflex.left > 0 or dx * dx + dy * dy < TOUCH * TOUCH:
+    if reflex.left > 0 or dx * dx + dy * dy < touch * touch:
         return
     if action.linear != 0.0:
         reflex.stuck_ticks += period

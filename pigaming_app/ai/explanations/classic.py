@@ -11,7 +11,6 @@ from pigaming_app.ai.pitanks.classic import ClassicMind
 from pigaming_app.ai.qlearning.features import nearest_opponent
 from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import Robot
 
@@ -37,7 +36,7 @@ def explain(match: PiTanks, seat: int, mind: ClassicMind, weights: NoWeights) ->
         utilities={
             "cover": float(hides),
             "attack": float(mind.state == classic.ATTACK),
-            "fire": clamp(RADIUS / away / (aim + 1e-9)) if shows else 0.0,
+            "fire": clamp(match.radius / away / (aim + 1e-9)) if shows else 0.0,
             "free": 1.0 if mind.state == classic.BREAK_FREE else clamp(mind.stuck_ticks / classic.STUCK_TICKS),
         },
         chosen=chosen,

@@ -11,7 +11,6 @@ from pigaming_app.ai.brain.thoughts import BULLET, GOAL, OPPONENT, PRIZE, WAY, P
 from pigaming_app.ai.pitanks import fsm
 from pigaming_app.games.pitanks.observation import PiTanksObservation
 from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, ROBOTS, Action
 
 SOON = 1.4  # s to a hit at which a bullet is displayed; at half of that it dodges
@@ -29,7 +28,7 @@ def explain(match: PiTanks, seat: int, mind: fsm.FsmMind, weights: NoWeights) ->
     utilities = {
         "cover": _cover(obs, mind),
         "attack": 1.0 - _cover(obs, mind),
-        "fire": _fire(obs, mind),
+        "fire": _fire(obs, mind, match.radius),
         "dodge": clamp(2.0 - 2.0 * obs.threat / SOON) if mind.dodges else 0.0,
         "free": 1.0 if mind.state == fsm.BREAK_FREE else clamp(mind.stuck_ticks / fsm.STUCK_TICKS),
     }
@@ -96,12 +95,12 @@ def _cover(obs: PiTanksObservation, mind: fsm.FsmMind) -> float:
     return 1.0 if obs.lead > 0 else clamp(1.0 - mind.unseen / max(1, mind.patience))
 
 
-def _fire(obs: PiTanksObservation, mind: fsm.FsmMind) -> float:
+def _fire(obs: PiTanksObservation, mind: fsm.FsmMind, radius: float) -> float:
     """Utility of firing: 1 if the gun points within the target, less the farther it is off."""
     if mind.target < 0 or not mind.seen or not obs.loaded:
         return 0.0
     other = obs.others[mind.target]
-    wide = RADIUS / (other.distance + 1.0)
+    wide = radius / (other.distance + 1.0)
     return clamp(wide / (abs(other.aim + mind.bias) + 1e-9))
 
 

@@ -13,7 +13,6 @@ from pigaming_app.ai.pitanks.gunner import GunnerMind
 from pigaming_app.games.pitanks.observation import PiTanksObservation
 from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import DT, ROBOTS
 
 PARTS = {gunner.WATCH: "watch", gunner.SWING_ASIDE: "swing", gunner.AIM: "duel"}
@@ -85,7 +84,7 @@ def _utilities(match: PiTanks, obs: PiTanksObservation, mind: GunnerMind) -> dic
         other = obs.others[mind.target]
         attack = 1.0 if not gunner.in_fight(obs, mind) else clamp(other.distance / gunner.REACH)
         if gunner.can_hit(obs, mind):
-            fire = clamp(RADIUS / (other.distance + 1.0) / (abs(gunner.aim(mind, other)) + 1e-9))
+            fire = clamp(match.radius / (other.distance + 1.0) / (abs(gunner.aim(mind, other)) + 1e-9))
         part = gunner.rhythm(obs, mind, other)
         wait, swing = float(part == gunner.WATCH), float(part == gunner.SWING_ASIDE)
     utilities = {

@@ -1,4 +1,6 @@
-"""The AIs of Robot Factory by name. The five levels: one planner, five pairs of hands, set against models of people.
+"""The AIs of Robot Factory by name, and the driving styles with steering help.
+
+The five levels: one planner, five pairs of hands, set against models of people.
 
 They differ in numbers, never in rules: the lower ones drive more slowly, warm up in the first minute, pause longer
 after each job, misjudge schedules, see others later, and now and then set out the wrong way. `form` makes a level
@@ -7,11 +9,13 @@ better in one match than in another, as with people. `planner` is the same witho
 
 from functools import partial
 
+from pigaming_app.ai.brain.driving import helped, point_where_to_go, turn_and_drive
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.factory import foreman
 from pigaming_app.ai.factory.job_choice import PlannerMind
 from pigaming_app.ai.factory.planner import make_reset, think
-from pigaming_app.ai.game_ai import GameAI
+from pigaming_app.ai.factory.steering_help import Guide
+from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT, TURN, GameAI
 
 weaker = partial(make_reset, form=0.3, start=6.5, warm_up=0.3)
 STRENGTHS = (
@@ -25,9 +29,17 @@ EASIEST = weaker(speed=0.26, hesitation=5.0, noise=0.35, delay=0.45, slip=0.03, 
 HARDEST = weaker(speed=1.0, hesitation=0.0, noise=0.0, delay=0.1, slip=0.0, rules=2)
 LEVELS = tuple(BrainKind(f"level{n}", PlannerMind, think, reset) for n, reset in enumerate(STRENGTHS, start=1))
 PLANNER = BrainKind("planner", PlannerMind, think, make_reset())
+GUIDE = Guide()
 
 AI = GameAI(
     {kind.name: kind for kind in (foreman.HAND1, foreman.HAND2, foreman.HAND3, PLANNER, *LEVELS)},
+    driving={
+        TURN: turn_and_drive,
+        POINT: point_where_to_go,
+        HELPED_TURN: helped(turn_and_drive, GUIDE.helped_stick),
+        HELPED_POINT: helped(point_where_to_go, GUIDE.helped_stick),
+        ONE_BUTTON: turn_and_drive,
+    },
     auto=(BrainKind("easiest", PlannerMind, think, EASIEST), BrainKind("hardest", PlannerMind, think, HARDEST)),
     person=foreman.person,
     chauffeur="planner",

@@ -1,7 +1,7 @@
 """Shortest ways round the machines: a graph of the corners of their bodies that see each other.
 
-Each body has four corners, CORNER px from its centre along either axis. Corners in a wall or outside the arena do not
-count. A side at which a person stands costs DETOUR px more.
+Each body has four corners, its centre and CORNER px and a robot's radius along either axis. Corners in a wall or
+outside the arena do not count. A side at which a person stands costs DETOUR px more.
 """
 
 from math import atan2, sqrt
@@ -13,17 +13,16 @@ from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import Robot
 
 CORNERS = 4 * MACHINES
-CORNER = 108.0  # px from the centre of a machine
+CORNER = 72.0  # px from the centre of a machine to a robot there
 DETOUR = 200.0  # px, cost of a side at which a person stands
 STANDS = 80.0  # px between a person and the middle of such a side
 FAR = 1e6  # px
-CLEAR = RADIUS + 1.0  # px, between corners
-SLIDE = RADIUS - 14.0  # px, from the robot: it slides round what it touches
+CLEAR = 1.0  # px beside a robot, between corners
+SLIDE = 14.0  # px narrower than itself, from the robot: it slides round what it touches
 KEEP = 30.0  # px by which a way on another side than before must be shorter
 CROWDED = 140.0  # px between another robot and the middle of a side
 
@@ -47,18 +46,19 @@ class Ways:
 @kernel
 def build_ways(match: Factory, obs: FactoryObservation, ways: Ways) -> None:
     """Build the graph."""
-    ways.built, ways.goal_x = 1, -FAR
+    ways.built, ways.goal_x, corner = 1, -FAR, CORNER + match.radius
     for m in range(MACHINES):
         into, out = obs.slots[MACHINE_SLOTS + 2 * m], obs.slots[MACHINE_SLOTS + 2 * m + 1]
         for k in range(4):
             i = 4 * m + k
-            ways.x[i] = 0.5 * (into.x + out.x) + (CORNER if k == 1 or k == 2 else -CORNER)
-            ways.y[i] = 0.5 * (into.y + out.y) + (CORNER if k > 1 else -CORNER)
+            ways.x[i] = 0.5 * (into.x + out.x) + (corner if k == 1 or k == 2 else -corner)
+            ways.y[i] = 0.5 * (into.y + out.y) + (corner if k > 1 else -corner)
+    clear = match.radius + CLEAR
     for i in range(CORNERS):
         for j in range(i + 1):
             edge = FAR
             x, y, u, v = ways.x[i], ways.y[i], ways.x[j], ways.y[j]
-            if i != j and not in_wall(match, x, y) and not in_wall(match, u, v) and is_clear(match, x, y, u, v, CLEAR):
+            if i != j and not in_wall(match, x, y) and not in_wall(match, u, v) and is_clear(match, x, y, u, v, clear):
                 edge = sqrt((x - u) * (x - u) + (y - v) * (y - v))
             ways.edges[i * CORNERS + j] = ways.edges[j * CORNERS + i] = edge
 
@@ -85,10 +85,10 @@ def side_cost(obs: FactoryObservation, ways: Ways, i: int, j: int) -> float:
 def measure_ways(match: Factory, obs: FactoryObservation, ways: Ways, x: float, y: float) -> None:
     """Update the ways from all corners to the goal (x, y)."""
     if ways.goal_x != x or ways.goal_y != y:
-        ways.goal_x, ways.goal_y = x, y
+        ways.goal_x, ways.goal_y, clear = x, y, match.radius + CLEAR
         for i in range(CORNERS):
             ways.last[i] = FAR
-            if is_clear(match, ways.x[i], ways.y[i], x, y, CLEAR) and not in_wall(match, ways.x[i], ways.y[i]):
+            if is_clear(match, ways.x[i], ways.y[i], x, y, clear) and not in_wall(match, ways.x[i], ways.y[i]):
                 dx, dy = ways.x[i] - x, ways.y[i] - y
                 ways.last[i] = sqrt(dx * dx + dy * dy)
     for i in range(CORNERS):
@@ -124,7 +124,7 @@ def choose_waypoint(match: Factory, robot: Robot, obs: FactoryObservation, ways:
     ways.to_go = obs.goal_distance
     before = ways.corner - 1 if ways.goal_x == x and ways.goal_y == y else -1
     ways.corner = 0
-    if is_clear(match, robot.x, robot.y, x, y, SLIDE):
+    if is_clear(match, robot.x, robot.y, x, y, match.radius - SLIDE):
         return
     measure_ways(match, obs, ways, x, y)
     best, first, shortest, beyond = -1, -1, FAR, -1.0
@@ -140,7 +140,7 @@ def choose_waypoint(match: Factory, robot: Robot, obs: FactoryObservation, ways:
             break
         if first < 0:
             first = nearest
-        if is_clear(match, robot.x, robot.y, ways.x[nearest], ways.y[nearest], SLIDE):
+        if is_clear(match, robot.x, robot.y, ways.x[nearest], ways.y[nearest], match.radius - SLIDE):
             if before >= 0 and not leads_on(ways, before, nearest):
                 least += KEEP
             if least < shortest:

@@ -40,6 +40,17 @@ class Evaluation:
         return self._played == self.matches
 
     @property
+    def pairs(self) -> int:
+        """Pairs of matches, with the sides swapped, played to the end."""
+        return self._played // 2
+
+    @property
+    def done(self) -> float:
+        """Share of all ticks that is played."""
+        whole = round(self.minutes * 60 * HZ)
+        return (self._played + (1.0 - self._left / whole if self._batch else 0.0)) / self.matches
+
+    @property
     def share(self) -> float:
         """Share of the matches so far that `one` won, ties counting half; 0.5 on average between equal brains."""
         return (self.wins + 0.5 * self.ties) / max(1, self._played)

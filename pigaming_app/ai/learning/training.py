@@ -13,8 +13,8 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.learning.batch import initial_states
 from pigaming_app.ai.learning.q_learner import learn, learn_last, temperature
 from pigaming_app.ai.learning.rollout import Batch
-from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe, RecipeRecord
-from pigaming_app.ai.qlearning.table import Learned, LearnerMind, QTable, player
+from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe
+from pigaming_app.ai.qlearning.table import Learned, LearnerMind, QTable, player, set_recipe
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.engine_hash import engine_hash
@@ -22,7 +22,7 @@ from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.kernel import can_compile, compiled, compiled_before
-from pigaming_app.sim.record import copy, fields_of, packed, unpack
+from pigaming_app.sim.record import copy, packed, unpack
 from pigaming_app.sim.rng import seeded, training_seed
 from pigaming_app.sim.world import HZ
 
@@ -97,7 +97,7 @@ class TableTraining:
         self.loop = compiled_training() if self.fast else plain_training()
         self._tables = self._row(fresh_table(seed) if table is None else to_plain(table))
         self.recipe = recipe
-        self._fresh = self._row(initial_states([self._setup()])[0])
+        self._fresh, self._mind = self._row(initial_states([self._setup()])[0]), self._row(LearnerMind())
         self._begin()
 
     def run(self, ticks: int) -> None:
@@ -108,7 +108,7 @@ class TableTraining:
             before = int(self.match.tick)
             self.loop(self._matches, self._ones, self._twos, self._tables, ticks)
             ticks -= int(self.match.tick) - before
-        self._seen = self._matches.copy() if self.fast else self._matches
+        self._seen = _copy(self._matches) if self.fast else self._matches
 
     def warm(self) -> None:
         """Compile the loop now rather than on the first tick."""
@@ -126,12 +126,7 @@ class TableTraining:
     @recipe.setter
     def recipe(self, recipe: Recipe) -> None:
         self._recipe = recipe
-        for field in fields_of(RecipeRecord):
-            value = field.kind(getattr(recipe, field.name))
-            if self.fast:
-                self._tables["knobs"][field.name] = value
-            else:
-                setattr(self._tables[0].knobs, field.name, value)
+        set_recipe(self._tables[0], recipe)
 
     @property
     def match(self) -> Any:
@@ -165,8 +160,8 @@ class TableTraining:
 
     def checkpoint(self, name: str = "q") -> Checkpoint:
         """A frozen copy of the table as a brain."""
-        frozen = self._tables.copy() if self.fast else copy(self._tables[0])
-        return Checkpoint(player(name, Learned(frozen)), self.matches, self.experiences)
+        frozen = _copy(self._tables)
+        return Checkpoint(player(name, Learned(frozen if self.fast else frozen[0])), self.matches, self.experiences)
 
     def trained(self, name: str) -> Trained:
         """A copy of the table with the parameters of its training, ready for a file."""
@@ -188,8 +183,8 @@ class TableTraining:
 
     def _begin(self) -> None:
         """Begin the next match with fresh minds."""
-        self._matches = self._fresh.copy() if self.fast else [copy(self._fresh[0])]
-        self._ones, self._twos = self._row(LearnerMind()), self._row(LearnerMind())
+        self._matches = _copy(self._fresh)
+        self._ones, self._twos = _copy(self._mind), _copy(self._mind)
         self._seen = self._matches
 
 
@@ -212,6 +207,11 @@ def as_record(row: Any) -> Any:
     import numpy as np
 
     return row.view(np.recarray)[0]
+
+
+def _copy(row: Any) -> Any:
+    """A copy of a row of one record, plain or NumPy; as bytes, since NumPy copies records field by field."""
+    return [copy(row[0])] if isinstance(row, list) else row.view(f"V{row.itemsize}").copy().view(row.dtype)
 
 
 def to_plain(table: Any) -> QTable:

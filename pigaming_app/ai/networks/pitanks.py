@@ -24,7 +24,6 @@ from pigaming_app.sim.action import set_action
 from pigaming_app.sim.flow_field import Route, descend, free_node, update_route
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, HZ, ROBOTS, SOLID, WIDTH, Robot
 
@@ -275,7 +274,7 @@ def encode_other(
     true_x, true_y = robot.x - me.x - senses.delay * vx, robot.y - me.y - senses.delay * vy
     dx, dy = true_x - senses.error * true_y, true_y + senses.error * true_x
     distance = sqrt(dx * dx + dy * dy) + 1e-9
-    reach = RADIUS + match.rules.bullet_radius
+    reach = match.radius + match.rules.bullet_radius
     size = reach / (distance + reach)
     flight = distance / match.rules.bullet_speed + senses.delay
     aim_x, aim_y = dx + flight * vx, dy + flight * vy

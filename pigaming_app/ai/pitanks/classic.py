@@ -26,7 +26,6 @@ from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import seeded, uniform
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HEIGHT, WIDTH, Action, Robot
 
@@ -173,7 +172,7 @@ def hide(match: PiTanks, robot: Robot, other: Robot, mind: ClassicMind) -> int:
         if not wall.health or half < 1.0:
             continue
         mx, my = wall.ax + ex, wall.ay + ey
-        gap = wall.half + RADIUS + mind.numbers.beside
+        gap = wall.half + match.radius + mind.numbers.beside
         nx, ny = -ey / half * gap, ex / half * gap
         ux, uy = mx - other.x, my - other.y
         line = sqrt(ux * ux + uy * uy)
@@ -184,7 +183,7 @@ def hide(match: PiTanks, robot: Robot, other: Robot, mind: ClassicMind) -> int:
         x, y = mx + ux / line * behind, my + uy / line * behind
         dx, dy = x - robot.x, y - robot.y
         away = dx * dx + dy * dy
-        inside = RADIUS < x < WIDTH - RADIUS and RADIUS < y < HEIGHT - RADIUS
+        inside = match.radius < x < WIDTH - match.radius and match.radius < y < HEIGHT - match.radius
         if away < least and inside and not match.grid[node_at(x, y)] & BLOCKED:
             least = away
             go_to(mind, x, y)

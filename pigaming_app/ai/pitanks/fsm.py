@@ -18,8 +18,7 @@ from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import bell, seeded, uniform
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, HZ, Action
+from pigaming_app.sim.world import DT, HZ, RADIUS, Action
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 ENGAGE = 420.0  # px; within this range an attacker stops closing in
@@ -54,6 +53,7 @@ class TankMind:
     stuck_ticks: int  # ticks since then
     escape: float  # forward stick while backing out
     escape_turn: float
+    radius: float = RADIUS  # px, of robots
 
 
 @record
@@ -70,6 +70,7 @@ def think(match: PiTanks, seat: int, mind: FsmMind, weights: NoWeights) -> None:
     """Observe and decide every PERIOD ticks; the action holds in between."""
     if (match.tick + seat) % PERIOD:
         return
+    mind.radius = match.radius
     observe(match, seat, mind.senses, mind.obs)
     act(mind.obs, mind, match.actions[seat])
 
@@ -232,7 +233,7 @@ def snap_shot(obs: PiTanksObservation, mind: FsmMind) -> int:
         return 1
     if not mind.seen or mind.seen * DT < mind.senses.delay or not obs.loaded or other.protected > 20:
         return 0
-    if abs(other.aim + mind.bias) > 0.7 * RADIUS / (other.distance + 1.0) + 0.02:
+    if abs(other.aim + mind.bias) > 0.7 * mind.radius / (other.distance + 1.0) + 0.02:
         mind.on_target = 0
         return 0
     mind.on_target += PERIOD

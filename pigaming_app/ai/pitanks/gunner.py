@@ -32,7 +32,6 @@ from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import seeded, uniform
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH, Action
 
@@ -76,7 +75,7 @@ def think(match: PiTanks, seat: int, mind: GunnerMind, weights: NoWeights) -> No
     mind.wait -= 1
     if mind.wait > 0:
         return
-    mind.wait = PERIOD
+    mind.wait, mind.radius = PERIOD, match.radius
     observe_self(match, seat, mind.obs)
     choose_target(match, seat, mind)
     observe_surroundings(match, seat, mind.senses, mind.obs)
@@ -269,7 +268,7 @@ def pull_trigger(obs: PiTanksObservation, mind: GunnerMind) -> int:
     other = obs.others[mind.target]
     if obs.mine and mind.mines and other.distance > 150.0:
         return 1
-    if not can_hit(obs, mind) or abs(aim(mind, other)) > 0.7 * RADIUS / (other.distance + 1.0) + 0.02:
+    if not can_hit(obs, mind) or abs(aim(mind, other)) > 0.7 * mind.radius / (other.distance + 1.0) + 0.02:
         return 0
     mind.shot = 0
     mind.weave = 1.0 if uniform(mind) < 0.5 else -1.0
@@ -315,9 +314,9 @@ def choose_side(match: PiTanks, obs: PiTanksObservation, mind: GunnerMind, other
 def has_room(match: PiTanks, obs: PiTanksObservation, direction: float) -> int:
     """1 if the robot can drive ROOM px in a direction."""
     x, y = obs.x + ROOM * cos(direction), obs.y + ROOM * sin(direction)
-    if not (RADIUS < x < WIDTH - RADIUS and RADIUS < y < HEIGHT - RADIUS):
+    if not (match.radius < x < WIDTH - match.radius and match.radius < y < HEIGHT - match.radius):
         return 0
-    return is_clear(match, obs.x, obs.y, x, y, RADIUS)
+    return is_clear(match, obs.x, obs.y, x, y, match.radius)
 
 
 def make_reset(

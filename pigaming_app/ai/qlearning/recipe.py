@@ -14,8 +14,11 @@ docs/thesis.md has the results of both readings.
 
 from dataclasses import dataclass, fields, replace
 
+from pigaming_app.ai.reward_line import program_of
+from pigaming_app.ai.reward_quantities import QUANTITIES
 from pigaming_app.sim.record import record
 from pigaming_app.sim.toml_table import quote
+from pigaming_app.storage.schema import Line
 
 ANY, SWITCH, HEAT = (-1000.0, 1000.0), (0, 1), (0.001, 1000.0)
 BOUNDS: dict[str, tuple[float, float]] = {
@@ -40,8 +43,8 @@ BOUNDS: dict[str, tuple[float, float]] = {
 
 
 @dataclass(frozen=True)
-class Recipe:
-    """All parameters of learning except the random seed. Rewards are in points; switches are 0 or 1."""
+class RecipeNumbers:
+    """All parameters of learning that are numbers. Rewards are in points; switches are 0 or 1."""
 
     hit: float = 10.0  # fires with the opponent ahead and in sight, and the closest wall in another direction
     in_sight: int = 1  # 1: `hit` needs a free line to the opponent; 0, the thesis: its direction alone counts
@@ -67,7 +70,7 @@ class Recipe:
 
     def __post_init__(self) -> None:
         """Raises ValueError for numbers out of bounds, TypeError for other types."""
-        for field in fields(self):
+        for field in fields(RecipeNumbers):
             value, (low, high) = getattr(self, field.name), BOUNDS.get(field.name, ANY)
             if isinstance(value, bool) or not isinstance(value, int if field.type is int else int | float):
                 kind = "whole number" if field.type is int else "number"
@@ -76,9 +79,21 @@ class Recipe:
                 raise ValueError(f"{field.name}: {quote(value)}, but {low:g} to {high:g} are possible")
 
 
+@dataclass(frozen=True)
+class Recipe(RecipeNumbers):
+    """All parameters of learning except the random seed."""
+
+    rest: Line = ""  # of the reward, beside `hit`, `miss`, `behind` and `still`: see reward_line.py
+
+    def __post_init__(self) -> None:
+        """Raises ValueError for numbers out of bounds and for a rest that is no reward, TypeError for other types."""
+        super().__post_init__()
+        program_of(self.rest, QUANTITIES)
+
+
 @record
-class RecipeRecord(Recipe):
-    """`Recipe` as a record for kernels."""
+class RecipeRecord(RecipeNumbers):
+    """The numbers of a recipe as a record for kernels."""
 
 
 RECIPES = {1: Recipe(), 2: replace(Recipe(), behind_always=1, still=-10.0)}

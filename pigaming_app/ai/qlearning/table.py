@@ -7,16 +7,19 @@ from typing import Annotated, Any, NamedTuple
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain.unstick import Reflex, act_on_reflex
 from pigaming_app.ai.qlearning.features import STATES, nearest_opponent, situation
-from pigaming_app.ai.qlearning.recipe import RecipeRecord
+from pigaming_app.ai.qlearning.recipe import Recipe, RecipeRecord
+from pigaming_app.ai.reward_line import RewardProgram, program_of
+from pigaming_app.ai.reward_quantities import QUANTITIES
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.record import packed, record, unpack
+from pigaming_app.sim.record import fields_of, packed, record, unpack
 from pigaming_app.sim.rng import Rng, seeded, uniform
 from pigaming_app.sim.world import Action
 
 ACTIONS = 18
 PAIRS = STATES * ACTIONS  # of state and action
+VANISHING = -746.0  # power whose exponential is 0
 
 
 class Move(NamedTuple):
@@ -42,6 +45,7 @@ class QTable:
     matches: int  # matches played to the end
     random: int
     knobs: RecipeRecord
+    rest: RewardProgram  # of the reward, beside the weights among the knobs
 
 
 @record
@@ -51,9 +55,10 @@ class LearnerMind:
     begun: int  # 0 before the first decision of a match
     state: int  # state at the last decision
     move: int  # move chosen then
-    reward: float  # immediate reward of that move
+    seen: Annotated[list[float], len(QUANTITIES)]  # what its reward depends on
     random: int  # generator of a player; learners use the generator of their table
     reflex: Reflex
+    odds: Annotated[list[float], ACTIONS]  # of the moves at the last decision
 
 
 @kernel
@@ -67,16 +72,21 @@ def max_value(table: QTable, state: int) -> float:
 
 
 @kernel
-def sample_move(table: QTable, state: int, heat: float, owner: Rng) -> int:
-    """Draw a move with probability proportional to exp((Q - max Q) / T), T = `heat`, by the generator of `owner`."""
+def sample_move(table: QTable, state: int, heat: float, owner: Rng, odds: list[float]) -> int:
+    """Draw a move with probability proportional to exp((Q - max Q) / T), T = `heat`, by the generator of `owner`.
+
+    `odds` receives these powers.
+    """
     first = state * ACTIONS
     highest = max_value(table, state)
     total = 0.0
-    for k in range(first, first + ACTIONS):
-        total += exp((table.q[k] - highest) / heat)
+    for a in range(ACTIONS):
+        power = (table.q[first + a] - highest) / heat
+        odds[a] = exp(power) if power > VANISHING else 0.0
+        total += odds[a]
     rest = uniform(owner) * total
     for a in range(ACTIONS):
-        rest -= exp((table.q[first + a] - highest) / heat)
+        rest -= odds[a]
         if rest < 0.0:
             return a
     return ACTIONS - 1
@@ -86,6 +96,16 @@ def sample_move(table: QTable, state: int, heat: float, owner: Rng) -> int:
 def apply_move(action: Action, move: int) -> None:
     """Set stick and fire button to one of the 18 moves."""
     set_action(action, float(move // 6 - 1), float(move // 2 % 3 - 1), move % 2, 0)
+
+
+def set_recipe(table: Any, recipe: Recipe) -> None:
+    """Let a table be learned by a recipe from now on. `table`: a plain or NumPy record."""
+    plain = isinstance(table, QTable)
+    knobs = table.knobs if plain else table["knobs"]
+    for field in fields_of(RecipeRecord):
+        knobs[field.name] = field.kind(getattr(recipe, field.name))
+    rest = program_of(recipe.rest, QUANTITIES)
+    table["rest"] = rest if plain else packed([rest])[0]
 
 
 def move_probabilities(table: QTable, state: int, heat: float) -> list[float]:
@@ -105,7 +125,7 @@ def think(match: PiTanks, seat: int, mind: LearnerMind, weights: QTable) -> None
     opponent = nearest_opponent(match, seat)
     if opponent >= 0 and not act_on_reflex(match, seat, opponent, mind, weights.knobs.period):
         mind.state = situation(match, seat, opponent, weights.knobs.incoming)
-        mind.move = sample_move(weights, mind.state, weights.knobs.cold, mind)
+        mind.move = sample_move(weights, mind.state, weights.knobs.cold, mind, mind.odds)
         apply_move(match.actions[seat], mind.move)
 
 

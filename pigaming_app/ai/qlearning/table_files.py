@@ -13,7 +13,7 @@ from pigaming_app.ai.brain.archive import BrainFileError, pack, unpack, verify
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.qlearning.features import STATES
 from pigaming_app.ai.qlearning.recipe import Recipe
-from pigaming_app.ai.qlearning.table import ACTIONS, PAIRS, Learned, QTable, player
+from pigaming_app.ai.qlearning.table import ACTIONS, PAIRS, Learned, QTable, player, set_recipe
 from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.setup import MAX_MINUTES, MIN_MINUTES
 from pigaming_app.sim.record import dtype
@@ -116,12 +116,11 @@ def _trained(head: dict[str, Any], q: Any, n: Any) -> Trained:
     rows["q"], rows["n"] = q, n
     try:
         trained = typed({**head, "rows": rows}, Trained)
-        if head["recipe"].keys() != {field.name for field in fields(Recipe)}:
+        if {*head["recipe"], "rest"} != {field.name for field in fields(Recipe)}:
             raise TableError("its recipe is of another version")
         for key in COUNTS:
             rows[key] = typed(head.get(key), int)
-        for key, value in asdict(trained.recipe).items():
-            rows["knobs"][key] = value
+        set_recipe(rows[0], trained.recipe)
     except (ParseError, OverflowError) as error:
         raise TableError(f"its head: {error}") from None
     if trained.matches < 0:

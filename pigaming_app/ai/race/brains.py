@@ -8,12 +8,12 @@ boxes and oil later. The network alone is `net`.
 
 from functools import partial
 
-from pigaming_app.ai.brain.driving import point_where_to_go, turn_and_drive
+from pigaming_app.ai.brain.driving import helped, point_where_to_go, turn_and_drive
 from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT, TURN, GameAI
 from pigaming_app.ai.game_ai import LEVELS as NAMES
 from pigaming_app.ai.networks.files import shipped_brain
 from pigaming_app.ai.race.racer import HAND1, HAND2, HAND3, Driver, lead, person, racer
-from pigaming_app.ai.race.steering_help import with_help
+from pigaming_app.ai.race.steering_help import helped_stick
 
 NETWORK = "race"  # in assets/brains
 driver = partial(Driver, form=0.15, spell=0.45, boost=0.15, reaction=(5, 30), care=0.03)
@@ -37,8 +37,8 @@ AI = GameAI(
     driving={
         TURN: turn_and_drive,
         POINT: point_where_to_go,
-        HELPED_TURN: with_help(turn_and_drive),
-        HELPED_POINT: with_help(point_where_to_go),
+        HELPED_TURN: helped(turn_and_drive, helped_stick),
+        HELPED_POINT: helped(point_where_to_go, helped_stick),
         ONE_BUTTON: turn_and_drive,
     },
     boosts=True,

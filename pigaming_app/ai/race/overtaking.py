@@ -10,9 +10,8 @@ from typing import Protocol
 
 from pigaming_app.games.race.observation import OTHERS, RaceObservation
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS
 
-CLEAR = 2.0 * RADIUS + 2.0  # px between the centres of two passing robots
+CLEAR = 2.0  # px between two passing robots
 EDGE = 2.0  # px between a lane and the edge of the course
 LANES = 9  # candidate lanes from one edge to the other
 OWN, STEADY = 0.08, 0.1  # cost per px of leaving its own line, and of leaving the present lane
@@ -39,6 +38,7 @@ class Overtaker(Protocol):
     lane: float
     foresight: float
     alert: float
+    clear: float
 
 
 @kernel
@@ -67,20 +67,20 @@ def lane_cost(obs: RaceObservation, mind: Overtaker, lane: float) -> float:
     passing = eagerness(obs)
     for i in range(OTHERS):
         other = obs.others[i]
-        if not other.present or other.ahead < -CLEAR or other.distance > FAR:
+        if not other.present or other.ahead < -mind.clear or other.distance > FAR:
             continue
         gap = abs(other.aside - lane)
-        if other.ahead < CLEAR:
+        if other.ahead < mind.clear:
             if (other.aside - obs.aside) * (other.aside - lane) < 0.0:
                 cost += 400.0  # the lane lies on the far side of a robot alongside
-            if gap < CLEAR:
-                cost += 3.0 * (CLEAR - gap)
-        elif gap < CLEAR:
+            if gap < mind.clear:
+                cost += 3.0 * (mind.clear - gap)
+        elif gap < mind.clear:
             closing = mind.speed * obs.speed - other.speed
-            if other.speed < SLOW * obs.speed and other.distance - CLEAR < SOON * closing:
-                cost += 150.0 * (1.0 + (CLEAR - gap) / CLEAR)
+            if other.speed < SLOW * obs.speed and other.distance - mind.clear < SOON * closing:
+                cost += 150.0 * (1.0 + (mind.clear - gap) / mind.clear)
             elif passing > 0.0 and other.distance < PULL_OUT:
-                cost += passing * (1.0 - gap / CLEAR)
+                cost += passing * (1.0 - gap / mind.clear)
     return cost
 
 
@@ -118,7 +118,7 @@ def feature_cost(obs: RaceObservation, mind: Overtaker, lane: float) -> float:
     if obs.turbo < CHARGED:
         for i in range(OTHERS):
             other = obs.others[i]
-            ahead = other.present and CLEAR < other.ahead < TOW_REACH and other.speed > SLOW * obs.speed
+            ahead = other.present and mind.clear < other.ahead < TOW_REACH and other.speed > SLOW * obs.speed
             if ahead and abs(other.aside - lane) < LEEWAY:
                 cost -= TOW
     return cost
@@ -131,8 +131,8 @@ def leader_speed(obs: RaceObservation, mind: Overtaker) -> float:
     tail = 0.0 if obs.boosts else TAIL
     for i in range(OTHERS):
         other = obs.others[i]
-        near = other.present and other.ahead > 15.0 and other.distance < CLEAR + tail
-        if near and other.speed > 100.0 and abs(other.aside - mind.lane) < CLEAR - LEEWAY:
+        near = other.present and other.ahead > 15.0 and other.distance < mind.clear + tail
+        if near and other.speed > 100.0 and abs(other.aside - mind.lane) < mind.clear - LEEWAY:
             limit = 0.98 * other.speed / obs.speed
             share = limit if limit < share else share
     return share

@@ -26,7 +26,7 @@ from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
 from pigaming_app.sim.rng import bell, seeded, uniform
-from pigaming_app.sim.world import HZ, ROBOTS, Action
+from pigaming_app.sim.world import HZ, RADIUS, ROBOTS, Action
 
 PERIOD = 5  # ticks between decisions: 10 Hz, one seat after the other
 LOOK = 115.0  # lookahead along the course, px
@@ -84,6 +84,7 @@ class RacerMind:
     stuck_ticks: int  # ticks since then
     escape: float  # forward stick while backing out
     escape_turn: float  # turn stick then
+    clear: float = 2.0 * RADIUS + CLEAR  # px between the centres of two passing robots
 
 
 @kernel
@@ -91,6 +92,7 @@ def think(match: Race, seat: int, mind: RacerMind, weights: NoWeights) -> None:
     """Observe and decide every PERIOD ticks; the action holds in between."""
     if (match.tick + seat) % PERIOD or match.tick < mind.reaction:
         return
+    mind.clear = 2.0 * match.radius + CLEAR
     observe(match, seat, mind.senses, mind.obs)
     act(mind.obs, mind, match.actions[seat])
 
@@ -222,7 +224,7 @@ def wants_item(obs: RaceObservation, mind: RacerMind) -> int:
     low, high = CHASE
     for i in range(OTHERS):
         other = obs.others[i]
-        if other.present and low < -other.ahead < high and abs(other.aside - obs.aside) < CLEAR:
+        if other.present and low < -other.ahead < high and abs(other.aside - obs.aside) < mind.clear:
             return 1
     return 0
 
@@ -283,7 +285,7 @@ def wants_turbo(obs: RaceObservation, mind: RacerMind, bend: float) -> int:
         return 0
     for i in range(OTHERS):
         other = obs.others[i]
-        beside = obs.boosts and abs(other.aside - mind.lane) > CLEAR - LEEWAY
+        beside = obs.boosts and abs(other.aside - mind.lane) > mind.clear - LEEWAY
         if other.present and other.ahead > 0.0 and other.distance < SAVE and not beside:
             return 0
     return 1 if obs.boosting or obs.turbo > mind.boost else 0

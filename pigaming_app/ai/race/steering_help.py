@@ -9,7 +9,6 @@ to a missed line is never changed.
 
 from math import atan2, cos, sin, sqrt
 
-from pigaming_app.ai.brain.driving import Controller, Driving
 from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.observation import TrackPoint, observe_mark
 from pigaming_app.games.race.state import Race
@@ -28,15 +27,6 @@ ROLL = 1.0  # forward stick of a turn along the course
 COAST, ROLLING = 0.5, 0.15  # forward stick of reverse along it, and share of full speed from which a robot rolls
 BACK = 0.3  # share of the reverse stick of a robot that stands there
 TURNED = 1.75  # rad between robot and course above which a person is turning round and is left alone
-
-
-def with_help(driving: Driving) -> Driving:
-    """A driving style with steering help in the race."""
-
-    def helped(state: Race, seat: int, stick: Controller) -> tuple[float, float]:
-        return helped_stick(state, seat, *driving(state, seat, stick))
-
-    return helped
 
 
 def helped_stick(match: Race, seat: int, linear: float, angular: float) -> tuple[float, float]:

@@ -5,7 +5,6 @@ from itertools import combinations
 from math import hypot
 
 from pigaming_app.sim.arena import Layout, WallSpec, start_faults
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
@@ -19,11 +18,11 @@ def layout_faults(layout: Layout) -> Iterator[FieldError]:
     Raises FieldError if its things do not fit.
     """
     yield from start_faults(layout)
-    yield from narrow_gaps(layout.walls)
+    yield from narrow_gaps(layout.walls, layout.radius)
 
 
-def narrow_gaps(walls: Sequence[WallSpec], names: Sequence[str] = ()) -> Iterator[FieldError]:
-    """The gaps through which no robot fits. Pockets of walls that touch, or touch a third one, are not gaps.
+def narrow_gaps(walls: Sequence[WallSpec], radius: float, names: Sequence[str] = ()) -> Iterator[FieldError]:
+    """The gaps too narrow for robots of a radius, px. Pockets of walls that touch, or touch a third one, are not gaps.
 
     `names`: of the walls in messages, if they are not all of the file in its order.
     """
@@ -35,11 +34,11 @@ def narrow_gaps(walls: Sequence[WallSpec], names: Sequence[str] = ()) -> Iterato
             joined[i].add(j)
             joined[j].add(i)
     for (i, j), (gap, x, y) in between.items():
-        if TOUCHING < gap < 2 * RADIUS and not joined[i] & joined[j]:
+        if TOUCHING < gap < 2 * radius and not joined[i] & joined[j]:
             yield _narrow(names[j], names[i], (x, y, gap))
     for i, wall in enumerate(walls):
         for gap, x, y in _to_rim(wall):
-            if TOUCHING < gap < 2 * RADIUS:
+            if TOUCHING < gap < 2 * radius:
                 yield _narrow(names[i], "the rim of the arena", (x, y, gap))
 
 

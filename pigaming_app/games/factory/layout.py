@@ -33,7 +33,7 @@ from pigaming_app.games.factory.state import (
     ENTRY,
     EXIT,
     FIRE,
-    FORK,
+    HOLD,
     ICE,
     INPUT,
     MACHINES,
@@ -50,13 +50,21 @@ from pigaming_app.games.factory.state import (
     B,
 )
 from pigaming_app.games.starts import clear_starts, free_place
-from pigaming_app.sim.arena import Arena, Layout, WallSpec, build, raise_first, read_starts, read_walls, start_faults
+from pigaming_app.sim.arena import (
+    Layout,
+    WallSpec,
+    raise_first,
+    read_radius,
+    read_starts,
+    read_walls,
+    start_faults,
+)
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import Route, expand, free_node
 from pigaming_app.sim.things.cover import from_capsule
 from pigaming_app.sim.things.spec import read_things, wall_capsules
 from pigaming_app.sim.toml_table import FieldError, TomlTable
-from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, SOLID, WALLS, WIDTH, World
+from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, SOLID, WALLS, WIDTH
 
 WAYS = {"right": (1, 0), "left": (-1, 0), "down": (0, 1), "up": (0, -1)}
 TEAM_NAMES = {"ice": ICE, "fire": FIRE}
@@ -125,14 +133,14 @@ def faults(table: TomlTable) -> Iterator[FieldError]:
         yield from _reach_faults(layout, floor)
         bodies = [f"machine[{m + 1}]" for m in range(MACHINES) for _ in range(2)]
         walls = [f"wall[{i + 1}]" for i in range(len(layout.walls) - len(bodies))]
-        yield from narrow_gaps(layout.walls, [*bodies, *walls])
+        yield from narrow_gaps(layout.walls, layout.radius, [*bodies, *walls])
     except FieldError as fault:
         yield fault
 
 
 def _parsed(table: TomlTable) -> tuple[Layout, Floor]:
     """A floor on which some places may be out of reach. Raises FieldError."""
-    table.only("title", "start", "aisle", "warehouse", "machine", "worker", "shared", "wall", "thing")
+    table.only("title", "start", "aisle", "warehouse", "machine", "worker", "shared", "wall", "thing", "robots")
     starts = read_starts(table)
     machines = tuple(_machine(entry) for entry in table.tables("machine"))
     if sorted(machine.kind for machine in machines) != [A, A, B, B]:
@@ -143,7 +151,7 @@ def _parsed(table: TomlTable) -> tuple[Layout, Floor]:
     slots = (*_shelves(table), *_machine_slots(machines), *_shared_slots(table))
     bodies = tuple(wall for machine in machines for wall in _body(machine))
     walls = tuple(replace(wall, health=SOLID) for wall in read_walls(table))
-    layout = Layout((*bodies, *walls), starts, things=read_things(table))
+    layout = Layout((*bodies, *walls), starts, things=read_things(table), radius=read_radius(table))
     if layout.things:
         layout = replace(layout, starts=clear_starts(layout))
         machines, homes = _beside_things(layout, machines, homes)
@@ -228,8 +236,7 @@ def _beside_things(
     layout: Layout, machines: tuple[MachineSpec, ...], homes: tuple[tuple[float, float], ...]
 ) -> tuple[tuple[MachineSpec, ...], tuple[tuple[float, float], ...]]:
     """Machines whose workers stand on the free side, and resting places, both clear of things. Raises FieldError."""
-    world = World()
-    build(world, Arena("", {}, layout.walls, layout.starts, "", things=layout.things))
+    world = layout.built()
     sides = []
     for spec in machines:
         other = replace(spec, spot_x=2 * spec.x - spec.spot_x, spot_y=2 * spec.y - spec.spot_y)
@@ -248,14 +255,14 @@ def _check_slots(layout: Layout, slots: tuple[SlotSpec, ...]) -> None:
 
 def _reach_faults(layout: Layout, floor: Floor) -> Iterator[FieldError]:
     """Slots that no robot can reach or that overlap, and machines and resting places that no person can get to."""
-    world = World()
-    build(world, Arena("", {}, layout.walls, layout.starts, "", floor, layout.things))
+    world = layout.built()
     field = Route()
     expand(world, field, free_node(world, layout.starts[0].x, layout.starts[0].y), -1)
+    fork = layout.radius + HOLD
     free = [(node % COLUMNS * CELL, node // COLUMNS * CELL) for node in range(NODES) if field.reach[node]]
     for k, slot in enumerate(floor.slots):
         at = slot.x, slot.y, PALLET
-        if not any(FORK - REACH < sqrt((x - slot.x) ** 2 + (y - slot.y) ** 2) < FORK + REACH for x, y in free):
+        if not any(fork - REACH < sqrt((x - slot.x) ** 2 + (y - slot.y) ** 2) < fork + REACH for x, y in free):
             yield FieldError(_name(k, slot), f"no robot can reach its slot at ({slot.x:g}, {slot.y:g})", at)
         for other in floor.slots[:k]:
             if abs(slot.x - other.x) < 68 and abs(slot.y - other.y) < 68:

@@ -10,7 +10,6 @@ from pigaming_app.sim.angles import turn_to, wrap
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import free_node, update_route
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import CELL, DT, HZ, ROBOTS, Robot
 
 ARRIVED = 6.0  # px from the goal within which a walker has arrived
@@ -142,9 +141,8 @@ def in_the_way(world: Factory, walker: Worker, x: float, y: float, radius: float
         if not (-MAX_RANGE < dx < MAX_RANGE and -MAX_RANGE < dy < MAX_RANGE):
             continue
         motion = world.motions[k]
-        samples, reach = (
-            (3, RADIUS + radius + MOVING_CLEARANCE) if is_driving(motion) else (1, RADIUS + radius + RESTING_CLEARANCE)
-        )
+        samples, reach = (3, MOVING_CLEARANCE) if is_driving(motion) else (1, RESTING_CLEARANCE)
+        reach = world.radius + radius + reach
         for half in range(samples):
             ahead = 0.5 * half * LOOKAHEAD
             rx, ry = robot.x + ahead * motion.vx, robot.y + ahead * motion.vy

@@ -38,7 +38,7 @@ from pigaming_app.games.factory.state import (
 )
 from pigaming_app.games.factory.workers import fits, run_machines_and_workers
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS, stop, stop_all, use_turbo
+from pigaming_app.sim.robot import stop, stop_all, use_turbo
 from pigaming_app.sim.things.mud import SLOW, in_mud
 from pigaming_app.sim.world import ROBOTS
 
@@ -234,7 +234,7 @@ def check_people(match: Factory, k: int) -> None:
     robot, load, rules = match.robots[k], match.loads[k], match.rules
     if load.frozen:
         load.frozen -= 1
-    reach = RADIUS + rules.worker_radius
+    reach = match.radius + rules.worker_radius
     for w in range(WORKERS):
         worker = match.workers[w]
         dx, dy = robot.x - worker.x, robot.y - worker.y

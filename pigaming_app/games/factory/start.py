@@ -9,6 +9,7 @@ from pigaming_app.games.factory.pedestrians import send
 from pigaming_app.games.factory.stars import THREE_STARS, TWO_STARS, expected_time
 from pigaming_app.games.factory.state import (
     FIRE,
+    HOLD,
     ICE,
     MAX_PALLETS,
     NOBODY,
@@ -51,6 +52,7 @@ def start(match: Factory, arena: Arena, setup: Setup) -> None:
     seat_robots(match, arena, setup, dealt if allies else dealt_to_ends)
     floor = floor_of(match, arena)
     set_rules(match.rules, setup)
+    match.rules.fork = arena.radius + HOLD
     if match.rules.allies:
         expected = expected_time(floor, sum(robot.present for robot in match.robots), match.rules.pallets)
         match.rules.three_stars, match.rules.two_stars = (

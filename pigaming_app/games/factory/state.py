@@ -9,7 +9,7 @@ from typing import Annotated
 from pigaming_app.games.simple import MatchRules, MatchState
 from pigaming_app.sim.flow_field import Route
 from pigaming_app.sim.record import record
-from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.sim.world import HZ, RADIUS, ROBOTS
 
 ICE, FIRE = 0, 1  # the teams
 TEAMS = 2
@@ -32,7 +32,8 @@ SHARED_SLOTS = MACHINE_SLOTS + 2 * MACHINES
 MAX_SHARED = 4
 SLOTS = SHARED_SLOTS + MAX_SHARED
 NOBODY = -1  # team of a loose pallet, and of a slot that belongs to neither team
-FORK, REACH = 64.0, 40.0  # px from a robot's centre to its fork, and from there to a slot
+HOLD, REACH = 28.0, 40.0  # px from a robot's hull to its fork, and from there to a slot
+FORK = RADIUS + HOLD  # px from a robot's centre to its fork
 
 
 @record

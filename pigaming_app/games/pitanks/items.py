@@ -5,7 +5,6 @@ from pigaming_app.games.pitanks.state import MINES, OWN_MINES, PICKUPS, POWERS, 
 from pigaming_app.sim.grid import BLOCKED
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import uniform
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import CELL, COLUMNS, ROBOTS, ROWS
 
 KINDS = len(POWERS)
@@ -28,7 +27,7 @@ def lay_mine(match: PiTanks, k: int) -> int:
 def update_mines(match: PiTanks) -> None:
     """One tick of all mines: they arm, explode under an opponent, and expire."""
     rules = match.rules
-    reach = RADIUS + rules.mine_radius
+    reach = match.radius + rules.mine_radius
     for i in range(MINES):
         mine = match.mines[i]
         if not mine.alive:
@@ -52,7 +51,7 @@ def update_mines(match: PiTanks) -> None:
 def update_pickups(match: PiTanks) -> None:
     """One tick of all pick-ups: they appear, are collected by touch, and expire."""
     rules = match.rules
-    reach = RADIUS + rules.pickup_reach
+    reach = match.radius + rules.pickup_reach
     match.next_pickup -= 1
     if match.next_pickup <= 0:
         match.next_pickup = rules.pickup_every

@@ -14,7 +14,6 @@ from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.grid import BLOCKED, node_at
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH, Robot
 
@@ -189,7 +188,7 @@ def observe_cover(match: PiTanks, robot: Robot, from_x: float, from_y: float, ob
         length = sqrt(ex * ex + ey * ey)
         if length < 1.0:
             continue
-        gap = wall.half + RADIUS + BESIDE
+        gap = wall.half + match.radius + BESIDE
         nx, ny = -ey / length * gap, ex / length * gap
         if nx * (mx - from_x) + ny * (my - from_y) < 0.0:
             nx, ny = -nx, -ny
@@ -198,8 +197,8 @@ def observe_cover(match: PiTanks, robot: Robot, from_x: float, from_y: float, ob
         distance2 = dx * dx + dy * dy
         if (
             distance2 < nearest2
-            and RADIUS < x < WIDTH - RADIUS
-            and RADIUS < y < HEIGHT - RADIUS
+            and match.radius < x < WIDTH - match.radius
+            and match.radius < y < HEIGHT - match.radius
             and not match.grid[node_at(x, y)] & BLOCKED
         ):
             nearest2 = distance2
@@ -213,7 +212,7 @@ def observe_threat(match: PiTanks, seat: int, robot: Robot, delay: float, obs: P
     """Fill in the first bullet that would hit if nobody moved; those fired less than `delay` ago are not visible."""
     first, first_side, at = 9.0, 0.0, -1
     x, y, speed = robot.x, robot.y, match.rules.bullet_speed
-    reach, speed2 = RADIUS + match.rules.bullet_radius, speed * speed
+    reach, speed2 = match.radius + match.rules.bullet_radius, speed * speed
     for k in range(ROBOTS):
         owner = match.robots[k]
         if not owner.present or owner.team == robot.team:

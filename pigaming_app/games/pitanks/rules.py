@@ -35,7 +35,7 @@ from pigaming_app.games.pitanks.state import (
 )
 from pigaming_app.sim.grid import NEAR_UNIT, node_at, wall_on_grid
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS, stop, stop_all, use_turbo
+from pigaming_app.sim.robot import stop, stop_all, use_turbo
 from pigaming_app.sim.sweep import ROUNDING, bounds_contact, disc_contact, offset_from_wall, wall_contact
 from pigaming_app.sim.things.mud import SLOW, in_mud
 from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH, Wall
@@ -186,7 +186,7 @@ def move_bullet(match: PiTanks, k: int, bullet: Bullet, seconds: float) -> None:
     left, right = (x, x + dx) if dx > 0.0 else (x + dx, x)
     top, bottom = (y, y + dy) if dy > 0.0 else (y + dy, y)
     if bullet.fresh or match.grid[node_at(x, y)] >= NEAR_UNIT:
-        slack = RADIUS - radius - ROUNDING  # the walls' bounding boxes include RADIUS
+        slack = match.radius - radius - ROUNDING  # the walls' bounding boxes include a robot's radius
         west, east, north, south = left + slack, right - slack, top + slack, bottom - slack
         for i in range(match.wall_count):
             wall = match.walls[i]
@@ -194,7 +194,7 @@ def move_bullet(match: PiTanks, k: int, bullet: Bullet, seconds: float) -> None:
                 t = wall_contact(x, y, dx, dy, wall, radius)
                 if t < first and (t > 0.0 or moves_into(wall, x, y, dx, dy)):
                     first, struck = t, -1 - i
-    reach = RADIUS + radius
+    reach = match.radius + radius
     for j in range(ROBOTS):
         robot = match.robots[j]
         if (

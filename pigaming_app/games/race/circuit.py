@@ -82,6 +82,15 @@ def course_faults(course: Course) -> Iterator[FieldError]:
         yield from _index_nodes(course)
 
 
+def width_faults(course: Course, radius: float) -> Iterator[FieldError]:
+    """The first place where a course is too narrow, or too near to the rim, for robots of this radius, px."""
+    for x, y, half in zip(course.xs, course.ys, course.half, strict=True):
+        if min(half, x, y, WIDTH - x, HEIGHT - y) < radius:
+            reason = f"no robot of {2 * radius:.0f} px fits on the course at ({x:.0f}, {y:.0f})"
+            yield FieldError("robots.radius", reason, (x, y, half))
+            return
+
+
 def _corner(entry: TomlTable) -> Corner:
     entry.only("at", "radius", "width")
     x, y = entry.point("at")

@@ -21,15 +21,15 @@ from pigaming_app.games.race.passages import Span
 from pigaming_app.games.race.state import BOXES, PADS
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.arena import StartPose
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.things.spec import ThingSpec, Use
 from pigaming_app.sim.toml_table import FieldError
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import RADIUS, ROBOTS
 
 BEHIND = 55.0  # px between a robot's start and its line
 ROW, FARTHEST_ROW = 110, 300  # px between the rows of the grid: on a straight, and the limit in bends
-COLUMN = 46.0  # px from the middle of the course to either column
+COLUMN = 46.0  # px from the middle of the course to either column; farther for wider robots
 SPACE = 6.0  # px, least gap between robots on the grid; virtual walls of real robots need 4
+WIDE_SPACE = 24.0  # px, that of robots that are wide on their surface, which drive to their places one by one
 STEP_BACK = 10  # px between tried places on the grid
 PAD_RUN = 300.0  # px of straight wanted after a pad
 PAD_ASIDE, BOX_ASIDE = 0.4, 0.5  # of half the width
@@ -85,37 +85,42 @@ def common_line(course: Course, lines: Sequence[float]) -> int:
     return bends.index(min(bends))
 
 
-def grid(course: Course, line: float, spans: Sequence[Span] = ()) -> tuple[StartPose, ...]:
+def grid(course: Course, line: float, spans: Sequence[Span] = (), radius: float = RADIUS) -> tuple[StartPose, ...]:
     """Four start poses in two rows behind a line at `line` px; the rows are as far apart as a bend requires.
 
-    Where things stand, each is the next place behind the line, in its column, where robots can pass.
+    Where things stand, or robots are wider than usual, each is the next place behind the line, in its column, where
+    robots can pass. Raises FieldError if there is no room.
     """
-    if spans:
-        return _grid_beside(course, line, spans)
+    if spans or radius > RADIUS:
+        return _grid_beside(course, line, spans, radius)
     poses: list[StartPose] = []
     for row in range(ROW, FARTHEST_ROW, 10):
         poses = []
         for place in range(ROBOTS):
             along = line - BEHIND - row * (place // 2)
-            aside = min(COLUMN, half_width_at(course, *segment_at(course, along)) - RADIUS)
+            aside = min(COLUMN + radius - RADIUS, half_width_at(course, *segment_at(course, along)) - radius)
             poses.append(pose_at(course, along, aside if place % 2 else -aside))
-        if min(hypot(a.x - b.x, a.y - b.y) for a in poses[:2] for b in poses[2:]) >= 2 * RADIUS + SPACE:
+        if min(hypot(a.x - b.x, a.y - b.y) for a in poses[:2] for b in poses[2:]) >= 2 * radius + SPACE:
             break
     return tuple(poses)
 
 
-def _grid_beside(course: Course, line: float, spans: Sequence[Span]) -> tuple[StartPose, ...]:
-    """Four start poses behind a line, beside things. Raises FieldError if there is no room within half a lap."""
+def _grid_beside(course: Course, line: float, spans: Sequence[Span], radius: float) -> tuple[StartPose, ...]:
+    """Four start poses behind a line, each as near to it as others and things allow.
+
+    Raises FieldError if there is no room within half a lap.
+    """
     poses: list[StartPose] = []
+    apart = 2 * radius + (WIDE_SPACE if radius > RADIUS else SPACE)
     for back in range(round(BEHIND), round(course.length / 2), STEP_BACK):
         half = half_width_at(course, *segment_at(course, line - back))
         for side in (-1.0, 1.0):
-            pose = clear_pose(course, line - back, side * min(COLUMN, half - RADIUS), spans)
-            free = all(hypot(pose.x - other.x, pose.y - other.y) >= 2 * RADIUS + SPACE for other in poses)
+            pose = clear_pose(course, line - back, side * min(COLUMN + radius - RADIUS, half - radius), spans)
+            free = all(hypot(pose.x - other.x, pose.y - other.y) >= apart for other in poses)
             if free and len(poses) < ROBOTS:
                 poses.append(pose)
     if len(poses) < ROBOTS:
-        raise FieldError("thing", "no room for four robots behind the line")
+        raise FieldError("thing" if spans else "robots.radius", "no room for four robots behind the line")
     return tuple(poses)
 
 

@@ -13,7 +13,6 @@ from math import cos, sin
 from pigaming_app.games.race.state import BOXES, NO_ITEM, OIL, OWN_OILS, PAD_HALF, SHIELD, TURBO, Box, Race
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import uniform
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import ROBOTS
 
 BOX = 20.0  # px, half the width of an item box
@@ -63,7 +62,7 @@ def update_box(match: Race, box: Box) -> None:
     if box.pause:
         box.pause -= 1
         return
-    nearest2, taker = (RADIUS + BOX) * (RADIUS + BOX), -1
+    nearest2, taker = (match.radius + BOX) * (match.radius + BOX), -1
     for k in range(ROBOTS):
         robot, racer = match.robots[k], match.racers[k]
         dx, dy = robot.x - box.x, robot.y - box.y

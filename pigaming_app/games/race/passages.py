@@ -10,13 +10,11 @@ from math import hypot
 from pigaming_app.games.race.course import POINTS, Course, CoursePosition, locate, segment_at
 from pigaming_app.games.race.state import Race
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.things.cover import CoverPart, from_capsule
 from pigaming_app.sim.toml_table import FieldError
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 
 SPARE = 6.0  # px between a robot that passes and a thing; virtual walls of real robots need 4
-WALL = RADIUS + SPARE  # px between the centre of a robot and the outer walls
 STEP = 3.0  # px between tried offsets
 NARROW = 60.0  # px, a gap of this width costs as much as a detour of NARROW px
 BESIDE = 90.0  # px from the edge of the course, within which robots in the mud drive along it, past a thing if need be
@@ -44,21 +42,26 @@ def in_passage(match: Race, place: CoursePosition) -> bool:
     if not match.narrow:
         return False
     k, _ = segment_at(match.course, place.along)
-    low: float = match.low[k] - RADIUS
-    high: float = match.high[k] + RADIUS
+    low: float = match.low[k] - match.radius
+    high: float = match.high[k] + match.radius
     return bool(low <= place.aside <= high)
 
 
 def passages(
-    course: Course, capsules: Sequence[CoverPart], ideal: Sequence[float], lines: Sequence[float]
+    course: Course,
+    capsules: Sequence[CoverPart],
+    ideal: Sequence[float],
+    lines: Sequence[float],
+    radius: float = RADIUS,
 ) -> tuple[Span, ...]:
     """The interval of offsets at each point of the course in which robots can pass.
 
-    `ideal`: offsets of the fastest line; `lines`: px along the course, where robots must stay on it.
+    `ideal`: offsets of the fastest line; `lines`: px along the course, where robots must stay on it; `radius`: theirs,
+    px.
 
     Raises FieldError if they cannot pass somewhere.
     """
-    gaps = [_gaps(course, k, capsules, _beside(course, k, lines)) for k in range(POINTS)]
+    gaps = [_gaps(course, k, capsules, _beside(course, k, lines), radius + SPARE) for k in range(POINTS)]
     for k, some in enumerate(gaps):
         if not some:
             raise _blocked(course, k)
@@ -97,11 +100,11 @@ def _on_course(gap: Span, half: float) -> Span:
     return (low, high) if low <= high else gap
 
 
-def _gaps(course: Course, k: int, capsules: Sequence[CoverPart], beside: float) -> list[Span]:
-    """The intervals of offsets at a point, up to `beside` px beside the course, at which a robot touches nothing."""
+def _gaps(course: Course, k: int, capsules: Sequence[CoverPart], beside: float, room: float) -> list[Span]:
+    """The intervals of offsets at a point, up to `beside` px beside the course, at least `room` px from everything."""
     x, y, half = course.xs[k], course.ys[k], course.half[k]
     reach, place = half + beside, CoursePosition()
-    near = [one for one in capsules if from_capsule(one, x, y) < reach + RADIUS + SPARE]
+    near = [one for one in capsules if from_capsule(one, x, y) < reach + room]
     if not near:
         return [(-half, half)]
     after = (k + 1) % POINTS
@@ -113,11 +116,11 @@ def _gaps(course: Course, k: int, capsules: Sequence[CoverPart], beside: float) 
     for i in range(count + 1):
         aside = -reach + i * STEP
         px, py = x + aside * right_x, y + aside * right_y
-        free = WALL <= px <= WIDTH - WALL and WALL <= py <= HEIGHT - WALL
+        free = room <= px <= WIDTH - room and room <= py <= HEIGHT - room
         if free and abs(aside) > half:  # not on another stretch of the course
             locate(course, px, py, place)
             free = not place.on
-        free = free and all(from_capsule(one, px, py) >= RADIUS + SPARE for one in near)
+        free = free and all(from_capsule(one, px, py) >= room for one in near)
         if free and begin is None:
             begin = aside
         elif not free and begin is not None:

@@ -12,12 +12,11 @@ from math import atan2, hypot, sqrt
 
 from pigaming_app.games.race.course import POINTS, Course
 from pigaming_app.games.race.passages import Span, passages
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.things.cover import CoverPart
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 
 MARGIN = 3.0  # px between the line and the edges
-WALL = RADIUS + 6.0  # px between the line and the outer walls
+WALL = 6.0  # px between a robot on the line and the outer walls
 LEVELS = (  # course points per line point; widths of bumps, in points; heights, in px; limit on rounds
     (4, (8, 4, 2, 1), (32.0, 16.0, 8.0, 4.0, 2.0, 1.0), 6),
     (2, (8, 4, 2, 1), (4.0, 2.0, 1.0, 0.5), 6),
@@ -31,33 +30,40 @@ Line = tuple[tuple[float, ...], tuple[float, ...]]
 
 
 @lru_cache(maxsize=32)
-def fastest_line(course: Course, speed: float, turn_rate: float) -> Line:
+def fastest_line(course: Course, speed: float, turn_rate: float, radius: float = RADIUS) -> Line:
     """For each point of the course: offset of the line in px, positive to the right, and the share of full speed."""
-    return _search(course, speed, turn_rate, (), ())
+    return _search(course, speed, turn_rate, radius, (), ())
 
 
 @lru_cache(maxsize=32)
 def line_round(
-    course: Course, speed: float, turn_rate: float, capsules: tuple[CoverPart, ...], lines: tuple[float, ...]
+    course: Course,
+    speed: float,
+    turn_rate: float,
+    capsules: tuple[CoverPart, ...],
+    lines: tuple[float, ...],
+    radius: float = RADIUS,
 ) -> tuple[Line, tuple[Span, ...]]:
     """The fastest line that goes round things, and the passages that it takes; none if there are no things.
 
-    `lines`: px along the course, see `passages`.
+    `lines`: px along the course, see `passages`; `radius`: of robots, px.
 
     Raises FieldError if there is no way past them.
     """
-    line = fastest_line(course, speed, turn_rate)
+    line = fastest_line(course, speed, turn_rate, radius)
     if not capsules:
         return line, ()
-    spans = passages(course, capsules, line[0], lines)
-    return _search(course, speed, turn_rate, line[0], spans), spans
+    spans = passages(course, capsules, line[0], lines, radius)
+    return _search(course, speed, turn_rate, radius, line[0], spans), spans
 
 
-def _search(course: Course, speed: float, turn_rate: float, initial: Sequence[float], spans: Sequence[Span]) -> Line:
+def _search(
+    course: Course, speed: float, turn_rate: float, radius: float, initial: Sequence[float], spans: Sequence[Span]
+) -> Line:
     """The fastest line within `spans`, one for each point of the course; empty: within its edges."""
     band = list(initial[:: LEVELS[0][0]])
     for every, breadths, heights, rounds in LEVELS:
-        line = ElasticBand(course, every, speed, turn_rate, spans)
+        line = ElasticBand(course, every, speed, turn_rate, radius, spans)
         line.initialise(band)
         for _ in range(rounds):
             if sum(line.push(breadth, height) for breadth in breadths for height in heights) < MIN_GAIN:
@@ -69,11 +75,19 @@ def _search(course: Course, speed: float, turn_rate: float, initial: Sequence[fl
 class ElasticBand:
     """A line around the course, with a control point (post) at every `every`-th point of the course."""
 
-    def __init__(self, course: Course, every: int, speed: float, turn_rate: float, spans: Sequence[Span] = ()) -> None:
+    def __init__(
+        self,
+        course: Course,
+        every: int,
+        speed: float,
+        turn_rate: float,
+        radius: float = RADIUS,
+        spans: Sequence[Span] = (),
+    ) -> None:
         self.count = POINTS // every
         self.speed, self.turn_rate = speed, turn_rate
         self.posts = [_post(course, i * every) for i in range(self.count)]
-        self.room = [_room(course.half[i * every], post) for i, post in enumerate(self.posts)]
+        self.room = [_room(course.half[i * every], post, radius + WALL) for i, post in enumerate(self.posts)]
         if spans:
             near = [[spans[k % POINTS] for k in range((i - 1) * every, (i + 1) * every + 1)] for i in range(self.count)]
             self.room = [_within(room, some) for room, some in zip(self.room, near, strict=True)]
@@ -134,14 +148,14 @@ def _post(course: Course, i: int) -> tuple[float, float, float, float]:
     return course.xs[i], course.ys[i], -ey / way, ex / way
 
 
-def _room(half: float, post: tuple[float, float, float, float]) -> tuple[float, float]:
-    """Limits of the offset at a post, to the left and to the right, px."""
+def _room(half: float, post: tuple[float, float, float, float], wall: float) -> tuple[float, float]:
+    """Limits of the offset at a post, to the left and to the right, px. `wall`: between it and the outer walls."""
     x, y, right_x, right_y = post
     sides = []
     for side in (-1.0, 1.0):
         room = half - MARGIN
         while room > 0.0 and not (
-            WALL <= x + side * room * right_x <= WIDTH - WALL and WALL <= y + side * room * right_y <= HEIGHT - WALL
+            wall <= x + side * room * right_x <= WIDTH - wall and wall <= y + side * room * right_y <= HEIGHT - wall
         ):
             room -= 1.0
         sides.append(side * max(0.0, room))

@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from pigaming_app.games.game import ALONE, Setup, Variant
-from pigaming_app.games.race.circuit import examined, read_corners, read_course
+from pigaming_app.games.race.circuit import examined, read_corners, read_course, width_faults
 from pigaming_app.games.race.course import POINTS, Course, half_width_at, locate, point_at, segment_at
 from pigaming_app.games.race.furniture import (
     BEHIND,
@@ -38,7 +38,7 @@ from pigaming_app.games.race.passages import Span, passages
 from pigaming_app.games.race.racing_line import Line, line_round
 from pigaming_app.games.race.state import LINES, MAX_LAPS, Race, RaceRules, TimingLine
 from pigaming_app.games.starts import dealt, dealt_to_all
-from pigaming_app.sim.arena import Arena, Layout, StartPose, build
+from pigaming_app.sim.arena import Arena, Layout, StartPose, build, raise_first, read_radius, start_faults
 from pigaming_app.sim.record import copy
 from pigaming_app.sim.rng import seeded
 from pigaming_app.sim.things.cover import CoverPart
@@ -74,18 +74,18 @@ class TrackPlan:
 
 def read(table: TomlTable) -> Layout:
     """Parse a track: a course and four lines. Raises FieldError."""
-    table.only("title", "track", "corner", "thing")
-    course, things = read_course(table), read_things(table)
+    table.only("title", "track", "corner", "thing", "robots")
+    course, things, radius = read_course(table), read_things(table), read_radius(table)
+    raise_first(width_faults(course, radius))
     laps_of(table)
     lines = _lines(table.table("track"), course, taped(course, things))
     solid = tuple(wall_capsules(things, WALLS))
-    spans = line_round(course, RaceRules().speed, RaceRules().turn_rate, solid, lines)[1]
+    spans = line_round(course, RaceRules().speed, RaceRules().turn_rate, solid, lines, radius)[1]
     starts = tuple(clear_pose(course, line - BEHIND, 0.0, spans) for line in lines)
     common, pads = common_line(course, lines), place_pads(course, lines)
     boxes = place_boxes(course, lines, pads, spans)
-    return Layout(
-        (), starts, TrackPlan(course, lines, common, grid(course, lines[common], spans), pads, boxes, solid), things
-    )
+    plan = TrackPlan(course, lines, common, grid(course, lines[common], spans, radius), pads, boxes, solid)
+    return Layout((), starts, plan, things, radius=radius)
 
 
 def laps_of(table: TomlTable) -> int:
@@ -130,13 +130,18 @@ def _line_place(course: Course, share: float) -> tuple[float, float, float]:
 def faults(table: TomlTable) -> Iterator[FieldError]:
     """All that makes a track unplayable, as far as it can be found without the fastest line, which takes a second."""
     try:
-        table.only("title", "track", "corner", "thing")
+        table.only("title", "track", "corner", "thing", "robots")
         laps_of(table)
-        (course, found), things = examined(read_corners(table)), read_things(table)
+        (course, found), things, radius = examined(read_corners(table)), read_things(table), read_radius(table)
         yield from found
+        yield from width_faults(course, radius)
         lines = _lines(table.table("track"), course, taped(course, things) if not found else ())
         if solid := tuple(wall_capsules(things, WALLS)):
-            passages(course, solid, [0.0] * POINTS, lines)
+            passages(course, solid, [0.0] * POINTS, lines, radius)
+        elif not found:
+            starts = tuple(pose_at(course, line - BEHIND) for line in lines)
+            yield from start_faults(Layout((), starts, radius=radius))
+            grid(course, lines[common_line(course, lines)], (), radius)
     except FieldError as fault:
         yield fault
 
@@ -148,7 +153,7 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
     match.course = copy(track.course)
     match.random = seeded(setup.seed)
     set_rules(match.rules, setup)
-    _set_line(match, line_round(track.course, match.rules.speed, match.rules.turn_rate, track.solid, track.lines))
+    _set_line(match, _line_of(arena, match.rules, track.solid))
     for line, along in zip(match.lines, track.lines, strict=True):
         _place_line(line, match.course, along)
     for robot, seat in zip(match.robots, setup.seats, strict=True):
@@ -171,9 +176,14 @@ def start(match: Race, arena: Arena, setup: Setup) -> None:
 
 def reroute(arena: Arena, rules: RaceRules, things: tuple[ThingSpec, ...]) -> Callable[[Race], None]:
     """The fastest line round things that were moved; see `games.game.Reroute`. Raises FieldError."""
-    track: TrackPlan = arena.plan
-    found = line_round(track.course, rules.speed, rules.turn_rate, tuple(wall_capsules(things, WALLS)), track.lines)
+    found = _line_of(arena, rules, tuple(wall_capsules(things, WALLS)))
     return lambda match: _set_line(match, found)
+
+
+def _line_of(arena: Arena, rules: RaceRules, solid: tuple[CoverPart, ...]) -> tuple[Line, Sequence[Span]]:
+    """The fastest line on an arena, round things, and the passages beside them. Raises FieldError."""
+    track: TrackPlan = arena.plan
+    return line_round(track.course, rules.speed, rules.turn_rate, solid, track.lines, arena.radius)
 
 
 def _set_line(match: Race, found: tuple[Line, Sequence[Span]]) -> None:

@@ -9,8 +9,6 @@ from pigaming_app.hardware.calibration.boards import ARENA_AT, CANVAS
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.storage.messages import OperatorMessage
 
-WIDEST = 57.0  # px, radius: a wider body finds no way between walls and other robots in the first arena of every game
-
 
 @dataclass(frozen=True)
 class FloorSurface:
@@ -20,9 +18,9 @@ class FloorSurface:
     height: float
 
     @classmethod
-    def smallest(cls, radius: float) -> "FloorSurface":
-        """The smallest surface for robots of this radius, mm."""
-        return cls(CANVAS[0] * radius / WIDEST, CANVAS[1] * radius / WIDEST)
+    def smallest(cls, radius: float, widest: float) -> "FloorSurface":
+        """The smallest surface for robots of a radius, mm, where the `widest` that can play have that one, px."""
+        return cls(CANVAS[0] * radius / widest, CANVAS[1] * radius / widest)
 
     @property
     def mm(self) -> float:
@@ -41,9 +39,12 @@ class FloorSurface:
         return left + (ARENA_AT[0] + 0.5) * self.mm, top + (ARENA_AT[1] + 0.5) * self.mm
 
 
-def narrow_arena(width: float, radius: float) -> OperatorMessage | None:
-    """The message if an arena of this width is too small for robots of this radius, mm; else None."""
-    least = FloorSurface.smallest(radius).field[0]
+def narrow_arena(width: float, radius: float, widest: float) -> OperatorMessage | None:
+    """The message if an arena of this width is too small for robots of this radius, mm; else None.
+
+    `widest`: radius of the widest that can play, px.
+    """
+    least = FloorSurface.smallest(radius, widest).field[0]
     if width >= least - 0.5:
         return None
     return OperatorMessage("narrow", width=f"{width:.0f}", size=f"{2.0 * radius:.0f}", least=f"{least:.0f}")

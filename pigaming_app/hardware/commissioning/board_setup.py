@@ -14,18 +14,39 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
 from io import StringIO
 from time import sleep
-from typing import Any
+from typing import Any, NamedTuple
 
 from pigaming_app.hardware.robot_kinds import PROGRAM, robot_config
 from pigaming_app.hardware.signals import SERIAL_FAILURES
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 Tell = Callable[[str, bool], None]
-KINDS = {"pico_w": "board_pico_w", "esp32": "board_esp32"}  # their files
+
+
+class BoardKind(NamedTuple):
+    """A kind of board: the names of its board file and of its radio's program."""
+
+    file: str
+    radio: str
+
+
+WIFI, XBEE = "wifi", "serial_radio"
+KINDS = {
+    "pico_w": BoardKind("board_pico_w", WIFI),
+    "esp32": BoardKind("board_esp32", WIFI),
+    "pololu_2040": BoardKind("board_pololu_2040", XBEE),
+}
 BOARDS = {"rp2": "pico_w", "esp32": "esp32"}  # kind by `sys.platform`, of boards with Wi-Fi
+MAKER = "pololu"  # in the name of the machine, by Pololu's own MicroPython
 OTHERS = re.compile(r"ESP32-?[SCHP]\d")  # chips of other pins
 OLDEST = (1, 22)  # version of MicroPython
-USB = {0x2E8A: "Raspberry Pi", 0x303A: "Espressif", 0x10C4: "CP210x", 0x1A86: "CH340"}  # by vendor; radios have FTDI's
+USB = {  # by vendor; radios have FTDI's
+    0x2E8A: "Raspberry Pi",
+    0x303A: "Espressif",
+    0x1FFB: "Pololu",
+    0x10C4: "CP210x",
+    0x1A86: "CH340",
+}
 RATE, SILENT = 115_200, 3.0  # bit/s; s
 AGAIN = 3.0  # s after which a board is tried once more: a running program's watchdog may have restarted it
 PINS = "board.py"  # the file with pins and divider, which its owner may have changed
@@ -85,7 +106,7 @@ def only_port() -> str:
 def set_up(port: str, board: str, files: Callable[[str], Mapping[str, bytes]], tell: "Tell") -> str:
     """Make the board at a port a robot, and start it; its kind of board. Raises SetupFailed.
 
-    `board`: one of KINDS, empty: found out, and a board file that is there is kept; `files`: those for a board file;
+    `board`: one of KINDS, empty: found out, and a board file that is there is kept; `files`: those for a kind;
     `tell`: see `BoardOnUsb.write`.
     """
     try:
@@ -102,7 +123,7 @@ def _set_up(port: str, board: str, files: Callable[[str], Mapping[str, bytes]], 
         kind = connected.kind()
         if not (board or kind):
             raise SetupFailed(OperatorMessage("board_unknown", port=port, kinds=", ".join(KINDS)))
-        wanted = dict(files(KINDS[board or kind]))
+        wanted = dict(files(board or kind))
         if not board and connected.has(PINS):
             del wanted[PINS]
         connected.write(wanted, tell)
@@ -110,13 +131,19 @@ def _set_up(port: str, board: str, files: Callable[[str], Mapping[str, bytes]], 
     return board or kind
 
 
-def files_of(board: str, robot: int, arena: int, key: bytes, network: str, password: str) -> dict[str, bytes]:
-    """The files of a robot (1 to 4) by their names on the board, in the order in which they are written."""
-    config = robot_config(robot, arena, key)
+def files_of(kind: str, robot: int, arena: int, key: bytes, network: str, password: str) -> dict[str, bytes]:
+    """The files of a robot (1 to 4) by their names on the board, in the order in which they are written.
+
+    `kind`: one of KINDS. Raises SetupFailed if it needs a network and has none.
+    """
+    board = KINDS[kind]
+    if board.radio == WIFI and not network:
+        raise SetupFailed(OperatorMessage("board_no_network"))
+    config = robot_config(robot, arena, key).replace(f'"{WIFI}"', f'"{board.radio}"')
     config = config.replace('"name of the network"', json.dumps(network, ensure_ascii=False))
     config = config.replace('"its password"', json.dumps(password, ensure_ascii=False))
-    files = {name: (PROGRAM / name).read_bytes() for name in ("motors.py", "wifi.py")}
-    files |= {"board.py": (PROGRAM / f"{board}.py").read_bytes(), "config.py": config.encode()}
+    files = {name: (PROGRAM / name).read_bytes() for name in ("motors.py", f"{board.radio}.py")}
+    files |= {"board.py": (PROGRAM / f"{board.file}.py").read_bytes(), "config.py": config.encode()}
     return {**files, MAIN: (PROGRAM / "robot.py").read_bytes()}
 
 
@@ -157,6 +184,8 @@ class BoardOnUsb:
             raise SetupFailed(OperatorMessage("board_silent", port=self.port)) from None
         if told["name"] != "micropython" or tuple(told["version"]) < OLDEST:
             raise SetupFailed(OperatorMessage("board_old", version=".".join(map(str, told["version"]))))
+        if told["platform"] == "rp2" and MAKER in told["machine"].lower():
+            return "pololu_2040"
         return BOARDS.get(told["platform"], "") if told["wifi"] and not OTHERS.search(told["machine"]) else ""
 
     def has(self, name: str) -> bool:

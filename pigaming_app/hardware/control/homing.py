@@ -1,10 +1,12 @@
 """Homing: drives real robots to their start poses, round walls and each other, several at once where there is room.
 
 A robot that sets out reserves its path; another sets out only if its own path is clear of all reserved paths and
-standing robots. When no robot can move, a blocking one makes room first. All others stand still.
+standing robots. When no robot can move, one makes room, each in its turn, at last those that have arrived; these wait
+until the others are home. All others stand still.
 """
 
 from collections.abc import Collection, Mapping, Sequence
+from itertools import pairwise
 from math import atan2, cos, dist, pi, sqrt
 from typing import Any, NamedTuple
 
@@ -12,7 +14,6 @@ from pigaming_app.hardware.control.path_planner import Point, find_path, inflate
 from pigaming_app.hardware.control.virtual_walls import GAMMA, speed_limits
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.plant import Pose, Twist
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import HZ, ROBOTS, World
 
 POSITION_TOLERANCE, HEADING_TOLERANCE = 12.0, 0.10  # px and rad, tolerances of the goal pose
@@ -47,7 +48,7 @@ class HomingProgress(NamedTuple):
 class Homing:
     """Drives the robots of `goals` (pose by robot) through the walls of the world.
 
-    `margins`: length by which each robot's body is wider than a simulated one, px.
+    `margins`: length by which each robot's body is wider than that of a simulated one, px (see Rig.margin).
     """
 
     def __init__(self, world: World, goals: Mapping[int, Pose], margins: Sequence[float] = (0.0,) * ROBOTS) -> None:
@@ -59,7 +60,8 @@ class Homing:
             margin: [inflated_floor(world, berth, margin) for berth in BERTHS] for margin in set(self._margins)
         }
         self._paths: dict[int, list[Point]] = {}
-        self._yielded: set[int] = set()  # robots that have made room
+        self._yielded: dict[int, int] = {}  # tick at which a robot last set out to make room
+        self._waiting: set[int] = set()  # robots that had arrived and have made room
         self._arrived: set[int] = set()  # at the goal's position; only the turn is left
         self._home: set[int] = set()
         self._tick = 0
@@ -75,7 +77,9 @@ class Homing:
         """One tick: the twist of each robot of `goals`, px/s and rad/s. `poses`: all robots on the mat."""
         self._tick += 1
         self.places = [self._placed(robot, poses.get(robot)) for robot in self.goals]
-        for robot in self.goals:
+        if not self._blocked(poses):
+            self._waiting.clear()
+        for robot in sorted(self.goals.keys() - self._waiting):
             due = robot not in self._paths or (self._tick + 5 * robot) % REPLAN == 0
             if due and robot in poses and robot not in self._home and robot not in self._arrived:
                 self._set_out(robot, poses)
@@ -95,7 +99,8 @@ class Homing:
             return HomingProgress(robot, goal, 1e9, pi, False, False)
         off, turn = dist(goal[:2], pose[:2]), abs(turn_to(goal[2] - pose[2]))
         slack = 2.0 if robot in self._home else 1.0
-        arrived = off < POSITION_TOLERANCE * slack and turn < HEADING_TOLERANCE * slack
+        leaves = robot in self._paths and dist(self._paths[robot][-1], goal[:2]) > POSITION_TOLERANCE
+        arrived = not leaves and off < POSITION_TOLERANCE * slack and turn < HEADING_TOLERANCE * slack
         if arrived:
             self._forget(robot)
             self._home.add(robot)
@@ -105,7 +110,6 @@ class Homing:
 
     def _forget(self, robot: int) -> None:
         self._paths.pop(robot, None)
-        self._yielded.discard(robot)
         self._arrived.discard(robot)
 
     def _set_out(self, robot: int, poses: Mapping[int, Pose]) -> None:
@@ -118,27 +122,45 @@ class Homing:
                 return
 
     def _make_room(self, poses: Mapping[int, Pose]) -> None:
-        """Send one blocked robot to a free spot clear of all goals and robots.
+        """Send one robot to a free spot clear of all goals and robots, and if possible of the ways of the others.
 
-        If only one robot has not arrived it waits, since moving it would help no other.
+        If only one has not arrived, moving it would help no other.
         """
-        under_way = [robot for robot in self.goals if robot in poses and robot not in self._home]
-        if len(under_way) < 2:
+        blocked = self._blocked(poses)
+        if not blocked:
             return
-        for robot in sorted(under_way, key=lambda robot: (robot in self._yielded, robot)):
-            self._yielded.add(robot)
+        others = [robot for robot in self.goals if robot in poses and {robot} != blocked and robot not in self._waiting]
+        for robot in sorted(others, key=lambda robot: (self._yielded.get(robot, -1), robot in self._home, robot)):
+            if robot in self._home:
+                self._waiting.add(robot)
+            elif robot in self._yielded:  # all have made room, in vain
+                self._waiting.clear()
+            self._yielded[robot] = self._tick
             floor = self._among(self._floors[self._margins[robot]][0], robot, poses)
             taken = [pose[:2] for other, pose in poses.items() if other != robot]
             taken += [goal[:2] for goal in self.goals.values()]
-            for spot in reachable_nodes(floor, poses[robot][:2]):
-                wide = 2.0 * (RADIUS + MARGIN + max(self._margins))
-                if all(dist(spot, point) > wide for point in taken):
-                    self._paths[robot] = find_path(floor, poses[robot][:2], spot) or [spot]
-                    return
+            wide = 2.0 * (self.world.radius + MARGIN + max(self._margins))
+            nodes = reachable_nodes(floor, poses[robot][:2])
+            spots = [spot for spot in nodes if all(dist(spot, point) > wide for point in taken)]
+            ways = [self._way(other, poses[other]) for other in blocked - {robot}]
+            aside = (spot for spot in spots if all(_off(way, spot) > wide for way in ways))
+            if spots:
+                spot = next(aside, spots[0])
+                self._paths[robot] = find_path(floor, poses[robot][:2], spot) or [spot]
+                return
+
+    def _way(self, robot: int, pose: Pose) -> list[Point]:
+        """The way of a robot to its goal if it were alone."""
+        floor = self._floors[self._margins[robot]][-1]
+        return [pose[:2], *(find_path(floor, pose[:2], self.goals[robot][:2]) or [self.goals[robot][:2]])]
+
+    def _blocked(self, poses: Mapping[int, Pose]) -> set[int]:
+        """The robots that are not at their goals, but for those that wait."""
+        return {robot for robot in self.goals if robot in poses} - self._home - self._waiting
 
     def _among(self, floor: Any, robot: int, poses: Mapping[int, Pose]) -> Any:
         """The floor with all other robots and their paths as obstacles."""
-        half = RADIUS + MARGIN + self._margins[robot]
+        half = self.world.radius + MARGIN + self._margins[robot]
         lines = [
             ([pose[:2], *self._paths.get(other, ())], half + self._margins[other])
             for other, pose in poses.items()
@@ -164,7 +186,7 @@ class Homing:
         direction = _slide(self.world, (x, y), (dx, dy), self._margins[robot])
         held = direction != (dx, dy)
         bearing = turn_to(atan2(direction[1], direction[0]) - heading)
-        back = remaining < 2.0 * RADIUS and abs(bearing) > 0.5 * pi
+        back = remaining < 2.0 * self.world.radius and abs(bearing) > 0.5 * pi
         bearing = turn_to(bearing + pi) if back else bearing
         if abs(bearing) > 0.9:
             return 0.0, _on_the_spot(bearing, push)
@@ -180,6 +202,17 @@ class Homing:
             self._push[robot] = max(1.0, EASE * self._push[robot])
         elif self._tick - since > PATIENCE:
             self._push[robot] = min(self._push[robot] + PUSH, MAX_PUSH)
+
+
+def _off(way: Sequence[Point], point: Point) -> float:
+    """Distance of a point from a way, px."""
+    gaps = []
+    for (ax, ay), (bx, by) in pairwise(way):
+        ex, ey = bx - ax, by - ay
+        along = ((point[0] - ax) * ex + (point[1] - ay) * ey) / max(ex * ex + ey * ey, 1e-9)
+        share = min(max(along, 0.0), 1.0)
+        gaps.append(dist(point, (ax + share * ex, ay + share * ey)))
+    return min(gaps)
 
 
 def _on_the_spot(angle: float, push: float) -> float:

@@ -14,7 +14,7 @@ from pigaming_app.hardware.control.rig import Rig, RobotSnapshot
 from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.sim.contact import MOVED, ROUNDS, SLOP, limit_step, push_out_of_walls, put_back, separate
 from pigaming_app.sim.plant import Pose, Twist
-from pigaming_app.sim.robot import RADIUS, integrate
+from pigaming_app.sim.robot import integrate
 from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import HEIGHT, WIDTH, World
 
@@ -99,13 +99,13 @@ class MixedPlant(RealPlant):
 
 def clear_of_walls(world: Any, x: float, y: float) -> tuple[float, float]:
     """The nearest point that a real robot can drive to, px; simulated ones may stand closer to walls."""
+    berth = world.radius + BERTH
     for _ in range(ROUNDS):
-        x = min(max(x, RADIUS + BERTH), WIDTH - RADIUS - BERTH)
-        y = min(max(y, RADIUS + BERTH), HEIGHT - RADIUS - BERTH)
+        x, y = min(max(x, berth), WIDTH - berth), min(max(y, berth), HEIGHT - berth)
         for i in range(world.wall_count):
             wall = world.walls[i]
             dx, dy = offset_from_wall(wall, x, y)
-            off, room = hypot(dx, dy), wall.half + RADIUS + BERTH
+            off, room = hypot(dx, dy), wall.half + berth
             if wall.health and 0.0 < off < room:
                 x, y = x + dx * (room / off - 1.0), y + dy * (room / off - 1.0)
     return x, y
@@ -122,7 +122,7 @@ def simulate(world: Any, simulated: Sequence[int]) -> None:
     for i in simulated:
         integrate(robots[i])
     for _ in range(2 * ROUNDS):  # each round resolves half of the overlap with an immovable robot
-        moved = separate(robots) > SLOP
+        moved = separate(world) > SLOP
         for robot, x, y in fixed:
             robot.x, robot.y = x, y
         for i in simulated:

@@ -19,8 +19,7 @@ from typing import NamedTuple
 from pigaming_app.hardware.signals import Fix
 from pigaming_app.sim.drivetrain import Drivetrain
 from pigaming_app.sim.plant import Twist
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 
 SHORT, LONG = 0.15, 0.4  # s, windows of comparison: for a robot astray, and for one that is stuck
 LATENESS = (-0.03, 0.0, 0.03, 0.07)  # s, tolerated delays on top of the drivetrain's dead time
@@ -73,6 +72,7 @@ class RobotMotionCheck:
 
     def __init__(self, drivetrain: Drivetrain) -> None:
         self.drivetrain = drivetrain
+        self.radius = RADIUS  # px, of its body
         self.contradiction = MotionMismatch()
         self._command = (0.0, 0.0)  # px/s of the wheels
         self._speeds = [0.0, 0.0]  # px/s: speeds of the model's wheels
@@ -196,7 +196,7 @@ class RobotMotionCheck:
         for (out_x, out_y), edge in EDGES:
             gone = out_x * (now.x - since.x) + out_y * (now.y - since.y)
             expected = max(0.0, *((out_x * cos(heading) + out_y * sin(heading)) * travel for travel in ahead))
-            over = out_x * now.x + out_y * now.y + RADIUS - edge
+            over = out_x * now.x + out_y * now.y + self.radius - edge
             if gone > STRONG * expected + nudge and over + COASTS * gone / dt > 0.0:
                 return True
         return False

@@ -11,7 +11,6 @@ from math import hypot
 from typing import Any
 
 from pigaming_app.sim.arena import replace_things
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.things.convex import distance
 from pigaming_app.sim.things.spec import ThingSpec, Use
 from pigaming_app.sim.toml_table import FieldError
@@ -57,7 +56,9 @@ class MovingThings:
         return [move for move in moves if move is not None]
 
     def _replace(self, simulated: Sequence[Any]) -> ThingsMove | None:
-        free = tuple(thing for thing in self.wanted if not any(_covers(thing, robot) for robot in simulated))
+        free = tuple(
+            thing for thing in self.wanted if not any(_covers(thing, robot, self.world.radius) for robot in simulated)
+        )
         if alike(free, self.shown):
             return None
         self.shown = free
@@ -100,9 +101,9 @@ def alike(one: Sequence[ThingSpec], other: Sequence[ThingSpec]) -> bool:
     )
 
 
-def _covers(thing: ThingSpec, robot: Any) -> bool:
-    """True if a wall would stand where a robot is."""
-    return thing.use is Use.WALL and distance(thing.outline, robot.x, robot.y) < RADIUS + thing.margin
+def _covers(thing: ThingSpec, robot: Any, radius: float) -> bool:
+    """True if a wall would stand where a robot of a radius, px, is."""
+    return thing.use is Use.WALL and distance(thing.outline, robot.x, robot.y) < radius + thing.margin
 
 
 def same_mud(one: Sequence[ThingSpec], other: Sequence[ThingSpec]) -> bool:

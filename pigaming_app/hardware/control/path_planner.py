@@ -9,7 +9,6 @@ from typing import Any
 
 from pigaming_app.sim.flow_field import Route, expand, free_node, update_route
 from pigaming_app.sim.grid import BLOCKED, block_rim, wall_on_grid
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import CELL, COLUMNS, HEIGHT, NODES, WIDTH, Wall
 
@@ -19,12 +18,12 @@ Point = tuple[float, float]
 
 
 class FreeFloor:
-    """Walls and grid, the parts of a world in which paths are found."""
+    """Walls, grid and the radius of robots, the parts of a world in which paths are found."""
 
     shifts = 0
 
-    def __init__(self, walls: Iterable[Any] = (), grid: Iterable[int] = (0,) * NODES) -> None:
-        self.walls, self.grid = list(walls), list(grid)
+    def __init__(self, radius: float, walls: Iterable[Any] = (), grid: Iterable[int] = (0,) * NODES) -> None:
+        self.radius, self.walls, self.grid = radius, list(walls), list(grid)
 
     @property
     def wall_count(self) -> int:
@@ -34,7 +33,7 @@ class FreeFloor:
 
 def inflated_floor(world: Any, berth: float, margin: float = 0.0) -> Any:
     """A floor with the standing walls of the world, each `berth` + `margin` px thicker, for a robot of that margin."""
-    floor: Any = FreeFloor()
+    floor: Any = FreeFloor(world.radius)
     block_rim(floor)
     for i in range(world.wall_count):
         wall = world.walls[i]
@@ -49,7 +48,7 @@ def inflated_floor(world: Any, berth: float, margin: float = 0.0) -> Any:
 
 def with_obstacles(floor: Any, lines: Iterable[tuple[Sequence[Point], float]]) -> Any:
     """A copy of the floor with lines or single points as additional walls, each with its half width, px."""
-    copy = FreeFloor(floor.walls, floor.grid)
+    copy = FreeFloor(floor.radius, floor.walls, floor.grid)
     for points, half in lines:
         for one, other in zip(points, points[1:] or points, strict=False):
             _add(copy, one, other, half)
@@ -58,14 +57,15 @@ def with_obstacles(floor: Any, lines: Iterable[tuple[Sequence[Point], float]]) -
 
 def find_path(floor: Any, start: Point, goal: Point) -> list[Point]:
     """Waypoints from start to goal, the goal being the last; empty if there is no path."""
-    x, y = min(max(start[0], RADIUS), WIDTH - RADIUS), min(max(start[1], RADIUS), HEIGHT - RADIUS)
+    radius = floor.radius
+    x, y = min(max(start[0], radius), WIDTH - radius), min(max(start[1], radius), HEIGHT - radius)
     route: Any = Route()
     route.active, route.goal_x, route.goal_y = 1, goal[0], goal[1]
     path: list[Point] = []
     for _ in range(MAX_POINTS):
         update_route(floor, route, x, y)
         if route.straight:
-            return [*path, goal] if is_clear(floor, x, y, *goal, RADIUS + 1.0) else _last_leg(floor, path, (x, y), goal)
+            return [*path, goal] if is_clear(floor, x, y, *goal, radius + 1.0) else _last_leg(floor, path, (x, y), goal)
         if path and (route.waypoint_x, route.waypoint_y) == path[-1]:
             return []
         x, y = route.waypoint_x, route.waypoint_y
@@ -75,7 +75,7 @@ def find_path(floor: Any, start: Point, goal: Point) -> list[Point]:
 
 def _last_leg(floor: Any, path: list[Point], at: Point, goal: Point) -> list[Point]:
     """A goal next to a wall: straight from the nearest node."""
-    return [*path, goal] if dist(at, goal) < CELL and is_clear(floor, *at, *goal, RADIUS - 2.0) else []
+    return [*path, goal] if dist(at, goal) < CELL and is_clear(floor, *at, *goal, floor.radius - 2.0) else []
 
 
 def reachable_nodes(floor: Any, start: Point) -> list[Point]:
@@ -95,7 +95,7 @@ def _add(floor: Any, one: Point, other: Point, half: float) -> None:
     wall: Any = Wall()
     (ax, ay), (bx, by) = one, other
     wall.ax, wall.ay, wall.bx, wall.by, wall.half, wall.health = ax, ay, bx, by, half, 1
-    edge = wall.half + RADIUS
+    edge = wall.half + floor.radius
     wall.left, wall.right = min(ax, bx) - edge, max(ax, bx) + edge
     wall.top, wall.bottom = min(ay, by) - edge, max(ay, by) + edge
     floor.walls.append(wall)

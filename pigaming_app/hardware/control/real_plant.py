@@ -40,6 +40,11 @@ class RealPlant:
         self._left_at: list[float | None] = [None] * ROBOTS  # s, when a robot left the arena
 
     @property
+    def mm(self) -> float:
+        """Length of an arena px, mm."""
+        return self.rig.mm
+
+    @property
     def faults(self) -> list[Fault]:
         """Present faults, worst first."""
         return self.safety.faults
@@ -93,7 +98,7 @@ class RealPlant:
 
     def summon(self, goals: dict[int, Pose]) -> None:
         """Start homing these robots, real or about to be."""
-        margins = [self.rig.margin(robot) for robot in range(ROBOTS)]
+        margins = [self.rig.margin(robot, self.world.radius) for robot in range(ROBOTS)]
         self._homing = Homing(self.world, goals, margins) if goals else None
 
     def take_places(self) -> bool:
@@ -181,7 +186,8 @@ class RealPlant:
 
     def _margin(self, robot: int) -> float:
         """Margin of an obstacle, px: 0 for a simulated robot."""
-        return 0.0 if self.world.robots[robot].present and robot not in self.real else self.rig.margin(robot)
+        simulated = self.world.robots[robot].present and robot not in self.real
+        return 0.0 if simulated else self.rig.margin(robot, self.world.radius)
 
     def _wheels(
         self, robot: int, desired: Twist, held: Response, ahead: Sequence[Pose], solid: Sequence[int]
@@ -198,7 +204,7 @@ class RealPlant:
         x, y, _ = ahead[robot]
         others = [(ahead[i][0], ahead[i][1], self._margin(i)) for i in solid if i != robot]
         desired = limit_acceleration(desired[0], self._speeds[robot]), desired[1]
-        limits = speed_limits(self.world, x, y, others, self.rig.margin(robot))
+        limits = speed_limits(self.world, x, y, others, self._margin(robot))
         allowed = clip_twist(ahead[robot], desired, limits, kinematics.drivetrain.lag)
         self._speeds[robot] = allowed[0]
         return kinematics.wheels(allowed)

@@ -11,6 +11,7 @@ from typing import Any
 
 from pigaming_app.hardware.control.moving_things import Reroute, ThingsMove
 from pigaming_app.sim.arena import replace_things
+from pigaming_app.sim.drivetrain import MM
 from pigaming_app.sim.plant import Pose, Sighting, Twist
 from pigaming_app.sim.toml_table import FieldError
 from pigaming_app.sim.world import ROBOTS, World
@@ -88,6 +89,8 @@ class RecordedPlant:
 
     `moves`: of the things, in order; `first`: index of their first wall; `reroute`: see MovingThings.
     """
+
+    mm = MM
 
     def __init__(
         self,

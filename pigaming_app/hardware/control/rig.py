@@ -23,10 +23,9 @@ from pigaming_app.hardware.run_writer import Recorder
 from pigaming_app.hardware.signals import CameraFrame, CameraSource, Clock, Image, Telemetry, WheelCommand
 from pigaming_app.hardware.tracking.motion_delay import DriveTrace, network_delay
 from pigaming_app.hardware.tracking.pose_filters import PoseFilters
-from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
+from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, ROBOTS
+from pigaming_app.sim.world import DT, RADIUS, ROBOTS
 
 # A 3pi that was not measured: a typical deadband, and dead time (s) of tick, serial line and air.
 UNMEASURED = replace(
@@ -51,6 +50,11 @@ def unmeasured(kind: RobotKind, mm: float, dead_time: float) -> Drivetrain:
     return Drivetrain(left, right, kind.base_mm / mm, UNMEASURED.lag, dead_time)
 
 
+def in_play(widest: float) -> float:
+    """The radius of all robots of a match in which the widest has this one, px."""
+    return widest if widest > RADIUS + ROUNDING else RADIUS
+
+
 class RobotSnapshot(NamedTuple):
     """Predicted poses of all robots now, and at the time when a command sent now acts."""
 
@@ -63,8 +67,8 @@ class RobotSnapshot(NamedTuple):
 class Rig:
     """Robot i wears marker i; `channels[i]` is the index of its radio in the packets of the link (see pairing).
 
-    `mm`: mm of the mat per arena px; None: a 3pi has the radius of a simulated robot. `kinds[i]` is the key of the kind
-    of the robot on radio i; empty: as its board announces, else the `usual` one.
+    `mm`: mm of the mat per arena px. `kinds[i]` is the key of the kind of the robot on radio i; empty: as its board
+    announces, else the `usual` one.
     """
 
     def __init__(
@@ -75,11 +79,11 @@ class Rig:
         clock: Clock,
         drivetrains: Sequence[Drivetrain] = (UNMEASURED,) * ROBOTS,
         drift: Callable[[], float] = lambda: 0.0,
-        mm: float | None = None,
+        mm: float = MM,
         kinds: Sequence[str] = ("",) * ROBOTS,
         usual: RobotKind = DEFAULT,
     ) -> None:
-        self._mm, self._kinds, self._usual = mm, kinds, usual
+        self.mm, self._kinds, self._usual = mm, kinds, usual
         self.camera, self.tracker, self.link, self.clock = camera, tracker, link, clock
         self.kinematics = [Kinematics(drivetrain) for drivetrain in drivetrains]
         self.motion_checks = [RobotMotionCheck(drivetrain) for drivetrain in drivetrains]
@@ -122,6 +126,7 @@ class Rig:
         with self._lock:
             now = self.clock()
             ahead = [kinematics.drivetrain.dead_time + _late(kinematics) for kinematics in self.kinematics]
+            self.tracker.radii = [self.radius(robot) for robot in range(ROBOTS)]
             return RobotSnapshot(now, self.tracker.last_captured, *self.tracker.predict(now, ahead))
 
     def sense(self, ahead: float = 0.0) -> list[Sighting]:
@@ -165,9 +170,17 @@ class Rig:
         channel = self.channels[robot]
         return robot_kind(self._kinds[channel], self.link.boards.get(channel), self._usual)
 
-    def margin(self, robot: int) -> float:
-        """Length by which the body of a robot is wider than a simulated one to each side, px; 0 if it is not."""
-        return max(0.0, self.kind(robot).radius_mm / self._mm - RADIUS - ROUNDING) if self._mm else 0.0
+    def radius(self, robot: int) -> float:
+        """Radius of the body of a robot, px."""
+        return self.kind(robot).radius_mm / self.mm
+
+    def radius_in_play(self, robots: Iterable[int]) -> float:
+        """The radius of robots in a match with these, px: that of the widest, at least the usual."""
+        return in_play(max((self.radius(robot) for robot in robots), default=0.0))
+
+    def margin(self, robot: int, usual: float) -> float:
+        """Length by which the body of a robot is wider than the `usual` radius of a match, px; 0 if it is not."""
+        return max(0.0, self.radius(robot) - usual - ROUNDING)
 
     def telemetry(self, robot: int) -> Telemetry | None:
         """The latest report of a robot, or None."""
@@ -303,6 +316,7 @@ class Rig:
                 self.motion_checks[fix.robot].record_fix(fix)
             for robot, (kinematics, check) in enumerate(zip(self.kinematics, self.motion_checks, strict=True)):
                 kinematics.correction = self.tracker.wheel_correction(robot)
+                check.radius = self.radius(robot)
                 check.expect_lateness(_late(kinematics))
             if self.recorder:
                 self.recorder.record_fixes(self.clock(), frame.captured, fixes)

@@ -10,7 +10,7 @@ from math import cos, sin, sqrt
 from typing import Any, NamedTuple
 
 from pigaming_app.sim.plant import Pose, Twist
-from pigaming_app.sim.robot import LAG, RADIUS
+from pigaming_app.sim.robot import LAG
 from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import HEIGHT, WIDTH
 
@@ -46,7 +46,7 @@ def speed_limits(
 
     `margin`: length by which a robot's body is wider than a simulated one, px (see Rig.margin).
     """
-    radius = RADIUS + margin
+    radius = world.radius + margin
     limits = [
         _limit(-1.0, 0.0, x - radius),
         _limit(1.0, 0.0, WIDTH - radius - x),
@@ -66,7 +66,7 @@ def speed_limits(
         dx, dy = other_x - x, other_y - y
         gap = sqrt(dx * dx + dy * dy)
         if gap > 1e-6:
-            limits.append(_limit(dx / gap, dy / gap, gap - radius - RADIUS - other_margin, SHARED))
+            limits.append(_limit(dx / gap, dy / gap, gap - radius - world.radius - other_margin, SHARED))
     return limits
 
 

@@ -10,12 +10,12 @@ from random import Random
 from typing import Any, NamedTuple
 
 from pigaming_app.hardware.control.real_plant import RealPlant
+from pigaming_app.hardware.emulator.robots import RADIUS as BODY
 from pigaming_app.hardware.proof.testbed import Testbed
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.plant import Sighting, Twist
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import offset_from_wall
-from pigaming_app.sim.world import DT, HEIGHT, HZ, ROBOTS, WIDTH, World
+from pigaming_app.sim.world import DT, HEIGHT, HZ, RADIUS, ROBOTS, WIDTH, World
 
 SPEED = 350.0  # mm/s
 
@@ -130,6 +130,7 @@ def play(bed: Testbed, match: Any, seconds: float) -> MatchResult:
             raise RuntimeError(f"not all took their places: {plant.places}, {plant.faults}")
     bed.lighting.show(busy=True)
     deepest, ticks, paused = 0.0, 0, 0
+    body = BODY / bed.ground.mm
     longest = seconds + match.game.variants[match.setup.variant].overtime
     while not match.over:
         if plant.safety.pauses:
@@ -140,7 +141,7 @@ def play(bed: Testbed, match: Any, seconds: float) -> MatchResult:
             match.tick()
         bed.tick()
         ticks += 1
-        deepest = max(deepest, *(entered(match.state, x, y) for x, y, _ in bed.arena.poses()))
+        deepest = max(deepest, *(entered(match.state, x, y, body) for x, y, _ in bed.arena.poses()))
         if ticks > 1.5 * HZ * longest + 20 * HZ:
             raise RuntimeError(f"the match did not end: {plant.faults}")
     return MatchResult(deepest * bed.ground.mm, ticks * DT, paused * DT, ready * DT, alarms)
@@ -154,11 +155,11 @@ def _clear_faults(plant: RealPlant) -> int:
     return len(waiting)
 
 
-def entered(world: Any, x: float, y: float) -> float:
+def entered(world: Any, x: float, y: float, radius: float = RADIUS) -> float:
     """Depth of a robot at (x, y) in a standing wall or beyond the edge, px; negative: distance to the nearest."""
-    depths = [RADIUS - x, RADIUS - y, x + RADIUS - WIDTH, y + RADIUS - HEIGHT]
+    depths = [radius - x, radius - y, x + radius - WIDTH, y + radius - HEIGHT]
     for i in range(world.wall_count):
         wall = world.walls[i]
         if wall.health:
-            depths.append(wall.half + RADIUS - hypot(*offset_from_wall(wall, x, y)))
+            depths.append(wall.half + radius - hypot(*offset_from_wall(wall, x, y)))
     return max(depths)

@@ -21,7 +21,7 @@ from pigaming_app.hardware.scan.projector_place import Place, projector_place
 from pigaming_app.hardware.scan.things import ProjectorPlace, Thing, ThingLayout, largest
 from pigaming_app.hardware.signals import CameraFrame, Clock
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector, opencv
-from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.world import RADIUS
 from pigaming_app.storage.messages import OperatorMessage
 
 FRAMES = 3  # camera frames averaged for each picture

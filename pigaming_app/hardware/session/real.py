@@ -4,12 +4,13 @@ A missing or broken camera or radio may be plugged in later: both report their f
 """
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
 
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, driver_of, new_rig
+from pigaming_app.sim.world import WIDTH
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.storage.settings import Settings
 
@@ -66,7 +67,7 @@ class RealSession(RobotSession):
 
             try:
                 ground = store.load(store.calibration_file("real"), self.projection())
-                drivetrains = store.load_robots(store.robots_file(emulated=False), self._declared(ground.mm))
+                drivetrains = store.load_robots(store.robots_file(emulated=False), ground.mm, self._declared(ground.mm))
                 camera = SizedCamera(Camera(self.settings.camera, kept=ground.quality.kept), ground)
                 try:
                     link, kinds = self._new_link(), self.settings.kinds
@@ -84,6 +85,16 @@ class RealSession(RobotSession):
             self.mm, self.quality, self.ground, self._rig = ground.mm, ground.quality, ground, rig.start()
             self.printed = ground.printed
         return self._rig
+
+    def radius(self, robots: Iterable[int]) -> float:
+        from pigaming_app.hardware.control.rig import in_play
+        from pigaming_app.hardware.robot_kinds import widest_radius
+
+        chosen = self.settings
+        kinds = [chosen.kinds[chosen.radios[robot] - 1] for robot in robots]
+        if self._rig or not kinds:
+            return super().radius(robots)
+        return in_play(widest_radius(kinds, self.usual) * WIDTH / chosen.arena_mm)
 
     def _declared(self, mm: float) -> "list[Drivetrain]":
         """Drivetrains as the driver declares them. `mm`: of the mat per arena px. Raises RobotsUnavailable."""

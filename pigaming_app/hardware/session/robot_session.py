@@ -5,12 +5,12 @@ opens also measures, from the projected corner markers, how far the camera has d
 """
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from pigaming_app.hardware.control.safety import REMOTE
 from pigaming_app.hardware.robot_kinds import DEFAULT
-from pigaming_app.sim.world import DT, ROBOTS
+from pigaming_app.sim.world import DT, RADIUS, ROBOTS
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 if TYPE_CHECKING:
@@ -82,6 +82,10 @@ class RobotSession:
     def open(self) -> "Rig":
         """Start camera, tracker and radio, or return the running rig. Raises RobotsUnavailable."""
         raise NotImplementedError
+
+    def radius(self, robots: Iterable[int]) -> float:
+        """The radius of robots in a match with these real ones, px; as far as is known before it is open."""
+        return self._rig.radius_in_play(robots) if self._rig else RADIUS
 
     def open_link(self) -> "CommandLink | None":
         """The radio alone, for use when `open` raises; None if there is none either."""

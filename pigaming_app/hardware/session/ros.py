@@ -5,6 +5,7 @@ import time
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from pigaming_app.hardware.robot_kinds import DEFAULT
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
@@ -47,7 +48,7 @@ class RosSession(RobotSession):
     def open(self) -> "Rig":
         if self._rig is None:
             from pigaming_app.hardware.control.kinematics import Kinematics
-            from pigaming_app.hardware.control.rig import UNMEASURED, Rig
+            from pigaming_app.hardware.control.rig import UNMEASURED, Rig, unmeasured
             from pigaming_app.hardware.drivers.driver import LinkSite
             from pigaming_app.hardware.drivers.ours import ROS
             from pigaming_app.hardware.ros.node import STATE, ArenaFrame, RosNode, RosUnavailable, topic_of
@@ -57,12 +58,13 @@ class RosSession(RobotSession):
                 self._node = RosNode("pigaming", [*(topic_of(robot, "cmd_vel") for robot in range(ROBOTS)), STATE])
             except RosUnavailable as error:
                 raise RobotsUnavailable(error.message) from error
-            frame, drivetrains = ArenaFrame.of_width(self.width), [UNMEASURED] * ROBOTS
+            frame = ArenaFrame.of_width(self.width)
+            drivetrains = [unmeasured(DEFAULT, frame.mm, UNMEASURED.dead_time)] * ROBOTS
             self._node.on_joystick(self._take_stick)
             self._node.on_keys(self._take_keys)
             poses = RosPoses(self._node, frame, time.monotonic, drivetrains)
             link = ROS.open(LinkSite(0, time.monotonic, poses=poses))
-            rig = Rig(poses, poses, link, time.monotonic, drivetrains)
+            rig = Rig(poses, poses, link, time.monotonic, drivetrains, mm=frame.mm)
             rig.kinematics = [Kinematics(drivetrain, levels=None) for drivetrain in drivetrains]
             rig.remote = True
             self.mm, self._rig = frame.mm, rig.start()

@@ -14,7 +14,7 @@ from pigaming_app.hardware.radio.packets import LAST_ARENA
 from pigaming_app.hardware.scan.things import LayoutError, ThingLayout
 from pigaming_app.hardware.scan.things import read as read_layout
 from pigaming_app.hardware.scan.things import to_toml as layout_to_toml
-from pigaming_app.sim.drivetrain import Drivetrain, DrivetrainError, parse
+from pigaming_app.sim.drivetrain import MM, Drivetrain, DrivetrainError, parse
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.parsing import ParseError, describe_error, read_text
@@ -73,10 +73,15 @@ def robots_file(emulated: bool) -> Path:
     return folders().config / ("robots-emulated.toml" if emulated else "robots.toml")
 
 
-def load_robots(path: Path, others: Sequence[Drivetrain] = (UNMEASURED,) * ROBOTS) -> tuple[Drivetrain, ...]:
-    """Drivetrains of all robots, those of `others` where the file has none. Raises DrivetrainError."""
+def load_robots(
+    path: Path, mm: float = MM, others: Sequence[Drivetrain] = (UNMEASURED,) * ROBOTS
+) -> tuple[Drivetrain, ...]:
+    """Drivetrains of all robots on a mat of `mm` per arena px, those of `others` where the file has none.
+
+    Raises DrivetrainError.
+    """
     try:
-        measured = parse(read_text(path), path.name)
+        measured = parse(read_text(path), path.name, mm)
     except FileNotFoundError:
         measured = ()
     except (OSError, ParseError) as error:

@@ -11,10 +11,9 @@ import numpy as np
 
 from pigaming_app.hardware.recordings import Floats, Recording, RobotRecording
 from pigaming_app.hardware.sysid.identify import fit_pieces, identify, move_pieces, track
-from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain, twist
+from pigaming_app.sim.drivetrain import MM, NOMINAL, Drivetrain, scaled, twist
 from pigaming_app.sim.plant import SimPlant
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH, World
+from pigaming_app.sim.world import DT, HEIGHT, RADIUS, ROBOTS, WIDTH, World
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 
 HORIZONS = (1.0, 2.0, 5.0)  # s
@@ -55,12 +54,17 @@ class Prediction(NamedTuple):
     predicted: Floats
 
 
-def measure(run: Recording, nominal: Drivetrain = NOMINAL) -> list[Identification]:
+def nominal_train(run: Recording) -> Drivetrain:
+    """The nominal robot on the mat of a recording."""
+    return scaled(NOMINAL, MM / run.mm)
+
+
+def measure(run: Recording) -> list[Identification]:
     """Identify every robot of a recording and evaluate both models. Raises RecordingTooShort.
 
     Robots that hardly moved, or whose parameters are implausible, are left out.
     """
-    verdicts = []
+    verdicts, nominal = [], nominal_train(run)
     for robot, course in run.courses.items():
         begin, end = course.pose_times[0], course.pose_times[-1]
         if end - begin < SHORTEST:

@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.hardware.recordings import Recording
-from pigaming_app.hardware.sysid.evaluate import HELD_OUT, HORIZONS, Identification, predictions
-from pigaming_app.sim.drivetrain import NOMINAL
+from pigaming_app.hardware.sysid.evaluate import HELD_OUT, HORIZONS, Identification, nominal_train, predictions
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.storage.safe_files import write_atomic
 
@@ -54,10 +53,11 @@ def _paths(figure: Any, run: Recording, verdicts: Sequence[Identification]) -> N
         course = run.courses[verdict.robot]
         begin, end = course.pose_times[0], course.pose_times[-1]
         rest = course.between(end - HELD_OUT * (end - begin), end + 1.0)
-        for model, style, label in ((NOMINAL, "C3:", "nominal"), (verdict.drivetrain, "C0-", "identified")):
+        nominal = nominal_train(run)
+        for model, style, label in ((nominal, "C3:", "nominal"), (verdict.drivetrain, "C0-", "identified")):
             ahead = predictions(rest, model, HORIZONS[-1])
             for i, path in enumerate(ahead[:: max(1, len(ahead) // SHOWN)]):
-                if model is NOMINAL:
+                if model is nominal:
                     axes.plot(path.seen[:, 0], path.seen[:, 1], "k.", markersize=2, label="seen" if not i else None)
                 axes.plot(path.predicted[:, 0], path.predicted[:, 1], style, label=label if not i else None)
         axes.set_title(f"robot {verdict.robot + 1}")

@@ -9,8 +9,7 @@ from pigaming_app.hardware.tracking.ekf import COAST, PoseFilter
 from pigaming_app.hardware.tracking.motion_model import WheelCorrection
 from pigaming_app.sim.drivetrain import NOMINAL, Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import ROBOTS
+from pigaming_app.sim.world import RADIUS, ROBOTS
 
 
 class PoseFilters:
@@ -20,6 +19,7 @@ class PoseFilters:
 
     def __init__(self, drivetrains: Sequence[Drivetrain] | None, mm: float) -> None:
         self.expected = set(range(ROBOTS))  # robots to search for; others are tracked when seen
+        self.radii = [RADIUS] * ROBOTS  # px, of their bodies
         self.last_captured = -inf  # s, capture time of the newest processed frame
         self.filters = [PoseFilter(drivetrain, mm) for drivetrain in drivetrains or [NOMINAL] * ROBOTS]
 
@@ -48,27 +48,26 @@ class PoseFilters:
 
     def sense(self, now: float) -> list[Sighting]:
         """Pose of every robot at a time, with the age of its newest fix."""
-        return _apart([pose_filter.at(now) for pose_filter in self.filters])
+        return self._apart([pose_filter.at(now) for pose_filter in self.filters])
 
     def predict(self, now: float, ahead: Sequence[float]) -> tuple[list[Sighting], list[Sighting]]:
         """Pose of every robot at a time, and that of robot i `ahead[i]` s later."""
         both = [robot.along((now, now + more)) for robot, more in zip(self.filters, ahead, strict=True)]
-        return _apart([at for at, _ in both]), _apart([later for _, later in both])
+        return self._apart([at for at, _ in both]), self._apart([later for _, later in both])
 
     def wheel_correction(self, robot: int) -> WheelCorrection:
         """Estimated wheel correction of a robot."""
         return self.filters[robot].correction
 
-
-def _apart(sights: list[Sighting]) -> list[Sighting]:
-    """Separate overlapping predictions, each by half the overlap: robots push each other apart."""
-    for i, first in enumerate(sights):
-        for j in range(i + 1, len(sights)):
-            other = sights[j]
-            dx, dy = other.x - first.x, other.y - first.y
-            gap = hypot(dx, dy)
-            if 1e-6 < gap < 2.0 * RADIUS and max(first.age, other.age) < COAST:
-                push = 0.5 * (2.0 * RADIUS - gap) / gap
-                first = sights[i] = first._replace(x=first.x - push * dx, y=first.y - push * dy)
-                sights[j] = other._replace(x=other.x + push * dx, y=other.y + push * dy)
-    return sights
+    def _apart(self, sights: list[Sighting]) -> list[Sighting]:
+        """Separate overlapping predictions, each by half the overlap: robots push each other apart."""
+        for i, first in enumerate(sights):
+            for j in range(i + 1, len(sights)):
+                other, wide = sights[j], self.radii[i] + self.radii[j]
+                dx, dy = other.x - first.x, other.y - first.y
+                gap = hypot(dx, dy)
+                if 1e-6 < gap < wide and max(first.age, other.age) < COAST:
+                    push = 0.5 * (wide - gap) / gap
+                    first = sights[i] = first._replace(x=first.x - push * dx, y=first.y - push * dy)
+                    sights[j] = other._replace(x=other.x + push * dx, y=other.y + push * dy)
+        return sights

@@ -26,8 +26,7 @@ from pigaming_app.hardware.vision.markers import (
 )
 from pigaming_app.sim.drivetrain import Drivetrain
 from pigaming_app.sim.plant import Sighting, Twist
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, ROBOTS, WIDTH
 
 OUTSIDE = 3.0 * RADIUS  # px outside the arena within which a fix is accepted
 GLANCE = 0.1  # s between quick searches of the whole image, for new robots and duplicate markers

@@ -14,8 +14,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from pigaming_app.games.arenas import load
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH
+from pigaming_app.sim.world import DT, HEIGHT, RADIUS, ROBOTS, WIDTH
 
 GAME, ARENA = "pitanks", "classic"
 SPEED, TURN_RATE = 260.0, 3.0  # px/s, rad/s

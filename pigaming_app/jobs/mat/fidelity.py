@@ -116,10 +116,10 @@ def identify(options: FidelityOptions) -> dict[str, Any]:
     out = options.out or robots_file(run.emulated)
     with refused(RecordingTooShort, DrivetrainError):
         verdicts = measure(run)
-        drivetrains = list(load_robots(out))
+        drivetrains = list(load_robots(out, run.mm))
         for verdict in verdicts:
             drivetrains[verdict.robot] = verdict.drivetrain
-        write_with_backup(out, to_toml(drivetrains))
+        write_with_backup(out, to_toml(drivetrains, run.mm))
     horizons = ", ".join(f"{horizon:g}" for horizon in HORIZONS)
     lines = [f"root mean square error in mm after {horizons} s, on held-out data"]
     for verdict in verdicts:
@@ -161,7 +161,7 @@ def replay(options: FidelityOptions) -> dict[str, Any]:
     if options.robots and not os.path.exists(options.robots):
         raise Refusal(f"{options.robots}: there is no such file")
     with refused(DrivetrainError):
-        drivetrains = load_robots(options.robots or robots_file(run.emulated))
+        drivetrains = load_robots(options.robots or robots_file(run.emulated), run.mm)
     lines, robots = [], {}
     for robot, result in simulate(run, drivetrains).items():
         errors = ((result.seen - result.predicted)[:, :2] ** 2).sum(axis=1) ** 0.5 * run.mm

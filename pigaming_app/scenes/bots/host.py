@@ -107,7 +107,7 @@ class BotHost:
             self._tell(observers, {"type": "tick", **view.shown(state)})
             if self._vision:
                 now = time.time()
-                self._vision.send(state, now, now)
+                self._vision.send(state, match.plant.mm, now, now)
 
     def _tell(self, observers: Sequence[BotSession], message: dict[str, Any]) -> None:
         text = view.text({**message, "match": self._number}) if observers else ""
@@ -119,6 +119,7 @@ class BotHost:
         seats = [{"brain": seat.brain, "team": seat.team} for seat in setup.seats]
         told = {"type": "begin", "match": self._number, "game": setup.game, "variant": setup.variant}
         told |= {"arena": setup.arena, "minutes": setup.minutes, "seats": seats, "rules": view.rules(match.state)}
+        told |= {"radius": match.state.radius, "mm": round(match.plant.mm, 4)}
         return {**told, **FIELD, **view.layout(match.state)}
 
     def _start(self, address: str, port: int) -> None:

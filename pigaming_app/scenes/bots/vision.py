@@ -10,7 +10,6 @@ import struct
 from math import pi
 from typing import Any
 
-from pigaming_app.sim.drivetrain import MM
 from pigaming_app.sim.world import HEIGHT, WIDTH, World
 
 GROUP, PORT = "224.5.23.2", 10006  # the league's
@@ -20,27 +19,27 @@ CERTAIN = 1.0
 VARINT, FIXED64, BYTES, FIXED32 = 0, 1, 2, 5  # wire types
 
 
-def detection(state: World, number: int, captured: float, sent: float) -> bytes:
-    """A packet with the poses of a match. `number`: of the frame; times in s since the epoch."""
+def detection(state: World, mm: float, number: int, captured: float, sent: float) -> bytes:
+    """A packet with the poses of a match. `mm`: of an arena px; `number`: of the frame; times in s since the epoch."""
     frame = _varint(1, number) + _double(2, captured) + _double(3, sent) + _varint(4, 0)
     ball = getattr(state, "ball", None)
     if ball is not None and not getattr(ball, "out", 0):
-        x, y = _place(ball.x, ball.y)
+        x, y = _place(ball.x, ball.y, mm)
         frame += _bytes(5, _float(1, CERTAIN) + _float(3, x) + _float(4, y) + _float(6, ball.x) + _float(7, ball.y))
     for seat, robot in enumerate(state.robots):
         if robot.present:
-            frame += _bytes(7 if robot.team % 2 else 6, _robot(seat, robot))
+            frame += _bytes(7 if robot.team % 2 else 6, _robot(seat, robot, mm))
     return _bytes(1, frame)
 
 
-def geometry() -> bytes:
-    """A packet with the size of the field."""
-    sizes = round(WIDTH * MM), round(HEIGHT * MM), 0, 0, 0  # no goal: that of a game is a matter of its own
+def geometry(mm: float) -> bytes:
+    """A packet with the size of the field. `mm`: of an arena px."""
+    sizes = round(WIDTH * mm), round(HEIGHT * mm), 0, 0, 0  # no goal: that of a game is a matter of its own
     return _bytes(2, _bytes(1, b"".join(_varint(number, size) for number, size in enumerate(sizes, 1))))
 
 
-def _robot(seat: int, robot: Any) -> bytes:
-    x, y = _place(robot.x, robot.y)
+def _robot(seat: int, robot: Any, mm: float) -> bytes:
+    x, y = _place(robot.x, robot.y, mm)
     where = _float(3, x) + _float(4, y) + _float(5, _turned(robot.heading))
     return _float(1, CERTAIN) + _varint(2, seat) + where + _float(6, robot.x) + _float(7, robot.y)
 
@@ -50,8 +49,8 @@ def _turned(heading: float) -> float:
     return (pi - heading) % (2.0 * pi) - pi
 
 
-def _place(x: float, y: float) -> tuple[float, float]:
-    return (x - WIDTH / 2) * MM, (HEIGHT / 2 - y) * MM
+def _place(x: float, y: float, mm: float) -> tuple[float, float]:
+    return (x - WIDTH / 2) * mm, (HEIGHT / 2 - y) * mm
 
 
 def _key(number: int, wire: int) -> bytes:
@@ -95,11 +94,11 @@ class VisionSender:
         self._socket.setblocking(False)
         self._frames = 0
 
-    def send(self, state: World, captured: float, sent: float) -> None:
+    def send(self, state: World, mm: float, captured: float, sent: float) -> None:
         """Send the poses; what the network does not take is lost."""
-        packets = [detection(state, self._frames, captured, sent)]
+        packets = [detection(state, mm, self._frames, captured, sent)]
         if self._frames % GEOMETRY_EVERY == 0:
-            packets.append(geometry())
+            packets.append(geometry(mm))
         self._frames += 1
         for packet in packets:
             try:

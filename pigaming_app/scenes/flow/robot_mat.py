@@ -30,6 +30,9 @@ class RobotMat(Protocol):
     def things(self) -> tuple[ThingSpec, ...]:
         """The things on the mat, as they were scanned last; none if blocks mark them."""
 
+    def has_room(self, game: str, arena: str, robots: Collection[int]) -> bool:
+        """True if these real robots are narrow enough on their surface for an arena."""
+
     def stick(self, seat: int, first: bool) -> StickState | None:
         """The joystick of a seat in a network of robots; None without one. `first`: it is the first person's."""
 

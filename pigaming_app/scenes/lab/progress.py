@@ -1,6 +1,7 @@
 """Progress of a training: published states, win rate and checkpoints."""
 
 from dataclasses import dataclass
+from math import ceil
 from time import perf_counter
 from typing import Any
 
@@ -19,6 +20,9 @@ MINUTES = {True: 2.0, False: 1.0}  # per match
 EXAM_SEED = 1000
 EXAM_INTERVAL = 8.0  # s between evaluations, provided the training advanced
 EXAMS_PER_CURVE = 25  # approximate evaluations over the length of the curve
+EXAM_SHARE = 0.04  # of the time at full speed, after as many matches
+FORECAST = 0.5  # s after which the end of an evaluation can be foreseen
+FIRST_POINT = 8.0  # s after which the first evaluation ends with the matches played so far, at least two
 PICTURE = {True: 1 / 14, False: 1 / 100}  # s between frames, at full speed and otherwise
 PETAL = 1 / 60  # s between two evaluated directions of the rose
 
@@ -45,6 +49,7 @@ class TrainingProgress:
         self._exam: Evaluation | None = None
         self._exam_start = -1.0  # matches at the start of the last evaluation
         self._exam_time = self._last_frame = self._last_direction = perf_counter()
+        self._exam_seconds = 0.0  # that the last evaluation took
         self._sector = 0
         self._save_checkpoint()
 
@@ -85,22 +90,35 @@ class TrainingProgress:
             self.plan[self._sector] = direction(self.training.table, self._sector, self.training.recipe.cold)
             self._sector = (self._sector + 1) % PETALS
 
-    def exam_due(self) -> Evaluation | None:
-        """The running evaluation, or a new one if due."""
+    def exam_due(self, at_full_speed: bool = False) -> Evaluation | None:
+        """The running evaluation, or a new one if due; `at_full_speed`: late ones leave most of the time free."""
         if self._exam is None:
             played, now = self.played, perf_counter()
             grain = max(1.0, played / EXAMS_PER_CURVE)
-            since = played - self._exam_start
-            if since >= grain or (since > 0 and now - self._exam_time >= EXAM_INTERVAL):
+            since, seconds = played - self._exam_start, now - self._exam_time
+            pause = min(self._exam_seconds / EXAM_SHARE, EXAM_INTERVAL)
+            rests = at_full_speed and played > EXAMS_PER_CURVE and seconds < pause
+            if (since >= grain or (since > 0 and seconds >= EXAM_INTERVAL)) and not rests:
                 self._exam_start, self._exam_time = played, now
                 self._exam = self._evaluation(self.training.checkpoint().kind)
         return self._exam
 
     def record_exam(self) -> None:
-        """Record the result of a finished evaluation."""
-        if self._exam and self._exam.over:
+        """Record the result of a finished evaluation. The first one ends early where it takes long."""
+        seconds = perf_counter() - self._exam_time
+        in_time = bool(self.measures) or seconds < FIRST_POINT or not (self._exam and self._exam.pairs)
+        if self._exam and (self._exam.over or not in_time):
             self.measures = [*self.measures, Measure(self._exam_start, self._exam.share)]
-            self._exam = None
+            self._exam, self._exam_seconds = None, seconds
+
+    @property
+    def first_point(self) -> int | None:
+        """s until the first point of the curve, about; None if it is there."""
+        if self.measures:
+            return None
+        passed, done = perf_counter() - self._exam_time, self._exam.done if self._exam else 0.0
+        forecast = passed / done - passed if done and passed > FORECAST else FIRST_POINT
+        return max(1, ceil(min(FIRST_POINT - passed, forecast)))
 
     def _evaluation(self, learned: BrainKind) -> Evaluation:
         """An evaluation against the hand-made robot."""

@@ -12,21 +12,23 @@ import pygame
 from pigaming_app.ai.networks.files import TrainedNetwork
 from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.ai.qlearning.table_files import Trained
+from pigaming_app.ai.reward_line import LineError
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Push, StackOperation
 from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.host import dimmed_background
 from pigaming_app.scenes.lab.knob import LIMIT
-from pigaming_app.scenes.lab.layout import KNOB_NAMES, MATCH, PLAY, PROMPTS_Y, SPEED, knob_rect
+from pigaming_app.scenes.lab.layout import KNOB_NAMES, LINE, MATCH, PLAY, PROMPTS_Y, SIDES, SPEED, knob_rect
 from pigaming_app.scenes.lab.learning_curve import EVEN
 from pigaming_app.scenes.lab.network.fetch_page import FetchPage
 from pigaming_app.scenes.lab.network.kind_switch import KINDS, NETWORK, TABLE, kind_at, kind_rect
 from pigaming_app.scenes.lab.network.trainer import NetworkProgress, NetworkTrainer
 from pigaming_app.scenes.lab.progress import TrainingProgress
 from pigaming_app.scenes.lab.saved_robots import RobotFileError
+from pigaming_app.scenes.lab.sides import LabSide
 from pigaming_app.scenes.lab.trainer import Trainer
-from pigaming_app.scenes.lab.view import SPEEDS, LabPage, LabState, speed_at, warming
+from pigaming_app.scenes.lab.view import SPEEDS, LabPage, LabState, notice, speed_at
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.play.drivers import new_seed
 from pigaming_app.ui.draw import FOCUS
@@ -59,15 +61,10 @@ class Lab(Page):
 
     def __init__(self, context: Context, fast: bool | None = None) -> None:
         super().__init__(context, Focus(self._spots(context.words), "speed"))
-        background = context.shared(LabBackground)
-        self.table = Trainer(FIRST, new_seed(), fast, background.compiler)
-        self.network = NetworkTrainer(new_seed(), background.network_compiler)
+        self._fast, self._background = fast, context.shared(LabBackground)
+        self.sides = [self._new_side(new_seed())]
+        self.shown_side = 0
         self.kind = TABLE
-        self.names = dict.fromkeys(KINDS, "")  # under which each robot was saved or opened
-        self.was_behind: TrainingProgress | NetworkProgress | None = None  # the training behind the hand-made robot
-        self.celebrated: TrainingProgress | NetworkProgress | None = (
-            None  # the training whose overtaking was celebrated
-        )
         self.shown = LabState()
         self.page: LabPage | None = None
         self.seen = -1  # number of the last frame shown
@@ -114,7 +111,10 @@ class Lab(Page):
 
     def advance(self, seconds: float) -> StackOperation:
         """Feed the trainer and update the page."""
-        self.trainer.feed(seconds)
+        for side in self.sides:
+            side.table.share = 1.0 / len(self.sides)
+            side.trainer(self.kind).feed(seconds)
+            side.follow(self.kind, seconds)
         self.compiling = self.compiling + seconds if self.trainer.compiling else 0.0
         if self.trainer.trouble:
             self._report_trouble()
@@ -137,12 +137,14 @@ class Lab(Page):
         words = self.context.words
         if self.context.idle > self.idle - CONFIRM_SECONDS:
             caption(words("pause.still"), FOCUS, sign="clock").draw(screen, MATCH.centerx, MATCH.top + 60)
+        elif (seconds := self.trainer.first_point) is not None:
+            notice(words("lab.first", seconds=seconds)).draw(screen)
         elif self.compiling > COMPILE_NOTICE:
-            warming(words("lab.warming" if self.kind == TABLE else "lab.preparing")).draw(screen)
+            notice(words("lab.warming" if self.kind == TABLE else "lab.preparing")).draw(screen)
 
     def on_leave(self) -> None:
         """Pause the training when the scene is removed, and release its pictures, 13 MB: the title keeps the Lab."""
-        self.trainer.close()
+        self._pause()
         self.page = None
 
     # ---- interface for the pages above
@@ -159,27 +161,52 @@ class Lab(Page):
         self.context.sounds.play("accept")
         driver = self.context.controls.driver(device)
         robot = self.trainer.checkpoint(self.name or self.context.words("lab.robot"))
-        self.trainer.close()
+        self._pause()
         return Push(Challenge(self.context, robot.kind, driver, self.trainer.arena))
+
+    @property
+    def side(self) -> LabSide:
+        """The robot that is shown."""
+        return self.sides[self.shown_side]
+
+    @property
+    def table(self) -> Trainer:
+        return self.side.table
+
+    @property
+    def network(self) -> NetworkTrainer:
+        return self.side.network
 
     @property
     def trainer(self) -> Trainer | NetworkTrainer:
         """The training that is shown."""
-        return self.table if self.kind == TABLE else self.network
+        return self.side.trainer(self.kind)
 
     @property
     def name(self) -> str:
         """Name under which the robot was saved or opened, or ""."""
-        return self.names[self.kind]
+        return self.side.names[self.kind]
 
     @name.setter
     def name(self, name: str) -> None:
-        self.names[self.kind] = name
+        self.side.names[self.kind] = name
 
     def begin(self) -> None:
-        """Start again with a robot that knows nothing."""
-        self.trainer.begin(new_seed())
-        self.name, self.seen = "", -1
+        """Start again with robots that know nothing, from the same seed."""
+        seed = new_seed()
+        for side in self.sides:
+            side.trainer(self.kind).begin(seed)
+            side.names[self.kind] = ""
+        self.seen = -1
+
+    def reward_by(self, line: str) -> str:
+        """Reward the robot by a line from now on. Returns the sentence why not, if it is none."""
+        try:
+            self.trainer.reward_by(line)
+        except LineError as error:
+            return self.context.words(f"lab.line_{error.reason}", **error.values)
+        self.side.note_change(self.kind)
+        return ""
 
     def open(self, robot: Trained | TrainedNetwork, name: str) -> None:
         """Continue with a saved robot, of whatever kind. Raises RobotFileError."""
@@ -196,18 +223,36 @@ class Lab(Page):
     def show_kind(self, kind: str) -> None:
         """Show the robot of this kind."""
         if kind != self.kind:
-            self.trainer.close()
+            self._pause()
             self.kind, self.page, self.held = kind, None, ""
+
+    def show_side(self, number: int) -> None:
+        """Show A (0) or B (1). B begins with the reward of A, and with nothing learned."""
+        if number == len(self.sides):
+            one, other = self.side, self._new_side(new_seed())
+            other.table.recipe, other.network.recipe = one.table.recipe, one.network.recipe
+            other.table.speed, other.network.speed = one.table.speed, one.network.speed
+            self.sides.append(other)
+            self.show_message(self.context.words("lab.side_how"))
+        self.shown_side, self.page, self.held = number, None, ""
 
     def leave(self) -> StackOperation:
         return self._paused(super().leave())
 
     def _paused(self, operation: StackOperation) -> StackOperation:
         """Pause the training and return `operation`."""
-        self.trainer.close()
+        self._pause()
         return operation
 
     # ---- inside
+
+    def _new_side(self, seed: int) -> LabSide:
+        compilers = self._background.compiler, self._background.network_compiler
+        return LabSide(Trainer(FIRST, seed, self._fast, compilers[0]), NetworkTrainer(seed, compilers[1]))
+
+    def _pause(self) -> None:
+        for side in self.sides:
+            side.close()
 
     def _choose(self, event: InputEvent) -> StackOperation:
         chosen = self.focus.activated(event)
@@ -220,8 +265,13 @@ class Lab(Page):
         elif chosen == "kind":
             other = KINDS[1 - KINDS.index(self.kind)]
             return self._change_kind(kind_at(event.at[0], self.context.words) if event.at else other)
+        elif chosen == "sides":
+            self.context.sounds.play("accept")
+            self.show_side(int(event.at[0] > SIDES.centerx) if event.at else 1 - self.shown_side)
+        elif chosen == "line":
+            return self._write_line()
         elif chosen and event.at:
-            self._set(chosen, self._value(chosen) + (1 if event.at[0] > self.focus.rect(chosen).centerx else -1))
+            self._turn_knob(chosen, 1 if event.at[0] > self.focus.rect(chosen).centerx else -1)
         elif chosen:
             self.held = chosen
             self.context.sounds.play("lift")
@@ -230,14 +280,22 @@ class Lab(Page):
     def _turn(self, event: InputEvent) -> StackOperation:
         """Handle input while a knob is held."""
         if event.button in TURNS:
-            self._set(self.held, self._value(self.held) + TURNS[event.button])
+            self._turn_knob(self.held, TURNS[event.button])
         elif event.button in (Button.FIRE, Button.BACK, Button.START, Button.CLICK):
             self.held = ""
             self.context.sounds.play("set_down")
         return None
 
+    def _write_line(self) -> StackOperation:
+        from pigaming_app.scenes.lab.pages.line_page import LinePage
+
+        self.context.sounds.play("accept")
+        return self._paused(Push(LinePage(self.context, self.trainer.line, self.reward_by)))
+
     def _next_speed(self, speed: int) -> None:
-        self.trainer.speed = speed
+        """The same for both robots."""
+        for side in self.sides:
+            side.trainer(self.kind).speed = speed
         self.context.sounds.play("move")
 
     def _change_kind(self, kind: str) -> StackOperation:
@@ -269,16 +327,22 @@ class Lab(Page):
 
     def _reset(self) -> None:
         """Prepare the page for the next visitors."""
+        for side in self.sides[1:]:
+            side.close()
+            side.network.end()
+        del self.sides[1:]
+        self.show_side(0)
         for trainer in (self.table, self.network):
             trainer.reset(new_seed())
         self.show_kind(TABLE)
-        self.names, self.seen = dict.fromkeys(KINDS, ""), -1
+        self.side.names, self.seen = dict.fromkeys(KINDS, ""), -1
 
     @staticmethod
     def _spots(words: Words) -> list[FocusSpot]:
         knobs = [FocusSpot(name, knob_rect(i)) for i, name in enumerate(KNOB_NAMES)]
         kind = FocusSpot("kind", kind_rect(words))
-        return [kind, FocusSpot("speed", SPEED), FocusSpot("play", PLAY), *knobs]
+        code = [FocusSpot("sides", SIDES), FocusSpot("line", LINE)]
+        return [kind, FocusSpot("speed", SPEED), FocusSpot("play", PLAY), *code, *knobs]
 
     def _menu(self) -> StackOperation:
         from pigaming_app.scenes.lab.pages.menu import LabMenu
@@ -286,14 +350,13 @@ class Lab(Page):
         self.context.sounds.play("accept")
         return self._paused(Push(LabMenu(self)))
 
-    def _value(self, knob: str) -> int:
-        return max(-LIMIT, min(LIMIT, int(getattr(self.trainer.recipe, knob))))
-
-    def _set(self, knob: str, value: int) -> None:
-        """Set a knob, clamped to its range."""
-        value = max(-LIMIT, min(LIMIT, value))
-        if value != self._value(knob):
+    def _turn_knob(self, knob: str, by: int) -> None:
+        """Turn a knob to the next whole number within its range; `by`: 1 or -1."""
+        before = float(getattr(self.trainer.recipe, knob))
+        value = max(-LIMIT, min(LIMIT, math.floor(before) + 1 if by > 0 else math.ceil(before) - 1))
+        if value != before:
             self.trainer.turn(knob, value)
+            self.side.note_change(self.kind)
             self.context.sounds.play("tick")
 
     def _follow(self, seconds: float) -> None:
@@ -304,11 +367,12 @@ class Lab(Page):
             self.page.watch(moment.state)
         if self.page:
             self.page.update(seconds)
-        now.matches, now.knowing, now.measures = moment.matches, moment.knowing, trainer.progress.measures
+        now.matches, now.knowing, now.rate = moment.matches, moment.knowing, round(self.side.rate)
+        now.courses, now.side, now.line = [side.course(self.kind) for side in self.sides], self.shown_side, trainer.line
         self._celebrate(trainer.progress)
         now.kind, now.networks = self.kind, self.network.available or self.network.fetchable
         now.speed, now.focus, now.held = trainer.speed, self.focus.name, self.held
-        now.values = {name: self._value(name) for name in KNOB_NAMES}
+        now.values = {name: getattr(trainer.recipe, name) for name in KNOB_NAMES}
         plan = trainer.progress.plan
         scale = max([MIN_SCALE] + [abs(entry.value) for entry in plan if entry])
         now.levels = [level(entry.value / scale) if entry else 0 for entry in plan]
@@ -316,11 +380,12 @@ class Lab(Page):
 
     def _celebrate(self, progress: TrainingProgress | NetworkProgress) -> None:
         """Celebrate once per training that it overtook the hand-made robot."""
-        share = self.page.curve.share if self.page else None
+        shares, side = self.page.curve.shares if self.page else [], self.side
+        share = shares[self.shown_side] if self.shown_side < len(shares) else None
         if share is not None and share < EVEN:
-            self.was_behind = progress
-        elif share is not None and share > EVEN and self.was_behind is progress is not self.celebrated:
-            self.celebrated = progress
+            side.was_behind = progress
+        elif share is not None and share > EVEN and side.was_behind is progress is not side.celebrated:
+            side.celebrated = progress
             self.show_message(self.context.words("lab.outdone"))
             self.context.sounds.play("win")
 

@@ -17,6 +17,8 @@ from pigaming_app.ai.learning.evaluation import compile_all
 from pigaming_app.ai.learning.training import Checkpoint, TableTraining, resumed
 from pigaming_app.ai.qlearning.recipe import Recipe
 from pigaming_app.ai.qlearning.table_files import Trained
+from pigaming_app.ai.reward_line import line_of, with_line
+from pigaming_app.ai.reward_quantities import QUANTITIES, WEIGHTED
 from pigaming_app.scenes.lab.progress import TrainingProgress, TrainingState
 from pigaming_app.scenes.lab.saved_robots import RobotFileError, save_robot
 from pigaming_app.sim.arena import ArenaError
@@ -26,11 +28,12 @@ from pigaming_app.ui import memory as heap
 
 FASTEST = 2  # index of full speed
 FACTORS = (1, 10)  # times real time
-CHUNK = 1500  # ticks per batch at full speed; under 1 ms compiled
+CHUNK = 6000  # ticks per batch at full speed: a match, 2 to 3 ms compiled
 MAX_BACKLOG = 4  # frames of ticks to catch up at most; the rest is dropped
 FEED_TIMEOUT = 0.7  # s without `feed` after which the thread ends
 SLICE = 0.007  # s per frame for interpreted training and evaluation; rendering takes 2 of the 16 ms
 TRAINING_SHARE = 0.4  # share of a slice for training at full speed
+FIRST_SHARE = 0.1  # the same until the first point of the curve
 
 log = logging.getLogger("pigaming")
 
@@ -45,6 +48,7 @@ class Trainer:
         self._compiler = compiler or Compiler()
         self._first = recipe
         self.recipe, self.speed = recipe, 0
+        self.share = 1.0  # of SLICE
         self.may_compile = can_compile() if fast is None else fast
         self.training = TableTraining(recipe, seed, fast=False)
         self.progress = TrainingProgress(self.training)
@@ -106,6 +110,20 @@ class Trainer:
         reward: dict[str, Any] = {knob: float(value)}
         self.recipe = replace(self.recipe, **reward)
 
+    @property
+    def line(self) -> str:
+        """The reward as code."""
+        return line_of(self.recipe, WEIGHTED)
+
+    def reward_by(self, line: str) -> None:
+        """Reward by a line of code. Raises LineError."""
+        self.recipe = with_line(self.recipe, line, QUANTITIES, WEIGHTED)
+
+    @property
+    def first_point(self) -> int | None:
+        """s until the first point of the win curve; None if it is there."""
+        return self.progress.first_point
+
     def begin(self, seed: int) -> None:
         """Restart from an empty table."""
         with self._lock:
@@ -119,6 +137,7 @@ class Trainer:
     def save(self, name: str) -> None:
         """Save the robot. Raises RobotFileError."""
         with self._lock:
+            self._follow_recipe()
             save_robot(self.training, name)
 
     def open(self, trained: Trained) -> None:
@@ -152,15 +171,17 @@ class Trainer:
 
     def _slice(self, seconds: float) -> None:
         """One frame's slice of interpreted training."""
-        end = perf_counter() + SLICE
+        slice_ = SLICE * self.share
+        end = perf_counter() + slice_
         self._follow_recipe()
         if self.speed < FASTEST:
             self.progress.train(self._due(seconds))
         else:
-            while perf_counter() < end - (1 - TRAINING_SHARE) * SLICE:
+            share = TRAINING_SHARE if self.progress.measures else FIRST_SHARE
+            while perf_counter() < end - (1 - share) * slice_:
                 self.progress.train(20)
         self.progress.publish(self.speed == FASTEST)
-        exam = self.progress.exam_due()
+        exam = self.progress.exam_due(self.speed == FASTEST)
         while exam and not exam.over and perf_counter() < end:
             exam.play(20)
         self.progress.record_exam()
@@ -213,7 +234,7 @@ class Trainer:
             with self._lock:
                 self._follow_recipe()
                 ticks = CHUNK if self.speed == FASTEST else self._due(now - last)
-                exam = self.progress.exam_due()
+                exam = self.progress.exam_due(self.speed == FASTEST)
                 if not (exam and self.speed == FASTEST):
                     self.progress.train(ticks)
                 self.progress.publish(self.speed == FASTEST)

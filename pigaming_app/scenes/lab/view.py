@@ -19,17 +19,21 @@ from pigaming_app.scenes.lab.layout import (
     KNOB_Y,
     KNOBS,
     LEFT,
+    LINE,
     MATCH,
     PLAN,
     PLAY,
     PLOT,
     ROSE,
+    SIDE_COLORS,
+    SIDE_LETTERS,
+    SIDES,
     SPEED,
     TITLE_Y,
     WORDS_X,
     knob_rect,
 )
-from pigaming_app.scenes.lab.learning_curve import LearningCurve, Measure
+from pigaming_app.scenes.lab.learning_curve import LearningCurve, WinCourse
 from pigaming_app.scenes.lab.network.kind_switch import TABLE, kind_rect, kind_switch
 from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.ui import draw as kit
@@ -37,7 +41,7 @@ from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, wrap_balanced
+from pigaming_app.ui.draw.text import fit_size, fit_text, wrap_balanced
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.widgets.labels import black_out, blit_sprite
 
@@ -53,11 +57,14 @@ class LabState:
     """State shown on the page."""
 
     matches: int = 0
-    measures: Sequence[Measure] = ()
+    rate: int = 0  # matches a second
+    courses: Sequence[WinCourse] = (WinCourse(),)  # of A, or of A and B
+    side: int = 0  # the one that is shown
+    line: str = ""  # its reward
     levels: list[int] = field(default_factory=lambda: [0] * PETALS)  # petal length of each direction
     signs: Sequence[str] = ("unknown",) * PETALS
     knowing: float = 0.0  # 0: only explores, 1: only exploits
-    values: Mapping[str, int] = field(default_factory=dict)  # knob values
+    values: Mapping[str, float] = field(default_factory=dict)  # knob values
     kind: str = TABLE
     networks: bool = True  # networks can learn here, perhaps after a fetch
     speed: int = 0  # index into SPEEDS
@@ -87,15 +94,20 @@ class LabPage:
     def draw(self, screen: pygame.Surface, now: LabState) -> None:
         screen.blit(self.ground, (0, 0))
         self.arena.draw(screen)
-        blit_sprite(screen, tag(self.words("lab.match", number=now.matches + 1)), ARENA.left + 12, ARENA.bottom - 66)
-        self.curve.show(now.measures)
-        self.curve.draw(screen, self.words("lab.handmade"), "…")
+        label = self.words("lab.match", number=now.matches + 1)
+        if now.rate:
+            label += self.words("lab.rate", rate=now.rate)
+        blit_sprite(screen, tag(label), MATCH.left + 20, ARENA.bottom - 66)
+        self.curve.show(now.courses)
+        self.curve.draw(screen, self.words("lab.handmade"))
         self._plan(screen, now)
         for i, name in enumerate(KNOB_NAMES):
             box = knob_rect(i)
             held = name == now.held
-            dial(now.values.get(name, 0), held).draw(screen, box.centerx, KNOB_Y)
+            dial(now.values.get(name, 0.0), held).draw(screen, box.centerx, KNOB_Y)
             knob_name(self.words(f"lab.{name}"), name == now.focus).draw(screen, box.centerx, KNOB_Y)
+        side_switch(now.side, len(now.courses)).draw(screen, *SIDES.topleft)
+        code(now.line, now.focus == "line").draw(screen, *LINE.topleft)
         box = kind_rect(self.words)
         kind_switch(self.language, now.kind, now.networks).draw(screen, *box.topleft)
         speed(self.words("lab.max"), now.speed).draw(screen, *SPEED.topleft)
@@ -133,8 +145,8 @@ def ground(language: str) -> Steps[pygame.Surface]:
     for box in (KNOBS, CURVE, PLAN):
         kit.panel(canvas.glow, *box)
     yield
-    _caption(canvas, words("lab.likes"), KNOBS)
-    _caption(canvas, words("lab.wins"), CURVE)
+    _caption(canvas, words("lab.likes"), KNOBS, SIDES.centery, SIDES.w + 40)
+    _caption(canvas, words("lab.wins"), CURVE, CURVE.top + 40)
     canvas.body(words("lab.ties"), CURVE.right - 36, CURVE.top + 40, kit.MIST, "r")
     canvas.crisp.line([PLOT.topleft, PLOT.bottomleft, PLOT.bottomright], kit.STEEL, kit.THIN)
     yield
@@ -147,8 +159,10 @@ def ground(language: str) -> Steps[pygame.Surface]:
     return out
 
 
-def _caption(canvas: kit.LayeredCanvas, name: str, box: pygame.Rect) -> None:
-    canvas.body(name, box.left + 32, box.top + 40, kit.ICE, "l", fit_size(name, kit.BODY + 4, box.w - 64, "body"))
+def _caption(canvas: kit.LayeredCanvas, name: str, box: pygame.Rect, y: float, taken: int = 0) -> None:
+    """Write a caption; `taken`: px at its right."""
+    size = fit_size(name, kit.BODY + 4, box.w - 64 - taken, "body")
+    canvas.body(name, box.left + 32, y, kit.ICE, "l", size)
 
 
 def _legend(canvas: kit.LayeredCanvas, words: Words) -> None:
@@ -235,7 +249,33 @@ def knob_name(label: str, focus: bool) -> LitImage:
 
 
 @cached
-def warming(label: str) -> LitImage:
+def code(line: str, focus: bool) -> LitImage:
+    """The reward as code, in its box; top left at (0, 0)."""
+    layer = Layer(0, 0, *LINE.size)
+    layer.canvas.crisp.line(kit.cut_box(0, 0, *LINE.size, 12), kit.STEEL, kit.THIN, True)
+    shown, size = fit_text(line, kit.BODY, LINE.w - 48, "body")
+    layer.canvas.body(shown, 24, LINE.h / 2, kit.FOCUS if focus else kit.ICE, "l", size)
+    return layer.render()
+
+
+@cached
+def side_switch(chosen: int, sides: int) -> LitImage:
+    """The robots A and B, the chosen one lit in the colour of its curve; top left at (0, 0)."""
+    w, h = SIDES.size
+    layer = Layer(0, 0, w, h)
+    layer.glow.line(kit.cut_box(0, 0, w, h, 12), kit.BLUE, kit.THIN, True)
+    for i, letter in enumerate(SIDE_LETTERS):
+        x, on = i * w / 2, i == chosen
+        if on:
+            layer.canvas.crisp.fill(kit.cut_box(x + 6, 6, w / 2 - 12, h - 12, 8), kit.dim(kit.BLUE, 0.3))
+        label = letter if i < sides else f"+{letter}"
+        color = SIDE_COLORS[i] if i < sides and sides > 1 else kit.ICE if on else kit.MIST
+        layer.canvas.crisp.text(label, kit.BODY - 4, x + w / 4, h / 2, color, "head", "c")
+    return layer.render()
+
+
+@cached
+def notice(label: str) -> LitImage:
     """Notice beside a clock above the centre of the plot, which early curves do not reach."""
     layer = Layer(PLOT.x, PLOT.y - 10, PLOT.w, 92)
     kit.icon(layer.canvas.crisp, "clock", PLOT.x + 40, PLOT.y + 34, 22, kit.MIST, kit.THIN)

@@ -128,7 +128,7 @@ class MatchSetupPage(Page):
 
     def _find_arenas(self) -> None:
         """List the arenas again, as the user may have drawn or deleted some; the one saved last is chosen."""
-        self.arenas = playable_arenas(self.game.name)
+        self.arenas = self._with_room(playable_arenas(self.game.name))
         self.versions = {name: score_name(self.game.name, name) for name in own_arenas(self.game.name)}
         first_state.cache_clear()
         saved = self.context.settings.choice(self.game.name).arena
@@ -136,6 +136,13 @@ class MatchSetupPage(Page):
             self.chosen.arena = saved
         elif self.chosen.arena not in self.arenas:
             self.chosen.arena = self.arenas[0]
+
+    def _with_room(self, arenas: tuple[str, ...]) -> tuple[str, ...]:
+        """The arenas that real robots fit into on their surface; all if there are none, which the match then says."""
+        mat, real = self.context.mat, self.seats.real()
+        if mat is None or not real:
+            return arenas
+        return tuple(name for name in arenas if mat.has_room(self.game.name, name, real)) or arenas
 
     @property
     def _on_mat(self) -> bool:

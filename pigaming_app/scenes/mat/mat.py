@@ -4,22 +4,27 @@ import logging
 import sys
 from collections.abc import Callable, Collection, Sequence
 from functools import partial
+from math import ceil
 from typing import Any
 
 import pygame
 
-from pigaming_app.games.arenas import load, with_things
+from pigaming_app.games.arenas import has_room, load, on_mat, widest
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
+from pigaming_app.hardware.control.virtual_walls import SPARE
 from pigaming_app.hardware.drivers.ours import UDP
 from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, settings_problem
 from pigaming_app.hardware.session.ros import RosSession
+from pigaming_app.scenes.flow.arena_cache import load_cached
 from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.match_choice import arena_title
 from pigaming_app.scenes.flow.stack import Scene
 from pigaming_app.scenes.launch import Options
-from pigaming_app.sim.arena import ArenaError
+from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.things.spec import ThingSpec
+from pigaming_app.sim.world import WIDTH
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Device, StickState
@@ -88,17 +93,33 @@ class SessionMat:
                 raise RobotsUnavailable(reason)
             if things is None:
                 things = self.things
-            arena = with_things(setup.game, load(setup.game, setup.arena), things) if things else None
+            self.session.open()
+            arena = self._arena(setup, things, self.session.radius(real))
             match = RealMatch(context, setup, devices, real, self.session, again, game_choice, rounds, arena, after)
             match.robots.watchers = self.watchers
             return match
         except ArenaError as error:
+            self.session.close()
             log.warning("%s", error)
             anew = partial(again, setup, devices, real, rounds=rounds)
             return UnplayablePage(context, setup, devices, anew, partial(anew, things=()))
         except RobotsUnavailable as error:
+            self.session.close()
             log.warning("%s", english().long_sentence(error.message))
             return UnavailablePage(context, setup, devices, real, error.message, partial(again, rounds=rounds))
+
+    def has_room(self, game: str, arena: str, robots: Collection[int]) -> bool:
+        return has_room(game, load_cached(game, arena).source, self.session.radius(robots), SPARE)
+
+    def _arena(self, setup: Setup, things: Sequence[ThingSpec], radius: float) -> Arena:
+        """The arena of a match with robots of a radius, px. Raises ArenaError, RobotsUnavailable."""
+        arena, mm = load(setup.game, setup.arena), self.session.mm
+        if not has_room(setup.game, arena.source, radius, SPARE):
+            least = WIDTH * mm * radius / widest(setup.game, arena.source, SPARE)
+            about = {"size": f"{2 * radius * mm:.0f}", "width": f"{WIDTH * mm:.0f}", "least": f"{ceil(least)}"}
+            title = arena_title(arena, self.context.words.language)
+            raise RobotsUnavailable(OperatorMessage("tight", arena=title, **about))
+        return on_mat(setup.game, arena, things, radius)
 
     def stop(self) -> None:
         self.session.close()

@@ -5,20 +5,23 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 
 ARENA = pygame.Rect(LEFT + 24, TOP, int(WIDTH) - 48, int(HEIGHT))
-BODY = round(RADIUS) + 8  # px, half the side of a robot's box
+BODY = 8  # px between a robot and its box
 
 
-def robot_boxes(robots: Sequence[tuple[float, float]]) -> list[pygame.Rect]:
+def robot_boxes(robots: Sequence[tuple[float, float]], radius: float = RADIUS) -> list[pygame.Rect]:
     """The box of each robot. `robots`: positions on the canvas, px."""
-    return [pygame.Rect(round(x) - BODY, round(y) - BODY, 2 * BODY, 2 * BODY) for x, y in robots]
+    half = round(radius) + BODY
+    return [pygame.Rect(round(x) - half, round(y) - half, 2 * half, 2 * half) for x, y in robots]
 
 
 def caption_boxes(
-    robots: Sequence[tuple[float, float]], sizes: Sequence[tuple[int, int]], reach: Sequence[float]
+    robots: Sequence[tuple[float, float]],
+    sizes: Sequence[tuple[int, int]],
+    reach: Sequence[float],
+    radius: float = RADIUS,
 ) -> list[pygame.Rect]:
     """The box of each robot's caption, on the canvas, px.
 
@@ -26,11 +29,11 @@ def caption_boxes(
     caption from its robot. A caption is above or below its robot, where the arena has more room, unless it would cover
     another caption or robot there and less of them at another side.
     """
-    bodies = robot_boxes(robots)
+    bodies = robot_boxes(robots, radius)
     placed: list[pygame.Rect] = []
     for (x, y), size, offset in zip(robots, sizes, reach, strict=True):
         near = offset if y < TOP + HEIGHT / 2 else -offset
-        beside = BODY + 12 + size[0] / 2
+        beside = round(radius) + BODY + 12 + size[0] / 2
         side = beside if x < LEFT + WIDTH / 2 else -beside
         shifts = ((0, near), (0, -near), (side, 0), (-side, 0), (0, near + near / abs(near) * size[1]))
         boxes = []

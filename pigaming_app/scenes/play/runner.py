@@ -151,7 +151,7 @@ class MatchRunner:
 
     def occupied(self, devices: Sequence[Device | None]) -> list[pygame.Rect]:
         """The boxes of the robots and their captions, on the canvas."""
-        return [*robot_boxes(self.robots()), *(box for _, box in self._captions(devices))]
+        return [*robot_boxes(self.robots(), self.match.state.radius), *(box for _, box in self._captions(devices))]
 
     def _captions(self, devices: Sequence[Device | None]) -> list[tuple[Caption, pygame.Rect]]:
         """The driver's caption of each robot, and its box."""
@@ -159,7 +159,7 @@ class MatchRunner:
         captions = [self._caption(seat, devices[seat]) for seat in seats]
         sizes = [(sheet.width, sheet.height) for sheet in captions]
         reach = [self.view.reach(seat, CAPTION_GAP) for seat in seats]
-        return list(zip(captions, caption_boxes(self.robots(), sizes, reach), strict=True))
+        return list(zip(captions, caption_boxes(self.robots(), sizes, reach, self.match.state.radius), strict=True))
 
     def _caption(self, seat: int, device: Device | None) -> Caption:
         """Who drives: the name of an entrant, for a person with the device."""

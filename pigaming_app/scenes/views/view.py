@@ -21,7 +21,7 @@ from pigaming_app.scenes.views.things.on_mat import ThingsOnMat
 from pigaming_app.scenes.views.things.styles import NEON
 from pigaming_app.scenes.views.tread_marks import TreadMarks
 from pigaming_app.sim.things.spec import ThingSpec
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 from pigaming_app.ui.draw import ADD, PLAYERS, PRE, Color
 from pigaming_app.ui.draw.frame_budget import Job, PrewarmQueue
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, Sprite, put, step
@@ -93,6 +93,7 @@ class MatchView:
     ) -> None:
         self.players, self.options, self.words, self.background = players, options, words, background
         self.real: frozenset[int] = frozenset()  # seats with real robots, which are lit instead of drawn
+        self.scale: float = round(state.radius) / RADIUS  # of robots
         self.seats = [i for i, robot in enumerate(state.robots) if robot.present]
         self.undrawn = 0.0  # s since the last picture
         self.teams = [robot.team % len(TEAMS) for robot in state.robots]
@@ -156,7 +157,10 @@ class MatchView:
 
     def body(self, seat: int, turn: int) -> Sprite:
         """The robot of a seat at heading `turn` of HEADINGS."""
-        return tank.tank(seat, turn, self.color(seat)) if self.wears_teams else tank.tank(seat, turn)
+        rim = self.color(seat) if self.wears_teams else None
+        if self.scale == 1.0:  # as others call it, so that sprites are cached once
+            return tank.tank(seat, turn, rim) if rim else tank.tank(seat, turn)
+        return tank.tank(seat, turn, rim, self.scale)
 
     # ---- for subclasses
 
@@ -176,8 +180,9 @@ class MatchView:
         self.previous_poses, self.current_poses = _poses(one), _poses(other)
 
     def reach(self, seat: int, usual: int) -> int:
-        """Radius in px of a ring around a robot, enlarged for a real one, which stands in a wide disc."""
-        return usual + REAL_WIDER if seat in self.real else usual
+        """Radius in px of a ring around a robot, enlarged for a wide one and for a real one, which stands in a disc."""
+        wide = usual + round(RADIUS * (self.scale - 1.0))
+        return wide + REAL_WIDER if seat in self.real else wide
 
     def light_up(self, under: Batch, seat: int, pose: Pose, fast: bool) -> None:
         """Draw treads, headlights and, if `fast`, the flame of a robot."""

@@ -1,24 +1,16 @@
-"""The server of the page that makes a phone the camera. HTTPS: browsers give their camera to no other page.
-
-Everything needs the token in the address, which is in the QR code; a socket is opened only by a page of this server.
-"""
+"""The server of the page that makes a phone the camera. HTTPS: browsers give their camera to no other page."""
 
 import asyncio
-import hmac
-import html
-import json
 import re
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
 from aiohttp import WSMessage, WSMsgType, web
 
-from pigaming_app import ASSETS
 from pigaming_app.ui.web.certificate import Certificate
-from pigaming_app.ui.web.listener import Handler, Listener
-from pigaming_app.ui.web.socket import CLOSE_SECONDS, DeviceSocket, closed, stop_reading
+from pigaming_app.ui.web.socket import DeviceSocket, closed, stop_reading
+from pigaming_app.ui.web.token_page import MAX_BODY, TokenPageServer
 
-MAX_BODY = 1024  # bytes
 MAX_PICTURE = 2_000_000  # bytes
 MAX_RATE = 300  # messages in a second: pictures of 120 Hz, an echo of each, and some
 MAX_TEXTS = 16
@@ -29,7 +21,6 @@ FILES = {
     "camera.css": ("phones/camera.css", "text/css"),
     "camera.js": ("phones/camera.js", "text/javascript"),
     "encoder.js": ("phones/encoder.js", "text/javascript"),
-    "oxanium.woff2": ("fonts/oxanium-latin-700-normal.woff2", "font/woff2"),
 }
 AUTHORITY = "pigaming.crt"
 NAME = re.compile(r"[0-9a-f]{32}")  # of a phone for itself
@@ -48,12 +39,13 @@ class PictureSession(Protocol):
 Joined = Callable[[str, Callable[[str], None], Callable[[int], None]], PictureSession]
 
 
-class PhoneCameraServer(Listener):
+class PhoneCameraServer(TokenPageServer):
     """Serves on a port of an address. `joined`: gets the name of a phone, and two functions, which any thread may
     call: one sends a text, one closes the connection with a code. `texts`: those of the page.
     """
 
     received = BUFFER
+    page, socket, files, old = "camera.html", "pictures", FILES, "old"
 
     def __init__(
         self,
@@ -64,66 +56,21 @@ class PhoneCameraServer(Listener):
         texts: Mapping[str, str],
         joined: Joined,
     ) -> None:
-        super().__init__("phone camera", address, port, MAX_BODY, CLOSE_SECONDS, certificate.context)
-        self.app.middlewares.append(self._with_token)
-        self.app.router.add_get("/{token}", self._get_page)
-        self.app.router.add_get("/{token}/pictures", self._get_socket)
-        self.app.router.add_get("/{token}/{file}", self._get_file)
+        super().__init__("phone camera", address, port, token, texts, certificate.context)
         self.app.on_shutdown.append(self._close_all)
-        self.token, self.texts, self._joined = token, texts, joined
+        self._joined = joined
         self._sockets: set[DeviceSocket] = set()
-        self._files = {name: ((ASSETS / path).read_bytes(), kind) for name, (path, kind) in FILES.items()}
         self._files[AUTHORITY] = certificate.authority, "application/x-x509-ca-cert"
-        self._page = (ASSETS / "phones" / "camera.html").read_text(encoding="utf-8")
-
-    @property
-    def url(self) -> str:
-        """The address for phones, with the token."""
-        return f"{self.scheme}://{self.host}/{self.token}"
 
     @property
     def policy(self) -> str:
-        """Sockets, the page's styles and its worker."""
-        return (
-            f"connect-src 'self' wss://{self.host}; style-src 'self'; worker-src 'self'; img-src data:; "
-            "media-src blob:; form-action 'none'"
-        )
+        """The page's worker and its picture, too."""
+        return f"{super().policy}; worker-src 'self'; media-src blob:"
 
     # ---- in the server's thread
 
-    @web.middleware
-    async def _with_token(self, request: web.Request, handler: Handler) -> web.StreamResponse:
-        """Refuse requests without the token."""
-        first = request.path.strip("/").partition("/")[0].lower().encode(errors="replace")
-        if not hmac.compare_digest(first, self.token.encode()):
-            return self.refuse("wrong token refused", request)
-        return await handler(request)
-
-    def refuse(self, kind: str, request: web.Request) -> web.Response:
-        """Note a refusal; a sentence for a phone that has scanned an old code."""
-        answer = super().refuse(kind, request)
-        sentence = html.escape(self.texts.get("old", ""))
-        answer.text = f'<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><p>{sentence}</p>'
-        answer.content_type = "text/html"
-        return answer
-
-    async def _get_page(self, request: web.Request) -> web.StreamResponse:
-        texts = json.dumps(dict(self.texts)).replace("<", "\\u003c")
-        page = self._page.replace("{token}", self.token).replace("{texts}", texts)
-        return web.Response(text=page, content_type="text/html")
-
-    async def _get_file(self, request: web.Request) -> web.StreamResponse:
-        if request.match_info["file"] not in self._files:
-            raise web.HTTPNotFound
-        body, kind = self._files[request.match_info["file"]]
-        return web.Response(body=body, content_type=kind)
-
-    async def _get_socket(self, request: web.Request) -> web.StreamResponse:
+    async def connect(self, request: web.Request) -> web.WebSocketResponse:
         peer, phone = request.remote or "", request.query.get("phone", "")
-        if not self.own(request):
-            return self.refuse("foreign origin refused", request)
-        if not web.WebSocketResponse().can_prepare(request):
-            raise web.HTTPBadRequest
         if not NAME.fullmatch(phone):
             self.refusals.note("phone without a name refused", peer)
             return await closed(request, REFUSED, MAX_BODY)

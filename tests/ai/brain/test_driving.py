@@ -14,8 +14,8 @@ from pigaming_app.ai.registry import AIS
 from pigaming_app.games.registry import games
 from pigaming_app.sim.action import STEPS, quantise
 from pigaming_app.sim.angles import turn_to
-from pigaming_app.sim.robot import GAIN, RADIUS, integrate
-from pigaming_app.sim.world import HZ, Robot
+from pigaming_app.sim.robot import GAIN, integrate
+from pigaming_app.sim.world import HZ, RADIUS, Robot
 from pigaming_app.ui.input.events import StickState
 from tests.matches import match_of
 

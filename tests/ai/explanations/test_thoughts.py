@@ -12,7 +12,7 @@ from pigaming_app.ai.factory.mind import PERIOD
 from pigaming_app.ai.pitanks import fsm, gunner
 from pigaming_app.ai.qlearning.features import NONE, SECTORS, state
 from pigaming_app.ai.qlearning.recipe import Recipe
-from pigaming_app.ai.qlearning.table import ACTIONS, MOVES, Learned, QTable, player
+from pigaming_app.ai.qlearning.table import ACTIONS, MOVES, Learned, QTable, player, set_recipe
 from pigaming_app.ai.race import racer
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games.factory.state import INPUT, RAW, A
@@ -36,8 +36,7 @@ KEPT = 0.9  # value of the second best move, as a share of the best
 def taught(best: int = MOVES.index((1.0, 1.0, 1)), reward: float = 10.0) -> BrainPlayer:
     """A player whose table has the same best move in every state, and a second best nearly as good."""
     table = QTable()
-    for name, value in vars(Recipe()).items():
-        setattr(table.knobs, name, value)
+    set_recipe(table, Recipe())
     for k in range(0, len(table.q), ACTIONS):
         table.q[k + best], table.q[k + (best + 1) % ACTIONS] = reward, KEPT * reward
         table.n[k + best] = 7

@@ -6,11 +6,13 @@ from math import cos, exp, pi, sin, tau
 import pytest
 
 from pigaming_app.ai.learning.q_learner import (
-    action_reward,
+    is_behind,
     learn,
     learn_last,
+    observe_action,
+    observe_transition,
+    reward,
     temperature,
-    transition_reward,
     update,
 )
 from pigaming_app.ai.learning.training import fresh_table, training_setup
@@ -26,7 +28,7 @@ from pigaming_app.ai.qlearning.features import (
     state,
     wall_of,
 )
-from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe, RecipeRecord
+from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe, RecipeNumbers, RecipeRecord
 from pigaming_app.ai.qlearning.table import (
     ACTIONS,
     MOVES,
@@ -36,8 +38,11 @@ from pigaming_app.ai.qlearning.table import (
     move_probabilities,
     reset,
     sample_move,
+    set_recipe,
     think,
 )
+from pigaming_app.ai.reward_line import with_line
+from pigaming_app.ai.reward_quantities import HIT, QUANTITIES, WEIGHTED
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.sim.action import set_action
@@ -64,8 +69,7 @@ def without_walls(match):
 def taught(recipe=RECIPES[1]):
     """An empty table with a recipe."""
     table = fresh_table(1)
-    for name, value in vars(recipe).items():
-        setattr(table.knobs, name, value)
+    set_recipe(table, recipe)
     return table
 
 
@@ -144,9 +148,21 @@ def act(match, linear, fire):
     return action
 
 
+def worth_of(match, linear, fire, recipe):
+    """Reward of seat 0 for an action in the present state, whatever follows."""
+    seen, table = [0.0] * len(QUANTITIES), taught(recipe)
+    observe_action(match, 0, 1, situation(match, 0, 1, 1), act(match, linear, fire), recipe, seen)
+    return reward(table, seen)
+
+
 def shot(match, recipe=RECIPES[1], linear=1.0):
     """Reward of seat 0 for a shot in the present state."""
-    return action_reward(match, 0, 1, situation(match, 0, 1, 1), act(match, linear, 1), recipe)
+    return worth_of(match, linear, 1, recipe)
+
+
+def worth_behind(before, after, recipe):
+    """What the opponent's place after a decision costs."""
+    return recipe.behind * is_behind(before, after, recipe)
 
 
 def test_a_shot_at_an_opponent_in_plain_sight_is_worth_10():
@@ -174,12 +190,12 @@ def test_a_button_held_down_while_the_gun_cools_counts_unless_only_real_shots_do
     assert shot(match, replace(RECIPES[1], loaded=1)) == 0.0
 
 
-@pytest.mark.parametrize(("reward", "worth"), [(1, 0.0), (2, -10.0)])
-def test_standing_still_costs_10_by_the_second_table_alone(reward, worth):
+@pytest.mark.parametrize(("number", "worth"), [(1, 0.0), (2, -10.0)])
+def test_standing_still_costs_10_by_the_second_table_alone(number, worth):
     match = standing((300.0, 300.0, 1.0), (900.0, 300.0, pi))
-    recipe = RECIPES[reward]
-    assert action_reward(match, 0, 1, situation(match, 0, 1, 1), act(match, 0.0, 0), recipe) == worth
-    assert action_reward(match, 0, 1, situation(match, 0, 1, 1), act(match, -1.0, 0), recipe) == 0.0
+    recipe = RECIPES[number]
+    assert worth_of(match, 0.0, 0, recipe) == worth
+    assert worth_of(match, -1.0, 0, recipe) == 0.0
 
 
 def test_who_pushes_a_wall_is_still_only_where_moving_counts():
@@ -187,7 +203,7 @@ def test_who_pushes_a_wall_is_still_only_where_moving_counts():
     for speed, moving, worth in ((0.0, 0, 0.0), (0.0, 1, -10.0), (-200.0, 1, 0.0)):
         match.robots[0].linear = speed
         recipe = replace(RECIPES[2], moving=moving)
-        assert action_reward(match, 0, 1, situation(match, 0, 1, 1), act(match, -1.0, 0), recipe) == worth
+        assert worth_of(match, -1.0, 0, recipe) == worth
 
 
 def test_an_opponent_that_gets_behind_costs_1_once_by_the_first_table_and_every_time_by_the_second():
@@ -195,10 +211,10 @@ def test_an_opponent_that_gets_behind_costs_1_once_by_the_first_table_and_every_
         for wall in range(NONE + 1):
             there, away = state(ahead, wall, NONE), state(0, wall, NONE)
             exposed = 4 <= ahead <= 12 and wall != ahead
-            assert transition_reward(away, there, RECIPES[1]) == (-1.0 if exposed else 0.0)
-            assert transition_reward(there, there, RECIPES[1]) == 0.0
-            assert transition_reward(there, there, RECIPES[2]) == (-1.0 if exposed else 0.0)
-            assert transition_reward(there, away, RECIPES[2]) == 0.0
+            assert worth_behind(away, there, RECIPES[1]) == (-1.0 if exposed else 0.0)
+            assert worth_behind(there, there, RECIPES[1]) == 0.0
+            assert worth_behind(there, there, RECIPES[2]) == (-1.0 if exposed else 0.0)
+            assert worth_behind(there, away, RECIPES[2]) == 0.0
 
 
 @pytest.mark.parametrize(("behind", "thesis", "ours"), [(False, -1.0, -1.0), (True, 0.0, -1.0)])
@@ -210,18 +226,18 @@ def test_losing_the_wall_at_its_back_costs_a_robot_1_only_where_exposure_counts(
     match.walls[0].health, match.robots[0].heading = 0, 0.0
     after = situation(match, 0, 1, 1)
     assert opponent_of(after) == 8 != wall_of(after)
-    assert transition_reward(before, after, replace(RECIPES[1], exposure=0)) == thesis
-    assert transition_reward(before, after, RECIPES[1]) == ours
+    assert worth_behind(before, after, replace(RECIPES[1], exposure=0)) == thesis
+    assert worth_behind(before, after, RECIPES[1]) == ours
     for exposure in (0, 1):
         recipe = replace(RECIPES[1], exposure=exposure)
-        assert transition_reward(after, after, recipe) == 0.0
-        assert transition_reward(after, after, replace(recipe, behind_always=1)) == -1.0
+        assert worth_behind(after, after, recipe) == 0.0
+        assert worth_behind(after, after, replace(recipe, behind_always=1)) == -1.0
 
 
 def test_the_ends_of_behind_are_knobs():
     front, narrow = state(3, NONE, NONE), replace(RECIPES[1], behind_from=5, behind_to=11)
     for recipe, ends in ((RECIPES[1], {4, 12}), (narrow, {5, 11})):
-        costs = [ahead for ahead in range(SECTORS) if transition_reward(front, state(ahead, NONE, NONE), recipe)]
+        costs = [ahead for ahead in range(SECTORS) if worth_behind(front, state(ahead, NONE, NONE), recipe)]
         assert {costs[0], costs[-1]} == ends
         assert len(costs) == costs[-1] - costs[0] + 1
 
@@ -235,6 +251,23 @@ def test_what_counts_as_ahead_and_a_wall_ahead_are_knobs():
     assert [shot(match, replace(RECIPES[1], off_wall=off_wall)) for off_wall in (1, 0)] == [0.0, 10.0]
 
 
+def test_a_line_is_rewarded_with_what_is_seen():
+    """By Python's own arithmetic, of a decision whose quantities are known by hand."""
+    line = "10*hit-miss-3*behind+2*still-turned+fired-7*taken-(distance/99 if fired else 0)"
+    match, mind = without_walls(standing((300.0, 300.0, 0.0), (900.0, 300.0, pi))), LearnerMind()
+    recipe = with_line(RECIPES[2], line, QUANTITIES, WEIGHTED)
+    action = match.actions[0]
+    set_action(action, 0.0, 1.0, 1, 0)
+    match.tanks[0].taken = 4
+    mind.state = situation(match, 0, 1, 1)
+    observe_action(match, 0, 1, mind.state, action, recipe, mind.seen)
+    match.tanks[0].taken, match.robots[0].heading = 6, pi  # hit twice, and turned away
+    observe_transition(match, 0, mind, situation(match, 0, 1, 1), recipe)
+    seen = {"hit": 1, "miss": 0, "behind": 1, "still": 1, "turned": 1, "fired": 1, "taken": 2, "distance": 600.0}
+    assert dict(zip(QUANTITIES, mind.seen, strict=True)) == seen
+    assert reward(taught(recipe), mind.seen) == pytest.approx(eval(line, {}, seen))
+
+
 @pytest.mark.parametrize(
     "wrong", [{"gamma": 1.0}, {"period": 0}, {"cold": 0.0}, {"hit": float("nan")}, {"in_sight": 2}]
 )
@@ -244,7 +277,7 @@ def test_a_recipe_nothing_can_be_learned_with_is_refused(wrong):
 
 
 def test_a_kernel_reads_the_same_numbers_as_a_recipe_has():
-    assert [field.name for field in fields_of(RecipeRecord)] == list(vars(Recipe()))
+    assert [field.name for field in fields_of(RecipeRecord)] == list(vars(RecipeNumbers()))
 
 
 # ------------------------------------------------------------------------------------------ learning
@@ -252,7 +285,7 @@ def test_a_kernel_reads_the_same_numbers_as_a_recipe_has():
 
 def experience(table, state, move, worth, here):
     mind = LearnerMind()
-    mind.state, mind.move, mind.reward = state, move, worth
+    mind.state, mind.move, mind.seen[HIT] = state, move, worth / table.knobs.hit
     update(table, mind, here)
 
 
@@ -309,7 +342,7 @@ def test_the_roulette_draws_by_exp_of_q_over_t():
     odds = [exp(q / 0.5) for q in table.q[:ACTIONS]]
     drawn = [0] * ACTIONS
     for _ in range(20_000):
-        drawn[sample_move(table, 0, 0.5, table)] += 1
+        drawn[sample_move(table, 0, 0.5, table, [0.0] * ACTIONS)] += 1
     for count, share, wish in zip(drawn, odds, move_probabilities(table, 0, 0.5), strict=True):
         assert share / sum(odds) == pytest.approx(wish)
         assert count / 20_000 == pytest.approx(wish, abs=0.012)  # 4 standard deviations are 0.0094
@@ -318,7 +351,7 @@ def test_the_roulette_draws_by_exp_of_q_over_t():
 def test_q_of_25_at_the_lowest_temperature_overflows_nothing():
     table = taught()
     table.q[:ACTIONS] = [25.0 if a == DRIVE else -25.0 for a in range(ACTIONS)]
-    assert {sample_move(table, 0, 0.02, table) for _ in range(100)} == {DRIVE}
+    assert {sample_move(table, 0, 0.02, table, [0.0] * ACTIONS) for _ in range(100)} == {DRIVE}
 
 
 def test_both_robots_learn_into_one_table_ten_times_a_second():

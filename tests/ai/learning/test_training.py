@@ -18,9 +18,11 @@ from pigaming_app.ai.learning import training
 from pigaming_app.ai.learning.training import TableTraining
 from pigaming_app.ai.qlearning import table_files as tables
 from pigaming_app.ai.qlearning.recipe import RECIPES
-from pigaming_app.ai.qlearning.table import player
+from pigaming_app.ai.qlearning.table import ACTIONS, MOVES, player
 from pigaming_app.ai.qlearning.table_files import TableError
 from pigaming_app.ai.registry import BRAINS
+from pigaming_app.ai.reward_line import with_line
+from pigaming_app.ai.reward_quantities import QUANTITIES, WEIGHTED
 from pigaming_app.games.match import Match
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
@@ -44,6 +46,7 @@ def short(fast=False, seed=1, recipe=RECIPES[2], table=None):
         *RECIPES.values(),
         replace(RECIPES[2], loaded=1, in_sight=0, period=7, last=0, incoming=0, moving=1, ramp=0),
         replace(RECIPES[1], exposure=0, off_wall=0, look=1, behind_from=5, behind_to=11),
+        replace(RECIPES[1], rest="(3 - distance / 250 if fired else -0.01*turned) - 5*taken"),
     ],
 )
 def test_both_bodies_learn_the_same_table_to_the_last_bit(recipe):
@@ -53,6 +56,21 @@ def test_both_bodies_learn_the_same_table_to_the_last_bit(recipe):
     assert plain.experiences > 500
     assert digest(plain._tables[0]) == digest(fast._tables[0])
     assert digest(plain.snapshot()) == digest(fast.snapshot())
+
+
+@pytest.mark.parametrize("fast", BODIES)
+def test_a_table_learns_what_its_line_rewards(fast):
+    """Without a future, a move is worth its reward: of turning, then of standing, as soon as the line says so."""
+    course = short(fast, recipe=with_line(replace(RECIPES[2], gamma=0.0), "5*turned", QUANTITIES, WEIGHTED))
+    course.run(1500)
+    tried = [pair for pair, count in enumerate(course.table.n) if count]
+    assert len(tried) > 100
+    assert [course.table.q[pair] for pair in tried] == [5.0 * (MOVES[pair % ACTIONS].angular != 0.0) for pair in tried]
+    course.recipe = with_line(course.recipe, "-2*still", QUANTITIES, WEIGHTED)
+    course.table.n[:] = [0] * len(course.table.n)  # the next visit overwrites
+    course.run(600)
+    again = [pair for pair, count in enumerate(course.table.n) if count]
+    assert [course.table.q[pair] for pair in again] == [-2.0 * (MOVES[pair % ACTIONS].linear == 0.0) for pair in again]
 
 
 @pytest.mark.parametrize("fast", BODIES)

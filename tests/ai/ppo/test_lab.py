@@ -14,10 +14,11 @@ from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin
 from pigaming_app.ai.ppo.lab.task import HYPER, RIVAL, TASK, NetworkRecipe, reward_of
 from pigaming_app.ai.ppo.learner import PolicyNetwork
 from pigaming_app.ai.ppo.win_rates import win_rates
+from pigaming_app.ai.reward_quantities import WEIGHTED
 from pigaming_app.sim.kernel import can_compile
 from tests.scenes.lab.plain_process import shrink
 
-NOTHING = NetworkRecipe(hit=0.0, miss=0.0, behind=0.0, still=0.0)
+NOTHING = NetworkRecipe(**dict.fromkeys(WEIGHTED, 0.0), rest="")
 
 
 @pytest.fixture
@@ -49,8 +50,8 @@ def test_each_knob_rewards_its_own_event_only(knob, gains, inputs, choices):
     assert reward(**{knob: 10.0}) - reward() == pytest.approx([max(reward(**{knob: 10.0})), 0.0])
     assert reward(**{knob: 10.0})[0] > 0.1
     assert reward(**{knob: -10.0})[0] == pytest.approx(-reward(**{knob: 10.0})[0])
-    others = {other: 10.0 for other in vars(NOTHING) if other != knob}
-    assert reward(**others) == pytest.approx([0.0, 0.0])
+    assert reward(**{other: 10.0 for other in WEIGHTED if other != knob}) == pytest.approx([0.0, 0.0])
+    assert reward(rest=f"10*{knob}") == pytest.approx(reward(**{knob: 10.0})), "a term of the line is a knob"
 
 
 def test_it_learns_step_by_step_and_reports(threads: Executor):

@@ -1,18 +1,23 @@
 """Blocks that follow from the code."""
 
+from math import ceil
+
 from pigaming_app import links
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.networks import policy
 from pigaming_app.ai.registry import AIS
-from pigaming_app.games.arenas import arenas
+from pigaming_app.games.arenas import arenas, load, shipped_arenas, widest
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import make_setup
+from pigaming_app.hardware.control.virtual_walls import SPARE
 from pigaming_app.sim.drivetrain import MM
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import HZ, WIDTH
 from pigaming_app.ui.i18n import Words
 from tests.bench.figures import as_markdown
 from tests.bench.makespan_bound import bound
+
+DIAMETERS = 60, 95, 120  # mm: a small robot, a 3pi, boards on the printed chassis
 
 
 def where_to_get_it() -> str:
@@ -40,6 +45,18 @@ def makespan_bound() -> str:
     floors = arenas("factory")
     bounds = (f"{bound(floor, 2, 4):.1f} s" for floor in floors)
     return as_markdown([["four pallets, two robots", *floors], ["proven bound", *bounds]])
+
+
+def sizes() -> str:
+    """The smallest field of every arena that comes with a game, mm wide, by the diameter of robots."""
+    rows = [["arena", "widest robot", *(f"{size} mm" for size in DIAMETERS)]]
+    for game in games():
+        for name in shipped_arenas(game):
+            radius = widest(game, load(game, name).source, SPARE)
+            fields = (f"{ceil(WIDTH * size / 2.0 / radius)} mm" for size in DIAMETERS)
+            title = Words("en")(f"games.{game}")
+            rows.append([f"{title}, *{name}*", f"{2 * radius:.0f} px", *fields])
+    return as_markdown(rows)
 
 
 def games_in_numbers() -> str:

@@ -23,6 +23,7 @@ LEVEL3, LEVEL5 = ",".join(["level3"] * 4), ",".join(["level5"] * 4)
 DERIVED = {
     "links": Derived("README.md", derived.where_to_get_it),
     "bundles": Derived("docs/bundle.md", derived.bundles),
+    "sizes": Derived(HARDWARE, derived.sizes),
     "games": Derived(THESIS, derived.games_in_numbers),
     "bound": Derived(OPPONENTS, derived.makespan_bound),
     "traits": Derived(PEOPLE, people.traits),

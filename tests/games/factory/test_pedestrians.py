@@ -20,8 +20,7 @@ from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.arena import build
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.record import digest
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
+from pigaming_app.sim.world import DT, HEIGHT, HZ, RADIUS, WIDTH
 from tests.floor import arena
 
 PACE, GIRTH = 130.0, 20.0  # px/s, px

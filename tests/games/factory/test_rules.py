@@ -33,8 +33,7 @@ from pigaming_app.games.factory.state import (
     A,
     B,
 )
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import HZ, RADIUS
 from tests.games.factory.shop import Shop
 from tests.matches import Stick, finished, match_of, player_of
 

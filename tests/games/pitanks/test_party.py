@@ -11,8 +11,7 @@ from pigaming_app.games.pitanks.rules import judge
 from pigaming_app.games.pitanks.state import MINE, OWN_BULLETS, OWN_MINES, SHIELD
 from pigaming_app.games.replay import decode, encode, verify
 from pigaming_app.sim.rng import uniform
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, HEIGHT, HZ, WIDTH
+from pigaming_app.sim.world import DT, HEIGHT, HZ, RADIUS, WIDTH
 from tests.floor import pitanks
 from tests.games.pitanks.test_rules import scores, ticks
 from tests.matches import finished, match_of, run

@@ -20,8 +20,7 @@ from pigaming_app.games.pitanks.state import (
 )
 from pigaming_app.sim.contact import drive
 from pigaming_app.sim.rng import uniform
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, HZ
+from pigaming_app.sim.world import DT, HZ, RADIUS
 from tests.floor import pitanks
 
 FACING = [(400.0, 450.0, 0.0), (800.0, 450.0, pi)]  # 400 px apart

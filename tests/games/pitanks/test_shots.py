@@ -16,8 +16,7 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.pitanks.rules import judge, move_bullets, use_gun
 from pigaming_app.games.pitanks.state import OUTER, OWN_BULLETS, RICOCHET, TRIPLE
 from pigaming_app.sim.contact import drive
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import DT, HEIGHT, WIDTH
+from pigaming_app.sim.world import DT, HEIGHT, RADIUS, WIDTH
 from tests.floor import from_segment, pitanks
 
 BULLET, SPEED, MUZZLE = 6.0, 560.0, 64.0  # px, px/s, px: the published rules

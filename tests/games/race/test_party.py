@@ -11,8 +11,7 @@ from pigaming_app.games.race.course import point_at
 from pigaming_app.games.race.furniture import BEHIND, SPACE, grid
 from pigaming_app.games.race.party import DROP, draw_item
 from pigaming_app.games.race.state import NO_ITEM, OIL, SHIELD, TURBO
-from pigaming_app.sim.robot import RADIUS
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import HZ, RADIUS
 from tests.games.rails import Rails
 from tests.matches import Stick, match_of, run, setup_of
 

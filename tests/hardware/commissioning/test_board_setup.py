@@ -1,5 +1,6 @@
 """Boards on USB, set up in MicroPython's own interpreter at a pseudo-terminal. Skipped without Node.js and npm."""
 
+import json
 import random
 from collections.abc import Iterator
 from functools import cache
@@ -9,7 +10,7 @@ import pytest
 from pigaming_app.hardware.commissioning.board_setup import MAIN, PART, BoardOnUsb, SetupFailed, files_of
 from pigaming_app.hardware.emulator.wifi.usb import UsbBoard
 
-FILES = files_of("board_pico_w", 2, 4711, bytes(range(16)), 'Schule "Süd"', "geheim\\\\ 'x'")
+FILES = files_of("pico_w", 2, 4711, bytes(range(16)), 'Schule "Süd"', "geheim\\\\ 'x'")
 ORDER = ["motors.py", "wifi.py", "board.py", "config.py", "main.py"]
 
 pytestmark = [pytest.mark.long, pytest.mark.usefixtures("micropython")]
@@ -94,6 +95,26 @@ def test_a_cable_that_is_pulled_at_any_byte_does_no_harm(usb: UsbBoard, share: f
         assert {*written} == {*FILES} - {*there}
         found = on_board(board)
     assert {name: found[name] for name in FILES} == hashes(FILES)
+
+
+@pytest.mark.parametrize(
+    ("platform", "wifi", "machine", "kind"),
+    [
+        ("rp2", 1, "Raspberry Pi Pico W with RP2040", "pico_w"),
+        ("rp2", 0, "Raspberry Pi Pico with RP2040", ""),
+        ("esp32", 1, "Generic ESP32 module with ESP32", "esp32"),
+        ("esp32", 1, "Generic ESP32S3 module with ESP32S3", ""),
+        ("rp2", 0, "Pololu 3pi+ 2040 Robot with RP2040", "pololu_2040"),
+        ("rp2", 0, "Pololu Zumo 2040 Robot with RP2040", "pololu_2040"),
+        ("webassembly", 0, "JS with Emscripten", ""),
+    ],
+)
+def test_boards_are_told_apart_by_what_they_print(
+    monkeypatch: pytest.MonkeyPatch, platform: str, wifi: int, machine: str, kind: str
+) -> None:
+    told = {"name": "micropython", "version": [1, 24], "platform": platform, "wifi": wifi, "machine": machine}
+    monkeypatch.setattr(BoardOnUsb, "_ask", lambda board, program: json.dumps(told))
+    assert BoardOnUsb("any").kind() == kind
 
 
 def test_a_port_without_a_board_is_refused(usb: UsbBoard) -> None:

@@ -8,11 +8,11 @@ import pytest
 from pigaming_app.games.arenas import load
 from pigaming_app.hardware.control.path_planner import find_path, inflated_floor
 from pigaming_app.hardware.control.real_plant import RealPlant
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import offset_from_wall
+from pigaming_app.sim.world import RADIUS
 from tests.cases import one_in
-from tests.floor import floor
-from tests.hardware.mat import NOMINAL_MM, STARTS, Mat
+from tests.floor import floor, from_wall
+from tests.hardware.mat import NOMINAL_MM, STARTS, Mat, rig_of
 
 MIDDLE = ((800.0, 250.0, 800.0, 650.0),)
 GATE = ((600.0, 0.0, 600.0, 380.0), (600.0, 520.0, 600.0, 900.0))  # walls with a gap of 110 px, 1.5 robot diameters
@@ -82,6 +82,28 @@ def test_wider_robots_change_places_without_touching_each_other_or_a_wall():
     assert all(at(mat, robot, goal) for robot, goal in goals.items())
     assert min(nearest) > 2.0 * radius
     assert min(at_wall) > radius
+
+
+@pytest.mark.long
+@pytest.mark.again
+def test_wide_robots_at_home_make_room_for_those_that_they_block():
+    """3pis on a television of 65 inches: the first two arrive in the only ways out of the pockets of the others."""
+    arena, mm = load("pitanks", "trenches"), 1199.0 / 1600.0
+    body = 47.5 / mm
+    mat = Mat()
+    mat.rig = rig_of(mat, mat, mm=mm)
+    world = floor(walls_of(arena), STARTS, radius=mat.rig.radius_in_play(range(4)))
+    plant = RealPlant(world, mat.rig)
+    goals = {i: (start.x, start.y, start.heading) for i, start in zip((0, 2, 1, 3), arena.starts, strict=True)}
+    plant.summon({0: goals[0], 1: goals[1], 2: goals[2], 3: goals[3]})
+    for _ in range(100 * 50):
+        if plant.take_places():
+            break
+        mat.pass_time()
+        at_wall = min(from_wall(wall, one.x, one.y) - wall.half for wall in arena.walls for one in mat.robots)
+        assert at_wall > body - 1.0
+        assert min(hypot(a.x - b.x, a.y - b.y) for a, b in combinations(mat.robots, 2)) > 2.0 * body - 2.0
+    assert all(at(mat, robot, goal) for robot, goal in goals.items())
 
 
 def test_two_robots_pass_a_gate_one_after_the_other():

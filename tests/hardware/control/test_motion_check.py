@@ -10,7 +10,7 @@ from pigaming_app.hardware.control.kinematics import IDEAL
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.signals import WheelCommand
 from pigaming_app.sim.drivetrain import Wheel
-from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.world import RADIUS
 from tests.cases import one_in
 from tests.floor import floor
 from tests.hardware.mat import TRUE, Mat

@@ -12,7 +12,7 @@ from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, LOW, PARKED
 from pigaming_app.hardware.radio.protocol import Misfit
 from pigaming_app.sim.drivetrain import Drivetrain, Wheel
-from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.world import RADIUS
 from tests.floor import floor
 from tests.hardware.mat import EVEN, NOMINAL_MM, STARTS, Mat
 

@@ -150,8 +150,8 @@ def test_limits_and_margin_follow_the_kind_of_robot():
     rig = rig_of(mat, mat, mm=1.32, kinds=("", "", "microbit", "3pi"))
     rig.channels = (1, 2, 3, 0)
     assert [rig.kind(robot).key for robot in range(4)] == ["esp32", "microbit", "3pi", "3pi"]
-    assert [round(rig.margin(robot), 2) for robot in range(4)] == [8.45, 8.45, 0.0, 0.0]
-    assert rig_of(mat, mat, mm=0.66).margin(0) == pytest.approx(47.5 / 0.66 - 37.0)
+    assert [round(rig.margin(robot, 36.0), 2) for robot in range(4)] == [8.45, 8.45, 0.0, 0.0]
+    assert rig_of(mat, mat, mm=0.66).margin(0, 36.0) == pytest.approx(47.5 / 0.66 - 37.0)
     health = rig.health(dict.fromkeys(range(4), 0.0), rig.snapshot())
     assert [(one.battery_low, one.battery_empty) for one in health.values()] == [(4.4, 4.0), (4.6, 4.4)] + [
         (4.4, 4.0)

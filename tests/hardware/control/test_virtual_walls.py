@@ -7,9 +7,8 @@ import pytest
 
 from pigaming_app.hardware.control.virtual_walls import GAMMA, SHARED, SPARE, clip_twist, speed_limits, stopping_pose
 from pigaming_app.sim.drivetrain import MM
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import offset_from_wall
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 from tests.floor import floor
 
 ACROSS = (800.0, 0.0, 800.0, 900.0)  # a vertical wall at the centre, 30 px thick
@@ -99,11 +98,12 @@ def test_coasting_goes_on_by_speed_times_lag():
     assert stopping_pose((0.0, 0.0, 0.0), (0.0, 3.0), 0.1) == pytest.approx((0.0, 0.0, 0.3))
 
 
-@pytest.mark.parametrize("lag", [0.03, 0.08, 0.15])
-def test_a_minute_of_mashing_enters_no_wall_however_lazy_the_motors(lag):
+@pytest.mark.parametrize(("lag", "radius"), [(0.03, RADIUS), (0.08, RADIUS), (0.15, RADIUS), (0.08, 63.4)])
+def test_a_minute_of_mashing_enters_no_wall_however_lazy_the_motors_and_wide_the_robots(lag, radius):
     """The closed loop with a perfect pose: random sticks, held for random times, against walls of every direction."""
     world = floor(
-        [ACROSS, (300.0, 300.0, 500.0, 500.0), (1200.0, 700.0, 1400.0, 650.0), (1100.0, 200.0, 1100.0, 200.0)]
+        [ACROSS, (300.0, 300.0, 500.0, 500.0), (1200.0, 700.0, 1400.0, 650.0), (1100.0, 200.0, 1100.0, 200.0)],
+        radius=radius,
     )
     chance = Random(round(1000 * lag))
     x, y, heading, linear, angular = 200.0, 200.0, 0.0, 0.0, 0.0
@@ -123,6 +123,6 @@ def test_a_minute_of_mashing_enters_no_wall_however_lazy_the_motors(lag):
         for i in range(world.wall_count):
             dx, dy = offset_from_wall(world.walls[i], x, y)
             gaps.append((dx * dx + dy * dy) ** 0.5 - world.walls[i].half)
-        deepest = min(deepest, *(gap - RADIUS for gap in gaps))
+        deepest = min(deepest, *(gap - radius for gap in gaps))
     assert deepest * MM > -1.0
     assert travelled > 1500.0

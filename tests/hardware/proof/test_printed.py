@@ -10,16 +10,18 @@ pytest.importorskip("cv2")
 pytest.importorskip("pypdfium2")
 
 from pigaming_app.ai.registry import new_match
+from pigaming_app.games.arenas import load, on_mat
 from pigaming_app.hardware.calibration.floor_surface import FloorSurface
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.emulator.optics import TrueLens
-from pigaming_app.hardware.proof import testbed, trials
+from pigaming_app.hardware.proof import testbed
 from pigaming_app.hardware.proof.testbed import TimedTracker
 from pigaming_app.hardware.proof.trials import FigureEight, follow, play
+from pigaming_app.sim.world import ROBOTS
 from tests.hardware.paper import SURFACE, PrintedSession
 from tests.matches import setup_of
 
-SMALL, LOW = FloorSurface.smallest(47.5), TrueLens((50.0, 170.0, 1600.0), (5.0, 16.0), 0.021)
+SMALL, LOW = FloorSurface(1439.0, 809.0), TrueLens((45.0, 153.0, 1440.0), (5.0, 16.0), 0.021)  # 65 inches
 DARK = np.zeros((1080, 1920), np.uint8)
 
 
@@ -48,12 +50,14 @@ def test_robots_are_followed_to_two_millimetres_and_a_degree():
 
 @pytest.mark.long
 @pytest.mark.again
-@pytest.mark.parametrize(("surface", "lens"), [(SURFACE, None), (SMALL, LOW)], ids=["2.54 m", "the smallest for 3pis"])
-def test_a_match_is_played_and_nobody_enters_a_wall(surface, lens, monkeypatch):
-    monkeypatch.setattr(trials, "RADIUS", 47.5 / surface.mm)  # of the body
+@pytest.mark.parametrize(
+    ("surface", "lens", "name"), [(SURFACE, None, "classic"), (SMALL, LOW, "trenches")], ids=["2.54 m", "65 inches"]
+)
+def test_a_match_is_played_and_nobody_enters_a_wall(surface, lens, name):
     bed = Bed(7, surface, lens)
-    setup = setup_of("pitanks", "level3 level3 level3 level3", "classic", 0.2, 3, "pickups")
-    match = new_match(setup, plant=lambda world: RealPlant(world, bed.rig))
+    arena = on_mat("pitanks", load("pitanks", name), (), bed.rig.radius_in_play(range(ROBOTS)))
+    setup = setup_of("pitanks", "level3 level3 level3 level3", name, 0.2, 3, "pickups")
+    match = new_match(setup, plant=lambda world: RealPlant(world, bed.rig), arena=arena)
     run = play(bed, match, 12.0)
     assert match.over
     assert run.deepest_mm <= 5.0

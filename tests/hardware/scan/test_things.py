@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 import pytest
 
-from pigaming_app.games.arenas import load, with_things
+from pigaming_app.games.arenas import load, on_mat
 from pigaming_app.hardware.scan.blocks import BLOCK_HEIGHT, TIMEOUT, BlockTracker
 from pigaming_app.hardware.scan.convex import convex_parts
 from pigaming_app.hardware.scan.things import (
@@ -67,8 +67,8 @@ def test_an_arena_gets_things_with_straight_sides_in_either_order_of_corners():
     assert len(spec.outline) == 4
     assert replace(noisy, outline=noisy.outline[::-1]).spec == spec
     arena = load("pitanks", "classic")
-    assert with_things("pitanks", arena, [spec]).things == (spec,)
-    assert with_things("pitanks", arena, []) is arena
+    assert on_mat("pitanks", arena, [spec]).things == (spec,)
+    assert on_mat("pitanks", arena, []) is arena
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,8 @@ import pytest
 from pigaming_app.games.arenas import load
 from pigaming_app.jobs.bench import bench, figures, yardsticks
 from pigaming_app.jobs.bench.yardsticks import BULLETS, BulletBodies, BulletQueries, NumpyBatch
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import offset_from_wall
+from pigaming_app.sim.world import RADIUS
 
 WALLS = load(yardsticks.GAME, yardsticks.ARENA).walls
 

@@ -25,8 +25,8 @@ def setup(home: Path, *words: str, typed: str = "geheim\n") -> subprocess.Comple
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ((), "--network is missing"),
-        (("/dev/ttyACM0",), "--network is missing"),
+        (("/dev/nothing",), "/dev/nothing is gone or in use"),
+        (("--board", "zumo"), "choose from 'pico_w', 'esp32', 'pololu_2040'"),
         (("a", "b", "--network", "x"), "one word more"),
         (("/dev/nothing", "--network", "x"), "/dev/nothing is gone or in use"),
         (("--network", "x", "--robot", "5"), "is more than 4"),
@@ -48,7 +48,11 @@ def test_a_board_at_a_port_becomes_robot_three(tmp_path: Path) -> None:
     with UsbBoard() as usb:
         unknown = setup(tmp_path, usb.port, "--network", "Schule", "--no-wait")
         assert unknown.returncode == 2
-        assert "is unknown: choose pico_w, esp32" in unknown.stderr
+        assert "is unknown: choose pico_w, esp32, pololu_2040" in unknown.stderr
+        usb.plug()
+        nameless = setup(tmp_path, usb.port, "--board", "pico_w", "--no-wait")
+        assert nameless.returncode == 2
+        assert "joins a Wi-Fi" in nameless.stderr
         usb.plug()
         words = (usb.port, "--network", "Schule", "--robot", "3", "--board", "pico_w", "--no-wait")
         done = setup(tmp_path, *words)
@@ -60,3 +64,22 @@ def test_a_board_at_a_port_becomes_robot_three(tmp_path: Path) -> None:
         with BoardOnUsb(usb.port) as board:
             told = board._ask("import config\nprint(config.ROBOT, config.NETWORK, config.PASSWORD, len(config.KEY))")
     assert told == "3 Schule geheim 32"
+
+
+@pytest.mark.long
+def test_a_pololu_becomes_robot_two_without_a_network(tmp_path: Path) -> None:
+    try:
+        interpreter()
+    except NoMicroPython as reason:
+        pytest.skip(str(reason))
+    with UsbBoard() as usb:
+        done = setup(tmp_path, usb.port, "--robot", "2", "--board", "pololu_2040", typed="")
+        assert done.returncode == 0, done.stderr
+        assert [line.split()[0] for line in done.stdout.splitlines() if "written" in line] == [
+            *("motors.py", "serial_radio.py", "board.py", "config.py", "main.py")
+        ]
+        assert "main.py robots --radio-setup 2" in done.stdout
+        usb.plug()
+        with BoardOnUsb(usb.port) as board:
+            told = board._ask("import config\nprint(config.ROBOT, config.RADIO, config.ARENA > 0)")
+    assert told == "2 serial_radio True"

@@ -306,6 +306,7 @@ def test_observers_see_the_match_on_the_screen_without_a_key(arcade: Arcade, hos
     until(lambda: observer.types().count("tick") == 30)
     begin = observer.seen[1]
     assert (begin["type"], begin["game"], begin["arena"]) == ("begin", "pitanks", "classic")
+    assert (begin["radius"], begin["mm"]) == (36.0, 1.32)
     assert [seat["brain"] for seat in begin["seats"]] == ["level1", "level1", "off", "off"]
     late = Program(host.url)
     until(lambda: len(host.sessions) == 2)

@@ -18,6 +18,7 @@ from pigaming_app.scenes.bots.vision import VisionSender, detection, geometry
 from pigaming_app.sim.world import World
 from tests.matches import match_of
 
+MM = 1.32  # of a px, docs/hardware.md
 MAT = 2112.0, 1188.0  # mm, docs/hardware.md
 CORNERS = {(0.0, 0.0): (-1056, 594), (1600.0, 0.0): (1056, 594), (0.0, 900.0): (-1056, -594), (800.0, 450.0): (0, 0)}
 TURNS = {0.0: 0.0, math.pi / 2: -math.pi / 2, -math.pi / 2: math.pi / 2, 3 * math.pi: math.pi, 7.0: 2 * math.pi - 7.0}
@@ -53,31 +54,31 @@ def state(*robots: tuple[float, float, float, int]) -> World:
 
 
 def test_a_frame_has_all_that_the_league_requires(packet: Any) -> None:
-    frame = packet.FromString(detection(state((800.0, 450.0, 0.0, 0)), 300, 12.25, 12.5)).detection
+    frame = packet.FromString(detection(state((800.0, 450.0, 0.0, 0)), MM, 300, 12.25, 12.5)).detection
     assert frame.IsInitialized()
     assert (frame.frame_number, frame.t_capture, frame.t_sent, frame.camera_id) == (300, 12.25, 12.5, 0)
-    assert packet.FromString(geometry()).geometry.field.field_length == MAT[0]
-    assert packet.FromString(geometry()).geometry.field.field_width == MAT[1]
-    assert packet.FromString(geometry()).IsInitialized()
+    assert packet.FromString(geometry(MM)).geometry.field.field_length == MAT[0]
+    assert packet.FromString(geometry(MM)).geometry.field.field_width == MAT[1]
+    assert packet.FromString(geometry(MM)).IsInitialized()
 
 
 @pytest.mark.parametrize("place", CORNERS)
 def test_places_are_from_the_middle_and_up(packet: Any, place: tuple[float, float]) -> None:
-    robot = packet.FromString(detection(state((*place, 0.0, 0)), 0, 0.0, 0.0)).detection.robots_yellow[0]
+    robot = packet.FromString(detection(state((*place, 0.0, 0)), MM, 0, 0.0, 0.0)).detection.robots_yellow[0]
     assert (robot.x, robot.y) == pytest.approx(CORNERS[place], abs=0.01)
     assert (robot.pixel_x, robot.pixel_y) == pytest.approx(place)
 
 
 @pytest.mark.parametrize("heading", TURNS)
 def test_angles_are_counter_clockwise(packet: Any, heading: float) -> None:
-    robot = packet.FromString(detection(state((0.0, 0.0, heading, 0)), 0, 0.0, 0.0)).detection.robots_yellow[0]
+    robot = packet.FromString(detection(state((0.0, 0.0, heading, 0)), MM, 0, 0.0, 0.0)).detection.robots_yellow[0]
     assert math.remainder(robot.orientation - TURNS[heading], math.tau) == pytest.approx(0.0, abs=1e-5)
     assert abs(robot.orientation) <= math.pi + 1e-6
 
 
 def test_teams_have_their_colours_and_robots_the_numbers_of_their_seats(packet: Any) -> None:
     frame = packet.FromString(
-        detection(state(*((0.0, 0.0, 0.0, team) for team in (0, 1, 0, 3))), 0, 0.0, 0.0)
+        detection(state(*((0.0, 0.0, 0.0, team) for team in (0, 1, 0, 3))), MM, 0, 0.0, 0.0)
     ).detection
     assert [robot.robot_id for robot in frame.robots_yellow] == [0, 2]
     assert [robot.robot_id for robot in frame.robots_blue] == [1, 3]
@@ -86,7 +87,7 @@ def test_teams_have_their_colours_and_robots_the_numbers_of_their_seats(packet: 
 
 @given(st.integers(0, 2**32 - 1), st.floats(0.0, 4e9), st.floats(-1e5, 1e5), st.floats(-1e3, 1e3))
 def test_every_number_arrives(number: int, seconds: float, place: float, heading: float) -> None:
-    raw = detection(state((place, -place, heading, 1)), number, seconds, seconds)
+    raw = detection(state((place, -place, heading, 1)), MM, number, seconds, seconds)
     frame = packets().FromString(raw).detection
     assert frame.frame_number == number
     assert frame.t_sent == seconds
@@ -105,7 +106,7 @@ def test_the_ball_of_football_is_a_ball_and_others_receive_it_by_multicast(packe
     receiver.settimeout(5.0)
     sender = VisionSender("127.0.0.1")
     try:
-        sender.send(match.state, 1.0, 2.0)
+        sender.send(match.state, match.plant.mm, 1.0, 2.0)
         frame = packet.FromString(receiver.recv(65_536)).detection
         size = packet.FromString(receiver.recv(65_536)).geometry
     finally:

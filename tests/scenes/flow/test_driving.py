@@ -58,8 +58,8 @@ def test_the_styles_go_round_in_both_directions() -> None:
 def test_a_helped_style_is_the_same_without_help_in_games_that_offer_none() -> None:
     for helped, plain in ((HELPED_TURN, TURN), (HELPED_POINT, POINT)):
         styles = DrivingStyles(Settings(pad_driving=helped))
-        assert styles.of(PAD, "race") == helped
-        assert styles.of(PAD, "pitanks") == styles.of(PAD, "factory") == plain
+        assert styles.of(PAD, "race") == styles.of(PAD, "factory") == helped
+        assert styles.of(PAD, "pitanks") == plain
 
 
 def test_a_style_that_a_game_does_not_offer_is_replaced_by_the_default() -> None:

@@ -4,11 +4,14 @@ import gc
 import weakref
 from itertools import combinations
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pygame
 import pytest
 
 from pigaming_app.ai.qlearning.recipe import RECIPES
+from pigaming_app.ai.reward_quantities import QUANTITIES
 from pigaming_app.scenes.brain.rose import PETALS
 from pigaming_app.scenes.flow.stack import Home, Pop, Stack, StackOperation
 from pigaming_app.scenes.lab import progress, scene
@@ -19,9 +22,11 @@ from pigaming_app.scenes.lab.layout import CURVE, KNOB_NAMES, MATCH, PLOT, SPEED
 from pigaming_app.scenes.lab.learning_curve import Measure, room, smoothed
 from pigaming_app.scenes.lab.pages.challenge import ROBOT, Challenge, ChallengeResult
 from pigaming_app.scenes.lab.pages.compare_page import ComparePage
+from pigaming_app.scenes.lab.pages.line_page import LinePage
 from pigaming_app.scenes.lab.pages.menu import LabMenu
 from pigaming_app.scenes.lab.scene import Lab
-from pigaming_app.scenes.lab.view import warming
+from pigaming_app.scenes.lab.sides import LabSide
+from pigaming_app.scenes.lab.view import notice
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.sim.record import digest
@@ -126,8 +131,10 @@ def test_as_fast_as_it_can_it_learns_is_examined_and_has_a_plan(
     arcade.until(lambda: len(lab(arcade).table.progress.measures) >= 2, 600.0)
     arcade.wait(1.0)
     shown = lab(arcade).shown
-    assert all(0.0 <= measure.share <= 1.0 for measure in shown.measures)
-    assert [measure.matches for measure in shown.measures] == sorted(measure.matches for measure in shown.measures)
+    assert all(0.0 <= measure.share <= 1.0 for measure in shown.courses[0].measures)
+    assert [measure.matches for measure in shown.courses[0].measures] == sorted(
+        measure.matches for measure in shown.courses[0].measures
+    )
     assert shown.knowing > 0.0
     assert any(shown.levels)
     assert sum(direction.seen for direction in lab(arcade).table.progress.plan if direction) > 1000
@@ -178,11 +185,16 @@ def test_what_it_has_learned_stays_when_a_knob_is_turned(arcade: Arcade) -> None
 
 def test_a_pad_reaches_everything(arcade: Arcade) -> None:
     here = lab(arcade)
-    visited = {here.focus.name}
-    for button in (Button.DOWN, *[Button.LEFT] * 3, Button.UP, *[Button.RIGHT] * 2):
-        arcade.press(button)
-        visited.add(here.focus.name)
-    assert visited == {"kind", "speed", "play", *KNOB_NAMES}
+    visited, ahead = {here.focus.name}, [here.focus.name]
+    while ahead:
+        start = ahead.pop()
+        for button in (Button.DOWN, Button.LEFT, Button.UP, Button.RIGHT):
+            here.focus.move_to(start)
+            arcade.press(button)
+            if here.focus.name not in visited:
+                visited.add(here.focus.name)
+                ahead.append(here.focus.name)
+    assert visited == {"kind", "speed", "play", "sides", "line", *KNOB_NAMES}
 
 
 def test_a_mouse_chooses_a_speed_and_turns_a_knob(arcade: Arcade) -> None:
@@ -314,9 +326,10 @@ def test_when_nobody_is_there_the_next_visitors_begin_with_an_empty_table(arcade
 
 def test_the_moment_in_which_it_beats_the_hand_made_robot_is_cheered_once(arcade: Arcade) -> None:
     here = lab(arcade)
-    for share in (1.0, 0.0, 0.2, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0):
-        measures = here.table.progress.measures
-        here.table.progress.measures = [*measures, Measure(len(measures), share)]
+    shares = (1.0, 0.0, 0.2, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0)
+    measures = [Measure(i, share) for i, share in enumerate(shares)]
+    for i in range(len(measures)):
+        here.table.progress.measures = measures[: i + 1]  # whatever an examination has added meanwhile
         lab(arcade)
         arcade.frame()
     assert arcade.sounds.heard.count("win") == 1
@@ -363,14 +376,147 @@ def test_nothing_in_the_lab_lies_on_something_else(arcade: Arcade) -> None:
     assert not [(a.name, b.name) for a, b in combinations(spots, 2) if a.rect.colliderect(b.rect)]
 
 
-@pytest.mark.parametrize("key", ["lab.warming", "lab.preparing"])
+@pytest.mark.parametrize("key", ["lab.warming", "lab.preparing", "lab.first"])
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_the_line_about_warming_up_stays_in_its_panel_and_off_the_match(
     controls: Controls, language: str, key: str
 ) -> None:
-    lit = warming(Words(language)(key))
+    lit = notice(Words(language)(key, seconds=10))
     rects = lit_boxes(lit.image)
     line = rects[0].unionall(rects[1:]).move(lit.at)
     assert CURVE.contains(line)
     assert line.right < PLOT.right, "the notice overlaps the percentage"
     assert not line.colliderect(MATCH)
+
+
+# ---------------------------------------------------------------------------------- the reward as code, and two robots
+
+
+def write(arcade: Arcade, line: str) -> None:
+    """Write a line of code as the reward of the robot that is shown."""
+    lab(arcade).focus.move_to("line")
+    arcade.press(Button.FIRE)
+    arcade.wait(0.5)
+    page = arcade.shown(LinePage)
+    for _ in page.text:
+        page.type("\b")
+    for letter in line:
+        page.type(letter)
+    arcade.press(Button.START)
+
+
+def test_a_line_of_code_rewards_the_robot_at_once_and_a_turned_knob_changes_the_line(arcade: Arcade) -> None:
+    here = lab(arcade)
+    assert here.trainer.line == "10*hit - miss - behind"
+    write(arcade, "10*hit-0.01*turned")
+    assert lab(arcade) is here
+    arcade.wait(0.5)
+    assert here.shown.line == "10*hit - 0.01*turned"
+    assert dict(here.shown.values) == {"hit": 10.0, "miss": 0.0, "behind": 0.0, "still": 0.0}
+    assert here.table.training.table.rest.size == 4, "what is no knob is in the program"
+    here.focus.move_to("hit")
+    arcade.press(Button.FIRE, Button.LEFT, Button.FIRE)
+    arcade.wait(0.1)
+    assert here.shown.line == "9*hit - 0.01*turned"
+    assert here.table.training.table.rest.size == 4
+
+
+def test_a_wrong_line_says_why_and_changes_nothing(arcade: Arcade) -> None:
+    here = lab(arcade)
+    write(arcade, "10*hits")
+    page = arcade.shown(LinePage)
+    assert page.refusal == arcade.context.words("lab.line_name", found="hits", names=", ".join(QUANTITIES))
+    arcade.press(Button.BACK)
+    assert lab(arcade) is here
+    assert here.trainer.line == "10*hit - miss - behind"
+
+
+def test_a_stick_writes_a_line_too(arcade: Arcade) -> None:
+    lab(arcade).focus.move_to("line")
+    arcade.press(Button.FIRE)
+    arcade.wait(0.5)
+    arcade.press(*[Button.X] * 40, *[Button.UP] * 22, Button.FIRE, Button.START)  # from `a` back to `1`
+    assert lab(arcade).trainer.line == "1"
+
+
+def test_b_learns_beside_a_by_a_reward_of_its_own(arcade: Arcade) -> None:
+    here = lab(arcade)
+    experiences = here.table.training.experiences
+    here.focus.move_to("sides")
+    arcade.press(Button.FIRE)
+    one, other = (side.table for side in here.sides)
+    assert here.table is other
+    assert other.training.experiences == 0
+    assert other.line == one.line
+    write(arcade, "-10*hit")
+    arcade.wait(1.0)
+    assert (one.line, other.line) == ("10*hit - miss - behind", "-10*hit")
+    assert (one.training.table.knobs.hit, other.training.table.knobs.hit) == (10.0, -10.0)
+    assert one.training.experiences > experiences
+    assert other.training.experiences > 0
+    for i, table in enumerate((one, other)):
+        table.progress.measures = [Measure(0, 0.2 + 0.5 * i)]
+    arcade.wait(0.1, draw=True)
+    assert here.page
+    assert here.page.curve.shares == [0.2, 0.7]
+    here.focus.move_to("sides")
+    arcade.press(Button.FIRE)
+    assert here.table is one
+    assert len(here.sides) == 2
+    arcade.press(Button.Y)
+    assert {side.table.speed for side in here.sides} == {1}
+    arcade.context.idle = Lab.idle + 1.0
+    arcade.frame()
+    assert [side.table for side in here.sides] == [one], "the next visitors find one robot"
+
+
+def test_a_change_of_the_reward_is_marked_on_the_curve(arcade: Arcade) -> None:
+    here = lab(arcade)
+    progress = here.table.progress
+    for matches in (0, 7, 7, 9):
+        progress.snapshot.matches = matches
+        here.reward_by("hit" if matches == 9 else "miss")
+    assert here.side.course("table").changes == [7, 9]
+    here.begin()
+    assert here.side.course("table").changes == ()
+
+
+@pytest.mark.parametrize("speed", [0, 1, 2])
+def test_the_first_point_comes_within_ten_seconds_and_is_announced(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, speed: int
+) -> None:
+    """Also where an examination takes much longer; the page counts down."""
+    monkeypatch.setattr(progress, "MATCHES", {True: 1000, False: 1000})
+    clock = [100.0]
+    for module in (progress, trainer):
+        monkeypatch.setattr(module, "perf_counter", lambda: clock[0])
+    monkeypatch.setattr(trainer, "SLICE", 0.0)  # a training of no ticks: the loops below play the examination
+    here = lab(arcade)
+    here.begin()
+    here.trainer.speed, began, announced = speed, clock[0], []
+    while not here.table.progress.measures:
+        clock[0] += 0.05
+        here.table.progress.record_exam()
+        if exam := here.table.progress.exam_due(speed == trainer.FASTEST):
+            exam.play(20)
+        announced.append(here.trainer.first_point)
+        assert clock[0] < began + 10.0
+    assert here.trainer.first_point is None
+    assert announced[0] in (7, 8)
+    shown = [seconds for seconds in announced if seconds]
+    assert shown == sorted(shown, reverse=True)
+
+
+def test_matches_a_second_are_counted_as_they_come() -> None:
+    class Counted:
+        snapshot = SimpleNamespace(matches=0)
+
+    side = LabSide(cast(Any, Counted()), cast(Any, None))
+    assert side.rate == 0.0
+    for _ in range(300):
+        Counted.snapshot.matches += 8
+        side.follow("table", 1 / 60)
+    assert side.rate == pytest.approx(480.0)
+    for _ in range(150):
+        side.follow("table", 1 / 60)
+    assert side.rate == 0.0

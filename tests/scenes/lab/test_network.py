@@ -42,7 +42,7 @@ BROKEN = (sys.executable, "-c", "exit(1)")
 def arcade(arcade: Arcade) -> Iterator[Arcade]:
     arcade.context.shared(LabBackground).network_compiler = Compiler(NOTHING)
     lab = Lab(arcade.context, fast=False)
-    lab.network = NetworkTrainer(5, arcade.context.shared(LabBackground).network_compiler, PLAIN)
+    lab.side.network = NetworkTrainer(5, arcade.context.shared(LabBackground).network_compiler, PLAIN)
     arcade.open(lab)
     arcade.wait(0.5, fps=4)
     yield arcade
@@ -101,7 +101,8 @@ def test_the_network_is_chosen_learns_is_measured_played_against_saved_and_opene
     wait(arcade, lambda: len(trainer.progress.measures) >= 2 and trainer.snapshot.matches >= 1)
     assert not trainer.compiling
     assert any(here.shown.levels)
-    assert [a.matches < b.matches for a, b in pairwise(here.shown.measures)] == [True] * (len(here.shown.measures) - 1)
+    measures = here.shown.courses[0].measures
+    assert [a.matches < b.matches for a, b in pairwise(measures)] == [True] * (len(measures) - 1)
     assert 0 in trainer.checkpoints()
 
     arcade.press(Button.X)
@@ -195,7 +196,7 @@ def test_a_training_is_steered_paused_compared_killed_and_left(arcade: Arcade, m
 def test_where_the_network_cannot_train_only_the_table_is_left(arcade: Arcade, broken: str) -> None:
     here = lab(arcade)
     compiler = Compiler(BROKEN) if broken == "compiler" else arcade.context.shared(LabBackground).network_compiler
-    here.network = NetworkTrainer(5, compiler, BROKEN)
+    here.side.network = NetworkTrainer(5, compiler, BROKEN)
     choose_network(arcade)
     wait(arcade, lambda: here.kind == TABLE)
     assert (here.wrong, here.message) == (True, arcade.context.words("lab.failed"))

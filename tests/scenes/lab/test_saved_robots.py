@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.qlearning.table_files import Trained, decode, encode
+from pigaming_app.jobs.cli import main
 from pigaming_app.scenes.lab import saved_robots as robots
 from pigaming_app.scenes.lab.pages.menu import LabMenu, RobotNamePage
 from pigaming_app.scenes.lab.pages.open_page import COLUMNS, ROWS, OpenPage
@@ -69,7 +70,7 @@ def test_a_pad_spells_a_name_saves_and_the_robot_comes_back_as_it_was(arcade: Ar
         arcade.wait(0.1)
     here = lab(arcade)
     assert here.name == "B9"
-    assert here.message == arcade.context.words("lab.saved", name="B9")
+    assert here.message == arcade.context.words("lab.saved", name="B9", file=robots.file_of("B9"))
     assert robots.names() == ["B9"]
     saved = robots.load_robot("B9")
     assert isinstance(saved, Trained)
@@ -200,3 +201,19 @@ def test_a_proposal_is_a_name_that_nobody_has(arcade: Arcade) -> None:
     save(arcade, first)
     assert robots.is_name(robots.proposal())
     assert robots.proposal() != first
+
+
+@pytest.mark.parametrize("kind", ["table", "network"])
+def test_duel_takes_the_file_that_the_page_names(arcade: Arcade, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+    here = lab(arcade)
+    here.kind = kind
+    here.reward_by("10*hit - (1 if distance > 500 else 0) - 0.01*turned")
+    save(arcade, "EXPORT")
+    file = here.message.rpartition(" ")[2]
+    assert file.endswith("EXPORT.npz")
+    assert main(["duel", "pitanks", file, "idle", "--matches", "2", "--minutes", "0.2"]) == 0
+    assert "EXPORT" in capsys.readouterr().out
+    robot, line = robots.load_robot("EXPORT"), here.trainer.line
+    here.reward_by("hit")
+    here.open(robot, "EXPORT")
+    assert here.trainer.line == line == "10*hit - (1 if distance > 500 else 0) - 0.01*turned"

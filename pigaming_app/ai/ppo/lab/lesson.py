@@ -11,9 +11,10 @@ import numpy as np
 from pigaming_app.ai.networks.encoding import PERIOD, UNIT
 from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.pitanks import ENCODING, GUN, OTHERS, TURNS
+from pigaming_app.ai.networks.pitanks_rewards import RELOADED, STAND
 from pigaming_app.ai.networks.policy import packed_layers
 from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin, Habit, Report, State, Weights
-from pigaming_app.ai.ppo.lab.task import HYPER, MINUTES, RELOADED, RIVAL, STAND, TASK, NetworkRecipe, reward_of
+from pigaming_app.ai.ppo.lab.task import HYPER, MINUTES, RIVAL, TASK, NetworkRecipe, reward_of
 from pigaming_app.ai.ppo.learner import PolicyNetwork
 from pigaming_app.ai.ppo.training import Origin, Training, in_threads
 from pigaming_app.ai.ppo.win_rates import win_rates

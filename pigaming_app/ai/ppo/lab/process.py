@@ -16,6 +16,8 @@ from time import monotonic
 from typing import BinaryIO
 
 from pigaming_app.ai.ppo.lab.messages import PATIENCE, Begin, Report, TrainingOrder
+from pigaming_app.ai.reward_line import RewardProgram, points_of
+from pigaming_app.ai.reward_quantities import QUANTITIES
 from pigaming_app.storage.background import exit_with_parent
 
 PAUSE = TrainingOrder()
@@ -91,10 +93,13 @@ def serve(inbox: Inbox, reports: BinaryIO) -> None:
 
 def compile_lesson() -> None:
     """Compile or load the loop. Raises ImportError without numba."""
+    import numpy as np
+
     from pigaming_app.ai.ppo.lab.lesson import LabTraining
 
     with ThreadPoolExecutor(1) as threads:
         LabTraining(Begin(0, 1), threads).report()
+    points_of(RewardProgram(), np.zeros((0, len(QUANTITIES))), fast=True)
 
 
 def main(arguments: list[str]) -> None:

@@ -11,20 +11,21 @@ from typing import Any
 import numpy as np
 
 from pigaming_app.ai.networks.encoding import UNIT, Inputs
-from pigaming_app.ai.networks.pitanks import ENCODING, GUN, OTHERS, WAY
+from pigaming_app.ai.networks.pitanks import ENCODING, OTHERS, WAY
+from pigaming_app.ai.networks.pitanks_rewards import quantities_of
 from pigaming_app.ai.ppo.learner import Hyper
 from pigaming_app.ai.ppo.task import LEARNER, OFF, LineUp, Task
+from pigaming_app.ai.reward_line import points_of, program_of
+from pigaming_app.ai.reward_quantities import QUANTITIES, WEIGHTED
 from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.kernel import can_compile, kernel
 
 ARENA, VARIANT, MINUTES, RIVAL = "classic", "classic", 2.0, "hand3"
 POINTS, TAKEN, POTENTIAL = range(3)  # gauges
-HIT, MISS, BEHIND, STILL = 0.1, 0.05, 0.03, 0.03  # reward per point of the recipe
+POINT = 0.1  # reward per point of the recipe
 WIN = 2.0  # reward of a win; a tie costs half of it
-CARE, SHAPING = 0.3, 0.5  # cost of a hit taken; weight of the potential
-RELOADED = 0.15  # of the gun's cooldown, from which on a shot counts
-STAND = 1  # choice of the first head: neither forwards nor backwards
+SHAPING = 0.5  # weight of the potential
 
 HYPER = Hyper(
     matches=48, decisions=5, epochs=3, minibatch=300, rate=1e-3, last_rate=1e-3, entropy=0.01, last_entropy=0.01
@@ -33,12 +34,13 @@ HYPER = Hyper(
 
 @dataclass(frozen=True)
 class NetworkRecipe:
-    """Rewards of the network in points, -10 to 10."""
+    """Rewards of the network in points."""
 
     hit: float = 10.0  # a hit
-    miss: float = -1.0  # fires with no opponent in the line of fire
-    behind: float = -1.0  # the opponent is behind, at every decision
+    miss: float = -0.5  # fires with a wall between it and the opponent
+    behind: float = -0.3  # the opponent is behind, at every decision
     still: float = 0.0  # no linear command, at every decision
+    rest: str = "-3*taken"  # of the reward: see reward_line.py
 
 
 @kernel
@@ -60,16 +62,12 @@ def result(match: PiTanks, seat: int) -> float:
 def reward_of(recipe: NetworkRecipe) -> Callable[[Any, Any, Any, float], Any]:
     """The reward of a task."""
 
+    weights, rest = [getattr(recipe, name) for name in WEIGHTED], program_of(recipe.rest, QUANTITIES)
+
     def reward(gains: np.ndarray, inputs: np.ndarray, choices: np.ndarray, share: float) -> Any:
-        fired = (choices[..., 2] == 1) & (inputs[..., GUN] < RELOADED)
-        return (
-            HIT * recipe.hit * gains[..., POINTS]
-            - CARE * gains[..., TAKEN]
-            + SHAPING * gains[..., POTENTIAL]
-            + MISS * recipe.miss * (fired & (inputs[..., OTHERS + 11] <= 0))
-            + BEHIND * recipe.behind * (inputs[..., OTHERS + 4] < 0)
-            + STILL * recipe.still * (choices[..., 0] == STAND)
-        ).astype(np.float32)
+        rows = quantities_of(gains[..., POINTS], gains[..., TAKEN], inputs, choices)
+        worths = rows[..., : len(weights)] @ weights + points_of(rest, rows, can_compile())
+        return (POINT * worths + SHAPING * gains[..., POTENTIAL]).astype(np.float32)
 
     return reward
 

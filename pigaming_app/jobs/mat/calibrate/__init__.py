@@ -90,15 +90,15 @@ def _write(path: Path, edge: float) -> int:
 
 def _print(path: Path, options: CalibrateOptions) -> int:
     from pigaming_app.hardware.calibration.floor_surface import FloorSurface
-    from pigaming_app.jobs.mat.calibrate.floor import chosen_arenas, require_room, write
+    from pigaming_app.jobs.mat.calibrate.floor import chosen_arenas, with_room, write
     from pigaming_app.storage.safe_files import require_writable
 
     _check_name(path)
     settings, surface = Settings.load(folders().config)[0], FloorSurface(*options.size)
-    require_room(surface, settings)
+    chosen = with_room(chosen_arenas(options.arena), surface, settings)
     with refused(OperatorError, ValueError):
         require_writable(path)
-        print(write(path, surface, chosen_arenas(options.arena), options.paper, settings.language))
+        print(write(path, surface, chosen, options.paper, settings.language))
     print("print it at 100 %; the bars on it must measure 100 mm")
     return 0
 

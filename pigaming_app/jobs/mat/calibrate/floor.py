@@ -3,9 +3,11 @@
 from math import ceil
 from pathlib import Path
 
-from pigaming_app.games.arenas import arenas, load
+from pigaming_app.games.arenas import arenas, has_room, load, on_mat, widest
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.calibration.floor_surface import FloorSurface
+from pigaming_app.hardware.control.rig import in_play
+from pigaming_app.hardware.control.virtual_walls import SPARE
 from pigaming_app.hardware.robot_kinds import widest_radius
 from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.jobs.terminal.refusal import Refusal
@@ -18,6 +20,7 @@ from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.pdf import PdfFile
 
+ROUNDING = 0.05  # px, of radii in arena files
 Chosen = tuple[str, Arena]  # a game and an arena of it
 
 
@@ -32,14 +35,17 @@ def chosen_arenas(wanted: str | None) -> list[Chosen]:
     return [(game, load(game, name)) for game, name in found]
 
 
-def require_room(surface: FloorSurface, settings: Settings) -> None:
-    """Raises Refusal if the surface is too small for the robots of these settings."""
+def with_room(chosen: list[Chosen], surface: FloorSurface, settings: Settings) -> list[Chosen]:
+    """The arenas in which the robots of these settings can play on a surface. Raises Refusal if there are none."""
     radius = widest_radius(settings.kinds, RealSession(settings).usual)
-    least = FloorSurface.smallest(radius)
-    if surface.mm < least.mm - 1e-6:
+    wide = radius / surface.mm - ROUNDING
+    found = [(game, arena) for game, arena in chosen if has_room(game, arena.source, wide, SPARE)]
+    if not found:
+        least = FloorSurface.smallest(radius, max(widest(game, arena.source, SPARE) for game, arena in chosen))
         wide, high = (ceil(side / 10.0) / 100.0 for side in (least.width, least.height))
         size = f"{surface.width / 1000.0:g}x{surface.height / 1000.0:g}"
         raise Refusal(f"{size} m is too small for robots of {2.0 * radius:g} mm: the smallest is {wide:g}x{high:g}")
+    return [(game, on_mat(game, arena, (), in_play(wide))) for game, arena in found]
 
 
 def write(target: Path, surface: FloorSurface, chosen: list[Chosen], paper: str, language: str) -> str:

@@ -1,4 +1,4 @@
-"""`robots setup`: a board with MicroPython on USB becomes a robot on Wi-Fi, without files or commands of its own."""
+"""`robots setup`: a board with MicroPython on USB becomes a robot, without files or commands of its own."""
 
 import time
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from pigaming_app.ui.i18n import english
 
 JOINS = 40.0  # s for a board to start and to join the network
 TICK = 0.1  # s
-BOARDS = ("pico_w", "esp32")
+BOARDS = ("pico_w", "esp32", "pololu_2040")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +25,9 @@ class UsbSetupOptions:
     """The robot that a board becomes."""
 
     robot: int = option("with setup: its number, as on its marker; default 1", integer(1, ROBOTS), 1, metavar="ROBOT")
-    network: str | None = option("with setup: the name of the Wi-Fi; its password is asked", word, metavar="NAME")
+    network: str | None = option(
+        "with setup: the name of the Wi-Fi, for boards that have it; its password is asked", word, metavar="NAME"
+    )
     board: str | None = option(
         "with setup: the board, if it is not recognised; its file board.py becomes ours again", choices=BOARDS
     )
@@ -40,14 +42,12 @@ def set_up(options: Any, words: Sequence[str]) -> int:
     if len(words) > 2:
         raise Refusal("robots setup: one word more, a port: robots setup /dev/ttyACM0")
     require("hardware")
-    network = options.network
-    if not network:
-        raise Refusal("robots setup: --network is missing, the name of the Wi-Fi")
+    network = options.network or ""
     settings, _ = Settings.load(folders().config)
     arena, key = arena_id(settings), wifi_key(settings)
     with refused(OperatorError):
         port = words[1] if len(words) > 1 else board_setup.only_port()
-        password = typed(f"Password of {network}: ", "robots setup")
+        password = typed(f"Password of {network}: ", "robots setup") if network else ""
         print(f"{port}: robot {options.robot}", flush=True)
         kind = board_setup.set_up(
             port,
@@ -56,9 +56,12 @@ def set_up(options: Any, words: Sequence[str]) -> int:
             lambda name, new: print(f"  {name:12} {'written' if new else 'as it was'}", flush=True),
         )
     print(f"{kind} is robot {options.robot}")
-    if not options.no_wait:
+    wifi = board_setup.KINDS[kind].radio == board_setup.WIFI
+    if wifi and not options.no_wait:
         print(f"and in the network: {_address(options.robot)}")
-    print(f"Next, on blocks: main.py robots --radio udp --wheels {options.robot}")
+    if not wifi:
+        print(f"Next, with its XBee at this computer: main.py robots --radio-setup {options.robot}")
+    print(f"Then, on blocks: main.py robots --radio {'udp' if wifi else 'xbee'} --wheels {options.robot}")
     return 0
 
 

@@ -11,9 +11,8 @@ from pigaming_app.games.drawing.gaps import layout_faults
 from pigaming_app.games.drawing.values import Drawing, Part, Value
 from pigaming_app.games.game import Game
 from pigaming_app.sim.arena import read_title
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.toml_table import FieldError, TomlTable
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 
 NUMBERED = re.compile(r"(\w+)\[(\d+)\]")
 

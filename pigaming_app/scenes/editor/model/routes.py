@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 
 from pigaming_app.sim.arena import Arena, build
 from pigaming_app.sim.flow_field import Route, descend, expand, free_node
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.sweep import is_clear
 from pigaming_app.sim.world import CELL, COLUMNS, NODES, World
 from pigaming_app.ui.draw import Point
@@ -28,13 +27,13 @@ def _way(world: World, a: Point, b: Point) -> Iterator[Point]:
     here = a
     yield here
     for _ in range(NODES):
-        if is_clear(world, *here, *b, RADIUS):
+        if is_clear(world, *here, *b, world.radius):
             break
         ahead = node
         while ahead != root:
             after = descend(field, ahead)
             x, y = after % COLUMNS * CELL, after // COLUMNS * CELL
-            if ahead != node and not is_clear(world, *here, x, y, RADIUS):
+            if ahead != node and not is_clear(world, *here, x, y, world.radius):
                 break
             ahead = after
         if ahead == node:

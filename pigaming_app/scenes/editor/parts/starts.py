@@ -7,7 +7,7 @@ from pigaming_app.games.drawing.values import Part
 from pigaming_app.scenes.editor.model.shapes import Dial, Outline, Paper, Shape
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.scenes.views.sprites.robot import robot
-from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.world import RADIUS
 from pigaming_app.ui.draw import PLAYERS, Point, regular_polygon
 
 NOSE = 90.0  # px from a robot to the grip by which it is turned

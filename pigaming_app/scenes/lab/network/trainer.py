@@ -7,7 +7,7 @@ network plays here against the hand-made robot.
 import logging
 from collections.abc import Mapping
 from dataclasses import asdict, replace
-from math import inf
+from math import ceil, inf
 from time import monotonic
 from typing import Any
 
@@ -20,6 +20,8 @@ from pigaming_app.ai.networks.policy import Policy, network_brain
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.ppo.lab.messages import PATIENCE, UNTRAINED, Begin, Habit, Report, State, TrainingOrder, Weights
 from pigaming_app.ai.ppo.lab.task import NetworkRecipe
+from pigaming_app.ai.reward_line import line_of, with_line
+from pigaming_app.ai.reward_quantities import QUANTITIES, WEIGHTED
 from pigaming_app.scenes.brain.rose import PETALS
 from pigaming_app.scenes.lab.learning_curve import Measure
 from pigaming_app.scenes.lab.network.exhibition import Exhibition
@@ -32,6 +34,7 @@ from pigaming_app.sim.world import HZ
 PACES = (1.0, 10.0, inf)  # of the training, times real time, by speed
 SHOWN = (1, 10, 10)  # of the match that is shown, times real time
 MAX_BACKLOG = 4  # frames of ticks to catch up at most; the rest is dropped
+FIRST_POINT = 10.0  # s after the start of the process in which it has measured a fresh network
 HEARTBEAT = PATIENCE / 4  # s between two orders at most
 MISSING = "lab.no_network"  # text key
 DEATHS = 3  # ends of the process without a report in between, after which it is not started again
@@ -80,6 +83,7 @@ class NetworkTrainer:
         self.compiling = False  # nothing is learned yet
         self.trouble = ""  # text key of what has happened to the process; the page clears it
         self._deaths = 0
+        self._started = 0.0  # when the process was
         self._number = -1  # of the training
         self._sent: tuple[TrainingOrder, float] = TrainingOrder(), 0.0
         self._backlog = 0.0  # ticks
@@ -136,6 +140,23 @@ class NetworkTrainer:
         reward: dict[str, Any] = {knob: float(value)}
         self.recipe = replace(self.recipe, **reward)
 
+    @property
+    def line(self) -> str:
+        """The reward as code."""
+        return line_of(self.recipe, WEIGHTED)
+
+    def reward_by(self, line: str) -> None:
+        """Reward by a line of code. Raises LineError."""
+        self.recipe = with_line(self.recipe, line, QUANTITIES, WEIGHTED)
+
+    @property
+    def first_point(self) -> int | None:
+        """s until the first point of the win curve, about; None if it is there, or if nobody can tell."""
+        if self.progress.measures or not self._process.running:
+            return None
+        left = FIRST_POINT - (monotonic() - self._started)
+        return ceil(left) if left > 0 else None
+
     def begin(self, seed: int) -> None:
         """Start again with a fresh network."""
         self._begin(seed, UNTRAINED, ())
@@ -169,12 +190,12 @@ class NetworkTrainer:
     def open(self, trained: TrainedNetwork) -> None:
         """Continue with a saved network."""
         known: Mapping[str, Any] = trained.recipe
-        recipe = {name: float(known.get(name, value)) for name, value in asdict(NetworkRecipe()).items()}
-        self.recipe = NetworkRecipe(**recipe)
-        weights = Weights(tuple(trained.matrices), tuple(trained.biases))
+        weights = {name: float(known.get(name, 0.0)) for name in WEIGHTED}
+        self.recipe = NetworkRecipe(**weights, rest=str(known.get("rest", "")))
         matches = float(known.get("matches", 0.0))
         measures = tuple(Measure(*row) for row in trained.curve.rows if len(row) == 2)
-        self._begin(trained.seed, State(weights, trained.updates, trained.decisions, matches), measures)
+        layers = Weights(tuple(trained.matrices), tuple(trained.biases))
+        self._begin(trained.seed, State(layers, trained.updates, trained.decisions, matches), measures)
 
     # ---- inside
 
@@ -208,6 +229,7 @@ class NetworkTrainer:
         if self._deaths >= DEATHS:
             self._give_up()
             return False
+        self._started = monotonic()
         try:
             self._process.start()
         except OSError:

@@ -6,7 +6,7 @@ from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
 from pigaming_app.scenes.lab.host import IDLE, LabHost, dimmed_background
 from pigaming_app.scenes.lab.pages.compare_page import ComparePage
 from pigaming_app.scenes.lab.pages.open_page import OpenPage
-from pigaming_app.scenes.lab.saved_robots import LENGTH, RobotFileError, delete_robot, names, proposal
+from pigaming_app.scenes.lab.saved_robots import LENGTH, RobotFileError, delete_robot, file_of, names, proposal
 from pigaming_app.scenes.pages import name_page
 from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import menu_spots, sheet_title
@@ -89,7 +89,7 @@ class RobotNamePage(name_page.NamePage):
                 delete_robot(name)
             self.lab.trainer.save(name)
             self.lab.name = name
-            self.lab.show_message(words("lab.saved", name=name))
+            self.lab.show_message(words("lab.saved", name=name, file=file_of(name)))
         except RobotFileError as error:
             self.lab.show_message(words(str(error)), wrong=True)
         return Pop()

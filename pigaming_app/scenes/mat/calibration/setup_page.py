@@ -6,11 +6,13 @@ from dataclasses import replace
 
 import pygame
 
+from pigaming_app.games.arenas import widest_of_all
 from pigaming_app.hardware.calibration.camera_task import SMALL, CameraPreview
 from pigaming_app.hardware.calibration.floor_surface import narrow_arena
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError
 from pigaming_app.hardware.calibration.quality import used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements, RealCalibrationSite
+from pigaming_app.hardware.control.virtual_walls import SPARE
 from pigaming_app.hardware.robot_kinds import DEFAULT, widest_radius
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
@@ -305,7 +307,9 @@ class CalibrationPage(SettingsPage):
         """The message if the arena is too small for its robots."""
         session = session_if_any(self.context)
         usual = session.usual if session else DEFAULT
-        return narrow_arena(self.measures.width, widest_radius(self.context.settings.kinds, usual))
+        return narrow_arena(
+            self.measures.width, widest_radius(self.context.settings.kinds, usual), widest_of_all(SPARE)
+        )
 
     def _choose(self, address: str) -> str:
         """Use the camera at an address; the reason why not, if it is none."""

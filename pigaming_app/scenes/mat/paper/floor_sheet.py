@@ -18,7 +18,6 @@ from pigaming_app.scenes.mat.paper.marker_sheet import marker
 from pigaming_app.scenes.mat.paper.paper_canvas import PaperCanvas
 from pigaming_app.scenes.views.game_screens import GameScreens
 from pigaming_app.sim.arena import Arena
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import MIST, PLAYERS, WALL, dim, shape_points
 from pigaming_app.ui.i18n import Words
@@ -89,12 +88,13 @@ def drawing(surface: FloorSurface, screens: GameScreens, arena: Arena, title: st
 
 def _starts(ink: PaperCanvas, arena: Arena) -> None:
     """The starts of the four seats: as large as a robot, with the seat's shape, open where it looks ahead."""
+    radius = arena.radius
     for seat, start in enumerate(arena.starts):
         c, s = cos(start.heading), sin(start.heading)
-        ink.ring(start.x, start.y, RADIUS, dim(MIST, 0.5), 2)
+        ink.ring(start.x, start.y, radius, dim(MIST, 0.5), 2)
         points = [(start.x + 0.6 * x, start.y + 0.6 * y) for y, x in shape_points(seat, 26)]
         ink.line(points, PLAYERS[seat], 3, True)
-        tip = [(RADIUS + 8.0, -9.0), (RADIUS + 18.0, 0.0), (RADIUS + 8.0, 9.0)]
+        tip = [(radius + 8.0, -9.0), (radius + 18.0, 0.0), (radius + 8.0, 9.0)]
         ink.line([(start.x + u * c - v * s, start.y + u * s + v * c) for u, v in tip], PLAYERS[seat], 4)
 
 

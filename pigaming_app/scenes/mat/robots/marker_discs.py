@@ -2,7 +2,7 @@
 
 Discs are drawn last, at the pose predicted for the moment at which the light arrives, and cover everything the game has
 drawn there: hard edges of light across a marker make it unreadable. The lid is 70 mm above the mat and the light falls
-obliquely, hence discs twice as wide as the robot.
+obliquely, hence discs wider than the robot by 36 px all round.
 """
 
 import math
@@ -15,13 +15,13 @@ from pigaming_app.hardware.session.robot_session import LIGHT_AFTER
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.sim.plant import Sighting
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 from pigaming_app.ui.draw import BLACK, GREY, LINE, PLAYERS, THIN, Color, GlowCanvas, badge, regular_polygon
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.widgets.labels import blit_sprite
 
-DISC = 72  # px: 95 mm
+DISC = 72  # px: 95 mm; this and all below are those of a robot of the usual radius, a wider one shifts them out
 MOAT = 77  # px, black margin around it
 RING = 83  # px
 BARREL, TIP = (92, 112), 132  # px: start and end of the barrel, tip of the arrow
@@ -41,12 +41,13 @@ class MarkerDiscs:
     def circles(self, robots: set[int]) -> list[tuple[float, float, float]]:
         """Centres and radii of the areas covered by the light of these robots: rings, arrows, tags; canvas px."""
         areas = []
-        for _, at in self._visible(robots):
-            x, y = LEFT + at.x, TOP + at.y
-            dx, dy = _tag_offset(at)
+        for robot, at in self._visible(robots):
+            x, y, wide = LEFT + at.x, TOP + at.y, self._wide(robot)
+            dx, dy = _tag_offset(at, wide)
+            arm = ARM + wide
             areas += [
-                (x, y, RING + 12.0),
-                (x + ARM * math.cos(at.heading), y + ARM * math.sin(at.heading), TIP + 18.0 - ARM),
+                (x, y, RING + wide + 12.0),
+                (x + arm * math.cos(at.heading), y + arm * math.sin(at.heading), TIP + 18.0 - ARM),
                 (x + dx, y + dy, TAG_R),
             ]
         return areas
@@ -65,22 +66,28 @@ class MarkerDiscs:
         visible = self._visible(robots)
         if self.printed:
             for robot, at in visible:
-                blit_sprite(screen, tank(robot, step(at.heading, HEADINGS)), LEFT + at.x, TOP + at.y)
+                sprite = tank(robot, step(at.heading, HEADINGS), scale=1.0 + self._wide(robot) / RADIUS)
+                blit_sprite(screen, sprite, LEFT + at.x, TOP + at.y)
             return
         for robot, at in visible:
-            x, y = LEFT + at.x, TOP + at.y
+            x, y, wide = LEFT + at.x, TOP + at.y, self._wide(robot)
             for sprite, dx, dy in (
-                (pointer(robot, step(at.heading, HEADINGS)), 0.0, 0.0),
-                (tag(robot), *_tag_offset(at)),
-                (ring(ring_color(robot)), 0.0, 0.0),
+                (pointer(robot, step(at.heading, HEADINGS), wide), 0.0, 0.0),
+                (tag(robot), *_tag_offset(at, wide)),
+                (ring(ring_color(robot), wide), 0.0, 0.0),
             ):
                 place = round(x + dx + sprite.dx), round(y + dy + sprite.dy)
                 screen.blit(sprite.image, place, special_flags=pygame.BLEND_PREMULTIPLIED)
         if cover:
             cover(screen)
         for r, color in ((MOAT, BLACK), (DISC, GREY)):  # all margins first: none may cut into a neighbour's disc
-            for _, at in visible:
-                screen.blit(disc(r, color), (round(LEFT + at.x) - r, round(TOP + at.y) - r))
+            for robot, at in visible:
+                half = r + self._wide(robot)
+                screen.blit(disc(half, color), (round(LEFT + at.x) - half, round(TOP + at.y) - half))
+
+    def _wide(self, robot: int) -> int:
+        """Length by which a robot's radius exceeds the usual one, px."""
+        return math.ceil(self.rig.margin(robot, RADIUS))
 
     def _visible(self, robots: set[int]) -> list[tuple[int, Sighting]]:
         """The visible robots with their predicted poses."""
@@ -88,10 +95,10 @@ class MarkerDiscs:
         return [(robot, seen[robot]) for robot in sorted(robots) if seen[robot].age < KNOWN + LIGHT_AFTER]
 
 
-def _tag_offset(at: Sighting) -> tuple[float, float]:
+def _tag_offset(at: Sighting, wide: int) -> tuple[float, float]:
     """Offset of the tag: behind the robot, or beside it where that would leave the arena."""
     for turn in (math.pi, 0.75 * math.pi, 1.25 * math.pi, 0.5 * math.pi, 1.5 * math.pi):
-        dx, dy = TAG * math.cos(at.heading + turn), TAG * math.sin(at.heading + turn)
+        dx, dy = (TAG + wide) * math.cos(at.heading + turn), (TAG + wide) * math.sin(at.heading + turn)
         if -TAG_OUT < at.x + dx < WIDTH + TAG_OUT and -TAG_OUT < at.y + dy < HEIGHT + TAG_OUT:
             break
     return dx, dy
@@ -106,18 +113,19 @@ def disc(r: int, color: Color) -> pygame.Surface:
 
 
 @cached
-def ring(color: Color) -> Sprite:
-    """Opaque ring of one colour."""
-    half = RING + 24
+def ring(color: Color, wide: int = 0) -> Sprite:
+    """Opaque ring of one colour, `wide` px wider than usual."""
+    r = RING + wide
+    half = r + 24
     ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)
-    ink.solid(regular_polygon(64, RING + 3)).ring(0, 0, RING, color, LINE)
+    ink.solid(regular_polygon(64, r + 3)).ring(0, 0, r, color, LINE)
     return trim(ink.sprite(0.9), half, half)
 
 
 @cached
-def pointer(player: int, turn: int) -> Sprite:
-    """Barrel and arrow of a robot at heading `turn` of HEADINGS."""
-    return turned(painted(_pointer, (player,)), turn, HEADINGS, ARM)
+def pointer(player: int, turn: int, wide: int = 0) -> Sprite:
+    """Barrel and arrow of a robot at heading `turn` of HEADINGS, `wide` px farther out than usual."""
+    return turned(painted(_pointer, (player,)), turn, HEADINGS, ARM + wide)
 
 
 def _pointer(player: int) -> pygame.Surface:

@@ -10,7 +10,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.ai.registry import new_match
-from pigaming_app.games.arenas import load, with_things
+from pigaming_app.games.arenas import load, on_mat
 from pigaming_app.games.game import Setup
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
@@ -64,7 +64,7 @@ class RealMatch(MatchScene):
         rig = session.open()
         chosen = {seat for seat in real if setup.seats[seat].brain != "off"}
         make = partial(new_match, plant=lambda world: MixedPlant(world, rig, chosen), arena=arena)
-        super().__init__(context, setup, devices, 1.0, game_choice, rounds, after, make, arena is None)
+        super().__init__(context, setup, devices, 1.0, game_choice, rounds, after, make, not arena or not arena.things)
         items = {"robots": lambda access: SwapPage(self, access)}
         self.robots = RealRobots(self, session, arena.things if arena else (), items)
         self.plant, self.session, self.watch = self.robots.plant, session, self.robots.watch
@@ -176,7 +176,8 @@ class RealMatch(MatchScene):
         specs = tuple(thing.spec for thing in layout.things)
         try:
             save_layout(self.session, layout)
-            with_things(self.setup.game, load(self.setup.game, self.setup.arena), specs)
+            arena = load(self.setup.game, self.setup.arena)
+            on_mat(self.setup.game, arena, specs, self.match.state.radius)
         except ArenaError as error:
             log.warning("%s", error)
             return False

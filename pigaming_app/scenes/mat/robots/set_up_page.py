@@ -1,4 +1,4 @@
-"""Set-up of a robot: the board on USB gets its number, the Wi-Fi, the key of this arcade, and its program."""
+"""Set-up of a robot: the board on USB gets its number, the arcade's key, the Wi-Fi if it has one, and its program."""
 
 import threading
 
@@ -34,7 +34,7 @@ class BoardWork(threading.Thread):
         self.done: list[str] = []
         self.ready = False
         self.fault: OperatorMessage | None = None
-        self._files = lambda file: board_setup.files_of(file, robot, arena, key, network, password)
+        self._files = lambda kind: board_setup.files_of(kind, robot, arena, key, network, password)
 
     def run(self) -> None:
         try:
@@ -71,7 +71,7 @@ class SetUpPage(SettingsPage):
             return SettingValue("arrows", tuple(str(i + 1) for i in range(ROBOTS)), self.robot - 1, endless=True)
         if name == "board":
             kinds = ("", *KINDS)
-            shown = (words("board.automatic"), "Pico W", "ESP32")
+            shown = (words("board.automatic"), "Pico W", "ESP32", "Pololu 2040")
             return SettingValue("arrows", shown, kinds.index(self.board), endless=True)
         if name == "begin":
             return self.action("board.working" if self.busy else "board.start")
@@ -92,9 +92,6 @@ class SetUpPage(SettingsPage):
         if name in WIFI:
             return Push(wifi_typing(self, name))
         settings = self.context.settings
-        if not settings.phones_wifi:
-            self.show_message(self.context.words("board.no_network"))
-            return None
         arena, key = arena_id(settings), wifi_key(settings)
         wifi = settings.phones_wifi, settings.phones_wifi_key
         self.work = BoardWork(self.robot, self.board, arena, key, *wifi)

@@ -19,7 +19,7 @@ from pigaming_app.scenes.mat.robots.flood_light import FloodLight, hint_line, lo
 from pigaming_app.scenes.mat.robots.marker_discs import MOAT, RING, pointer, tag
 from pigaming_app.scenes.mat.things.outlines import frame
 from pigaming_app.scenes.views.background import LEFT, TOP
-from pigaming_app.sim.world import HEIGHT
+from pigaming_app.sim.world import HEIGHT, RADIUS
 from pigaming_app.ui.draw import (
     ALARM,
     BODY,
@@ -117,8 +117,9 @@ class TakePlaces:
         x, y, heading = place.pose
         color = place.robot
         level = 8 if place.arrived else round(6 + 2 * math.cos(math.tau * self.clock))
-        outline(color, place.arrived).draw(screen, LEFT + x, TOP + y, 1.0 if level > 0 else 0.0)
-        blit_sprite(screen, pointer(color, step(heading, HEADINGS)), LEFT + x, TOP + y)
+        wide = round(self.plant.world.radius - RADIUS)
+        outline(color, place.arrived, wide).draw(screen, LEFT + x, TOP + y, 1.0 if level > 0 else 0.0)
+        blit_sprite(screen, pointer(color, step(heading, HEADINGS), wide), LEFT + x, TOP + y)
         if place.distance > 2 * MOAT:
             blit_sprite(screen, tag(color), LEFT + x, TOP + y)
 
@@ -150,14 +151,15 @@ class TakePlaces:
 
 
 @cached
-def outline(player: int, there: bool) -> LitImage:
-    """Target outline, centred on (0, 0): dashed, solid once the robot is there."""
-    half = RING + 24
+def outline(player: int, there: bool, wide: int = 0) -> LitImage:
+    """Target outline, centred on (0, 0): dashed, solid once the robot is there; `wide` px wider than usual."""
+    r = RING + wide
+    half = r + 24
     ink = GlowCanvas(2 * half, 2 * half).set_transform(half, half)
     if there:
-        ink.ring(0, 0, RING, PLAYERS[player], LINE)
+        ink.ring(0, 0, r, PLAYERS[player], LINE)
     else:
-        points = [(RING * math.cos(i * math.tau / 64), RING * math.sin(i * math.tau / 64)) for i in range(64)]
+        points = [(r * math.cos(i * math.tau / 64), r * math.sin(i * math.tau / 64)) for i in range(64)]
         ink.dashes(points, PLAYERS[player], LINE, 24, 16)
     return LitImage(ink.lit(0.8), (-half, -half))
 

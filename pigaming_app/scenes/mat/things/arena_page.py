@@ -26,6 +26,7 @@ from pigaming_app.scenes.mat.things.sweep_page import SweepPage
 from pigaming_app.scenes.pages.page import NOWHERE, Hints, Page
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.things.spec import MOST
+from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST
@@ -168,7 +169,8 @@ class ArenaPage(Page):
         self.focus.set_spots(spots or [NOWHERE])
         if self.arenas is not None:
             self.arenas.end()
-        self.arenas = PlayableArenas([thing.spec for thing in layout.things]) if spots else None
+        radius = self.session.radius(range(ROBOTS))
+        self.arenas = PlayableArenas([thing.spec for thing in layout.things], radius) if spots else None
 
     def _draw_things(self, screen: pygame.Surface) -> None:
         culprits, selected = self._culprits, self.selected

@@ -89,6 +89,7 @@ class FeatRecorder:
             "near": tally.sums["near"] / max(1, tally.samples),
             "explored": float(len(tally.regions)),
             "straight": tally.straight,
+            "meters": found["distance"] * self.match.plant.mm / 1000.0,
         }
         if self.counts_hits:
             found["escape"] = tally.escape * SAMPLE

@@ -7,7 +7,6 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.results.awards.award import Award
 from pigaming_app.scenes.results.awards.feats import Feats
 from pigaming_app.scenes.results.headline import EndedMatch
-from pigaming_app.sim.drivetrain import MM
 from pigaming_app.ui.i18n import Words
 
 CLOSE_POINTS, CLOSE_SECONDS = 3, 5.0  # the largest gap to the next place that is called close
@@ -44,7 +43,7 @@ def _best_at(words: Words, award: Award, feats: Feats) -> str:
     """What the player was best at; after an award that compares nobody, the way driven."""
     if award.figure:
         return words(key if (key := f"awards.{award.key}_praise") in words else "awards.praise")
-    meters = round(feats.get("distance", 0.0) * MM / 1000.0)
+    meters = round(feats.get("meters", 0.0))
     return words("awards.driven", meters=meters) if meters else words("awards.thanks")
 
 

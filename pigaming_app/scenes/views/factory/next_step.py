@@ -7,7 +7,7 @@ where it will set one down.
 import math
 
 from pigaming_app.games.factory.rules import may_lift, may_set_down
-from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, FORK, INPUT, NOBODY, OUTPUT, Factory
+from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, INPUT, NOBODY, OUTPUT, Factory
 from pigaming_app.games.factory.workers import fits
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.sprites import factory as crates
@@ -51,7 +51,8 @@ class NextStepGuide:
         put(light, crates.target(PLAYERS[seat] if human else dim(PLAYERS[seat], AIMS), not human), x, y)
         if not human and not (self._has_human_mate(state, seat) and is_task(state, seat, s)):
             return
-        from_x, from_y = pose[0] + FORK * math.cos(pose[2]), pose[1] + FORK * math.sin(pose[2])
+        fork = state.rules.fork
+        from_x, from_y = pose[0] + fork * math.cos(pose[2]), pose[1] + fork * math.sin(pose[2])
         way = math.dist((from_x, from_y), (x, y))
         angle = math.atan2(y - from_y, x - from_x)
         if human:

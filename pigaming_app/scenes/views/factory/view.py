@@ -11,7 +11,6 @@ from pigaming_app.games.factory.start import floor_of
 from pigaming_app.games.factory.state import (
     DAMAGED,
     DONE,
-    FORK,
     HALF,
     IN_SLOT,
     PALLETS,
@@ -41,7 +40,6 @@ from pigaming_app.scenes.views.hud.parts import pulse
 from pigaming_app.scenes.views.particles import reel
 from pigaming_app.scenes.views.rumble import BLOCKED, DELIVERED, GIVEN, PICKED, TAKEN, rumbles
 from pigaming_app.scenes.views.sprites import factory as crates
-from pigaming_app.scenes.views.sprites import robot as tank
 from pigaming_app.scenes.views.sprites.teams import TEAMS as COLORS
 from pigaming_app.scenes.views.things.styles import WORKSHOP
 from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions
@@ -165,9 +163,9 @@ class FactoryView(MatchView):
         if refused and self.options.shake:
             x += 4 * (-1) ** (load.refused // 2)
         self.light_up(under, seat, (x, y, heading), bool(robot.boosting))
-        put(over, crates.forks(robot.team, fine), x, y)
-        put(over, tank.tank(seat, fine), x, y)
-        ahead = FORK if seat not in self.real else BEFORE
+        put(over, crates.forks(robot.team, fine, self.scale), x, y)
+        put(over, self.body(seat, fine), x, y)
+        ahead = state.rules.fork if seat not in self.real else BEFORE
         fork_x, fork_y = x + ahead * math.cos(heading), y + ahead * math.sin(heading)
         if load.pallet:
             self._crate(over, light, top, state, load.pallet - 1, fork_x, fork_y)

@@ -8,10 +8,9 @@ from typing import NamedTuple
 
 from pigaming_app.games.pitanks.scoring import is_finale, is_overtime
 from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, Bullet, PiTanks
-from pigaming_app.sim.robot import RADIUS
 from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
 
-NEAR = RADIUS + 20.0  # px, maximum distance between a bullet and the robot that stopped it
+NEAR = 20.0  # px, maximum distance between a bullet and the robot that stopped it
 
 
 class PiTanksEvent(NamedTuple):
@@ -141,7 +140,7 @@ class PiTanksEventDetector:
             if (
                 robot.present
                 and robot.team != state.robots[owner].team
-                and math.dist((x, y), (bullet.x, bullet.y)) < NEAR
+                and math.dist((x, y), (bullet.x, bullet.y)) < state.radius + NEAR
             ):
                 return k
         return None

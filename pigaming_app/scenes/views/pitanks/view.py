@@ -86,10 +86,10 @@ class PiTanksView(SimpleView):
         coarse, fine = step(heading, effects.TURNS), step(heading + spin, HEADINGS)
         self.light_up(under, seat, pose, bool(driven.boosting or (held.powers[SPEED] and abs(driven.linear) > 40.0)))
         if seat in self.marked:
-            put(under, tank.team_mark(int(driven.team != self.first_team), coarse), x, y)
+            put(under, tank.team_mark(int(driven.team != self.first_team), coarse, self.scale), x, y)
         blinks = held.protected and not held.knocked_out and self.options.flashes != "off"
         here = not blinks or held.protected // 4 % 2 == 0
-        put(over, tank.tank(seat, fine) if here else tank.ghost(seat), x, y)
+        put(over, self.body(seat, fine) if here else tank.ghost(seat, self.scale), x, y)
         self._powers(light, state, seat, x, y)
         if held.knocked_out:
             turn = int(now * 40) % party.STAR_TURNS
@@ -99,7 +99,8 @@ class PiTanksView(SimpleView):
             put(light, effects.magazine(seat, left, size, self.reach(seat, effects.MAGAZINE_R)), x, y)
         if now - self.flashed[seat] < FLASH and self.options.flashes != "off":
             flash = effects.flash(seat, coarse)
-            put(light, flash, x + MUZZLE * math.cos(heading), y + MUZZLE * math.sin(heading))
+            muzzle = MUZZLE * self.scale
+            put(light, flash, x + muzzle * math.cos(heading), y + muzzle * math.sin(heading))
 
     def above(self, light: Batch, top: Batch, state: PiTanks, blend: float) -> None:
         """Bullets, the time that pickups stay, and bounties."""

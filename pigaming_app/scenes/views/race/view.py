@@ -27,7 +27,6 @@ from pigaming_app.scenes.views.race.recovery import draw_way_back, target_of
 from pigaming_app.scenes.views.rumble import BEST, BLOCKED, FINISH, GIVEN, LAP, PICKED, TAKEN, rumbles
 from pigaming_app.scenes.views.sprites import effects
 from pigaming_app.scenes.views.sprites.robot import ghost as blank
-from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.scenes.views.things.styles import ROAD
 from pigaming_app.scenes.views.view import MatchView, Pose, SoundCue, ViewOptions, decimal
 from pigaming_app.sim.arena import Arena
@@ -184,7 +183,7 @@ class RaceView(MatchView):
             put(under, race_signs.splash(state.tick // 6 % 3 if abs(robot.linear) > SPRAYED else seat % 3), x, y)
         since = self.particles.clock - self.event_effects.back_at[seat]
         hidden = since < BLINKS and int(since / BLINK) % 2 and self.options.flashes != "off"
-        put(over, blank(seat) if hidden else tank(seat, step(heading, HEADINGS)), x, y)
+        put(over, blank(seat) if hidden else self.body(seat, step(heading, HEADINGS)), x, y)
         if racer.shield:
             sway = abs(int(self.particles.clock * 10) % (2 * SHIELD_SWAY) - SHIELD_SWAY)
             put(light, effects.shield(seat, sway, self.reach(seat, 72)), x, y)

@@ -84,11 +84,11 @@ def crate(team: int, state: int, tenths: int = 10) -> Sprite:
 
 
 @cached
-def forks(team: int, turn: int) -> Sprite:
+def forks(team: int, turn: int, scale: float = 1.0) -> Sprite:
     """Opaque forks of a robot at heading `turn` of HEADINGS, with the team's ring, open at the front. Drawn below the
     robot and its load.
     """
-    return turned(painted(_forks, (team,)), turn, HEADINGS, 24)
+    return turned(painted(_forks, (team,)), turn, HEADINGS, 24 * scale, 0.5 * scale)
 
 
 def _forks(team: int) -> pygame.Surface:

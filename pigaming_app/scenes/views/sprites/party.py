@@ -5,7 +5,7 @@ import math
 import pygame
 
 from pigaming_app.games.pitanks.state import PiTanksRules
-from pigaming_app.sim.robot import RADIUS
+from pigaming_app.sim.world import RADIUS
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.sprites import Sprite, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached

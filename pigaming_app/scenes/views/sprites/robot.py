@@ -57,32 +57,34 @@ def robot(
 
 
 @cached
-def tank(player: int, turn: int, rim: kit.Color | None = None) -> Sprite:
+def tank(player: int, turn: int, rim: kit.Color | None = None, scale: float = 1.0) -> Sprite:
     """Robot at heading `turn` of HEADINGS, number upright. Premultiplied alpha: opaque with a glow. `rim`: see
-    `draw_tank`.
+    `draw_tank`; `scale`: of its usual size.
     """
-    image, dx, dy = turned(painted(_tank, (player, rim)), turn, HEADINGS, ARM)
-    angle, back, face = turn * math.tau / HEADINGS, _back(player), kit.font("hero", _number_size(player))
+    image, dx, dy = turned(painted(_tank, (player, rim)), turn, HEADINGS, ARM * scale, 0.5 * scale)
+    size = round(_number_size(player) * scale)
+    angle, back, face = turn * math.tau / HEADINGS, _back(player) * scale, kit.font("hero", size)
     number = face.render(str(player + 1), True, kit.BLACK)
     x = -dx - back * math.cos(angle) - number.get_width() / 2
-    y = -dy - back * math.sin(angle) + 0.35 * _number_size(player) - face.get_ascent()
+    y = -dy - back * math.sin(angle) + 0.35 * size - face.get_ascent()
     image.blit(number, (round(x), round(y)))
     return Sprite(image, dx, dy)
 
 
 @cached
-def ghost(player: int) -> Sprite:
+def ghost(player: int, scale: float = 1.0) -> Sprite:
     """Off phase of a blinking robot: a dim ring and its number."""
-    ink = kit.GlowCanvas(112, 112).set_transform(56, 56)
+    half = round(56 * scale)
+    ink = kit.GlowCanvas(2 * half, 2 * half).set_transform(half, half, 0, scale)
     ink.solid(kit.regular_polygon(64, 36)).ring(0, 0, 34, kit.dim(kit.PLAYERS[player], 0.55), kit.THIN)
     ink.text(str(player + 1), 34, 0, 0, kit.dim(kit.PLAYERS[player], 0.8), "hero", "c")
-    return trim(ink.sprite(0.6), 56, 56)
+    return trim(ink.sprite(0.6), half, half)
 
 
 @cached
-def team_mark(team: int, turn: int) -> Sprite:
+def team_mark(team: int, turn: int, scale: float = 1.0) -> Sprite:
     """Team bars behind a robot at heading `turn` of 48: one for the first team, two for the second."""
-    return turned(painted(_team_mark, (team,)), turn, 48, -46)
+    return turned(painted(_team_mark, (team,)), turn, 48, -46 * scale, 0.5 * scale)
 
 
 def _tank(player: int, rim: kit.Color | None) -> pygame.Surface:

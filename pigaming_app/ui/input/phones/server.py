@@ -1,33 +1,25 @@
 """The server of the phones' page and sockets.
 
-Everything needs the session's token, which is in the QR code; sockets opened by pages of another origin are refused. No
-refusal costs more than a few bytes, and none is waited for: the arcade only ever reads queues.
+No refusal costs more than a few bytes, and none is waited for: the arcade only ever reads queues.
 """
 
 import asyncio
-import base64
-import hashlib
-import hmac
-import html
-import json
 import secrets
 from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import suppress
 
 from aiohttp import web
 
-from pigaming_app import ASSETS
 from pigaming_app.ui.input import phone_messages as protocol
 from pigaming_app.ui.input.phone_pads import Phones
 from pigaming_app.ui.input.phones.connection import Connection
 from pigaming_app.ui.input.phones.memory import Hall
 from pigaming_app.ui.input.phones.roster import Refusal, Roster
-from pigaming_app.ui.web.listener import Handler, Listener
-from pigaming_app.ui.web.socket import CLOSE_SECONDS, closed
+from pigaming_app.ui.web.socket import closed
+from pigaming_app.ui.web.token_page import TokenPageServer
 
 ALPHABET = "abcdefghjkmnpqrstuvwxyz23456789"  # without signs that look alike: the address may be typed
 TOKEN_LENGTH = 10  # 49 bits, guessed over a network within one session
-MAX_BODY = 1024  # bytes
 KEEP_SECONDS = 2.0  # for which a phone waits at most until its token is on the disk
 CLOSED: dict[Refusal, int] = {"full": protocol.CLOSED_FULL, "removed": protocol.CLOSED_REMOVED}
 FILES = {
@@ -37,19 +29,16 @@ FILES = {
     "hall.js": ("phones/hall.js", "text/javascript"),
     "awake.mp4": ("phones/awake.mp4", "video/mp4"),
     "awake.webm": ("phones/awake.webm", "video/webm"),
-    "oxanium.woff2": ("fonts/oxanium-latin-700-normal.woff2", "font/woff2"),
 }
-REFUSAL_STYLE = (
-    "body{background:#000;color:#e2eeff;font:24px sans-serif;text-align:center;margin:35vh 8vw 0;text-wrap:balance}"
-)
-STYLE_HASH = base64.b64encode(hashlib.sha256(REFUSAL_STYLE.encode()).digest()).decode()
 
 
-class PhoneServer(Listener):
+class PhoneServer(TokenPageServer):
     """Serves `phones` on a port of an address. `texts`: the texts of the page, in the language of the screen.
 
     `roster`: decides who plays; `token`: of the page, empty: a new one; `keep`: writes what a restart needs.
     """
+
+    page, socket, files, old = "page.html", "pad", FILES, "page_old"
 
     def __init__(
         self,
@@ -61,35 +50,21 @@ class PhoneServer(Listener):
         token: str = "",
         keep: Callable[[Hall], None] | None = None,
     ) -> None:
-        super().__init__("phones", address, port, MAX_BODY, CLOSE_SECONDS)
-        self.app.middlewares.append(self._with_token)
-        self.app.router.add_get("/{token}", self._get_page)
-        self.app.router.add_get("/{token}/pad", self._get_socket)
-        self.app.router.add_get("/{token}/{file}", self._get_file)
+        token = token or "".join(secrets.choice(ALPHABET) for _ in range(TOKEN_LENGTH))
+        super().__init__("phones", address, port, token, texts)
         self.app.cleanup_ctx.append(self._keep_always)
         self.app.on_shutdown.append(self._close_all)
-        self.phones, self.texts = phones, texts
+        self.phones = phones
         self.roster = roster or Roster(phones)
-        self.token = token or "".join(secrets.choice(ALPHABET) for _ in range(TOKEN_LENGTH))
         self.visited = False  # whether a page was asked for with the right token
         self.connections: dict[int, Connection] = {}  # by device number
         self._keep, self._kept, self._to_keep = keep, Hall(), asyncio.Event()
         self._written = asyncio.Condition()  # notified when that is done
-        self._files = {name: ((ASSETS / path).read_bytes(), kind) for name, (path, kind) in FILES.items()}
-        self._page = (ASSETS / "phones" / "page.html").read_text(encoding="utf-8")
-
-    @property
-    def url(self) -> str:
-        """The address for phones, with the token."""
-        return f"http://{self.host}/{self.token}"
 
     @property
     def policy(self) -> str:
-        """Sockets, the page's styles, and the videos in it."""
-        return (
-            f"connect-src 'self' ws://{self.host}; style-src 'self' 'sha256-{STYLE_HASH}'; img-src data:; "
-            "media-src data:; form-action 'none'"
-        )
+        """The videos in the page, too."""
+        return f"{super().policy}; media-src data:"
 
     def start(self) -> None:
         super().start()
@@ -147,42 +122,12 @@ class PhoneServer(Listener):
                 while self._keep and guest and all(one.token != guest.token for one in self._kept.phones):
                     await self._written.wait()
 
-    @web.middleware
-    async def _with_token(self, request: web.Request, handler: Handler) -> web.StreamResponse:
-        """Refuse requests without the token."""
-        if not hmac.compare_digest(_first_part(request.path), self.token.encode()):
-            return self.refuse("wrong token refused", request)
-        return await handler(request)
-
-    def refuse(self, kind: str, request: web.Request) -> web.Response:
-        """Note a refusal; a sentence for a phone that has scanned an old code."""
-        answer = super().refuse(kind, request)
-        sentence = html.escape(self.texts.get("page_old", ""))
-        meta = (
-            '<meta name="viewport" content="width=device-width"><meta charset="utf-8"><link rel="icon" href="data:,">'
-        )
-        answer.text = f"<!doctype html>{meta}<style>{REFUSAL_STYLE}</style><p>{sentence}</p>"
-        answer.content_type = "text/html"
-        return answer
-
     async def _get_page(self, request: web.Request) -> web.StreamResponse:
         self.visited = True
-        texts = json.dumps(dict(self.texts)).replace("<", "\\u003c")
-        page = self._page.replace("{token}", self.token).replace("{texts}", texts)
-        return web.Response(text=page, content_type="text/html")
+        return await super()._get_page(request)
 
-    async def _get_file(self, request: web.Request) -> web.StreamResponse:
-        if request.match_info["file"] not in self._files:
-            raise web.HTTPNotFound
-        body, kind = self._files[request.match_info["file"]]
-        return web.Response(body=body, content_type=kind)
-
-    async def _get_socket(self, request: web.Request) -> web.StreamResponse:
+    async def connect(self, request: web.Request) -> web.WebSocketResponse:
         peer = request.remote or ""
-        if not self.own(request):
-            return self.refuse("foreign origin refused", request)
-        if not web.WebSocketResponse().can_prepare(request):
-            raise web.HTTPBadRequest
         admitted = self.roster.admit(request.query.get("resume", ""), peer)
         if isinstance(admitted, str):
             self.refusals.note(f"phone refused: {admitted}", peer)
@@ -201,7 +146,3 @@ class PhoneServer(Listener):
                 del self.connections[number]
                 self.roster.leave(number)
         return connection.answer
-
-
-def _first_part(path: str) -> bytes:
-    return path.strip("/").partition("/")[0].lower().encode(errors="replace")

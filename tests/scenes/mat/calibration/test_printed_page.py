@@ -46,11 +46,11 @@ def test_the_wizard_calibrates_a_printed_floor_and_remembers_that_it_is_one():
 def test_an_arena_too_small_for_its_robots_is_refused_with_the_smallest():
     arcade = Operated(Controls(), EmulatedCalibrationSite(arena=printed_arena(2)))
     page = arcade.open(CalibrationPage(arcade.context, arcade.site))
-    page.measures = Measurements(1000.0, 2500.0)
+    page.measures = Measurements(700.0, 2500.0)
     arcade.go("begin")
     arcade.press(Button.FIRE)
     assert arcade.shown(CalibrationPage) is page
-    assert page.message == "An arena of 1000 mm is too small for robots of 95 mm: make it at least 1333 mm wide."
+    assert page.message == "An arena of 700 mm is too small for robots of 95 mm: make it at least 752 mm wide."
 
 
 @pytest.mark.long

@@ -176,9 +176,17 @@ def test_a_drawing_of_the_user_is_printed_as_well(tmp_path):
 
 def test_a_surface_too_small_for_the_robots_is_refused_with_the_smallest(capsys, tmp_path):
     job = ["calibrate", "--print", str(tmp_path / "a.pdf"), "--arena", "islands"]
-    assert main([*job, "--size", "1.59x2"]) == 2
-    assert "1.59x2 m is too small for robots of 95 mm: the smallest is 1.6x0.9" in capsys.readouterr().err
-    assert main([*job, "--size", "1.6x0.9"]) == 0
+    assert main([*job, "--size", "0.93x2"]) == 2
+    assert "0.93x2 m is too small for robots of 95 mm: the smallest is 0.95x0.53" in capsys.readouterr().err
+    assert main([*job, "--size", "0.95x0.54"]) == 0
+    assert f"the field {0.95 / 1.2 * 1000:.0f} x" in capsys.readouterr().out
+
+
+def test_arenas_that_are_too_tight_for_the_robots_are_left_out(tmp_path):
+    """A 3pi is 61 px in radius on a field of 1250 mm; classic takes 59, labyrinth less."""
+    assert main(["calibrate", "--print", str(tmp_path / "a.pdf"), "--size", "1.5x0.9"]) == 0
+    titles = [page.partition("\r")[0] for page in texts((tmp_path / "a.pdf").read_bytes())]
+    assert {title for title in titles if title.startswith("PiTanks")} == {"PiTanks: Islands", "PiTanks: Trenches"}
 
 
 @pytest.mark.parametrize(

@@ -21,9 +21,12 @@ LID = 36  # px, radius
 class Seen:
     """A rig with fixed sightings."""
 
-    def __init__(self, *sightings: Sighting) -> None:
-        self.sightings = list(sightings)
+    def __init__(self, *sightings: Sighting, wide: float = 0.0) -> None:
+        self.sightings, self.wide = list(sightings), wide
         self.asked = 0.0
+
+    def margin(self, robot: int, usual: float) -> float:
+        return self.wide
 
     def sense(self, ahead: float = 0.0) -> list[Sighting]:
         self.asked = ahead
@@ -55,6 +58,13 @@ def test_ring_and_arrow_show_player_and_heading(controls: Controls) -> None:
     assert screen.get_at((560, 440 - (DISC + RING) // 2))[:3] == (0, 0, 0)
     ahead = [screen.get_at((560 + x, 440 + y))[2] for x in range(90, 135) for y in range(-20, 21)]
     assert max(ahead) > 200
+
+
+def test_a_wide_robot_stands_in_a_wide_disc(controls: Controls) -> None:
+    screen = pygame.Surface((1920, 1080))
+    lit(screen, Seen(Sighting(400.0, 300.0, 0.0, 0.0), wide=27.4), {0})
+    assert screen.get_at((560, 440 - DISC - 26))[:3] == GREY
+    assert screen.get_at((560, 440 - RING - 28))[2] > 150
 
 
 def test_simulated_and_lost_robots_have_no_disc(controls: Controls) -> None:

@@ -34,10 +34,8 @@ def waited(arcade: Arcade, page: SetUpPage) -> None:
         time.sleep(0.01)
 
 
-def test_the_wifi_is_typed_first_and_is_that_of_the_phones(arcade: Arcade) -> None:
+def test_the_wifi_is_that_of_the_phones(arcade: Arcade) -> None:
     page = opened(arcade)
-    waited(arcade, page)
-    assert page.message == arcade.context.words("board.no_network")
     page.focus.move_to("wifi")
     arcade.press(Button.FIRE)
     typing = arcade.shown(TextPage)
@@ -75,7 +73,6 @@ def test_a_board_becomes_robot_two_and_the_next_one_three(
 ) -> None:
     monkeypatch.setattr(board_setup, "only_port", lambda: usb.port)
     settings = arcade.context.settings
-    settings.phones_wifi, settings.phones_wifi_key = "Hof", "geheim"
     page = opened(arcade)
     page.focus.move_to("robot")
     arcade.press(Button.RIGHT)
@@ -83,6 +80,10 @@ def test_a_board_becomes_robot_two_and_the_next_one_three(
     assert page.message.startswith("The board at"), "the emulated one is unknown"
     page.focus.move_to("board")
     arcade.press(Button.RIGHT)
+    usb.plug()
+    waited(arcade, page)
+    assert page.message == arcade.context.words.sentence(OperatorMessage("board_no_network"))
+    settings.phones_wifi, settings.phones_wifi_key = "Hof", "geheim"
     usb.plug()
     waited(arcade, page)
     assert page.message == arcade.context.words("board.done", robot=2)

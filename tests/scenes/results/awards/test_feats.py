@@ -30,6 +30,7 @@ def test_ways_and_turns_are_those_of_the_poses(game: str) -> None:
     _, recorder, truth = recorded(game, "level3 level3", 20 * HZ)
     found = recorder.feats(0)
     assert found["distance"] == pytest.approx(truth["distance"], rel=0.2)
+    assert found["meters"] == pytest.approx(truth["distance"] * 1.32 / 1000.0, rel=0.2), "on the nominal mat"
     assert found["turning"] == pytest.approx(truth["turning"], rel=0.2)
 
 
@@ -45,7 +46,7 @@ def scripted(scores: list[list[int]], taken: list[list[int]] | None = None, goal
         ranking_key=lambda state, seat: float(state.robots[seat].score),
     )
     series, setup, recorder = [[(0.0, 0)] for _ in range(4)], SimpleNamespace(goal=goal), FeatRecorder()
-    match = SimpleNamespace(state=state, game=game, setup=setup, series=series)
+    match = SimpleNamespace(state=state, game=game, setup=setup, series=series, plant=SimpleNamespace(mm=1.32))
     for second, line in enumerate(scores):
         for _ in range(HZ):
             state.tick += 1

@@ -38,7 +38,7 @@ def test_or_that_it_has_led_or_what_it_was_best_at() -> None:
 def test_after_an_award_that_compares_nobody_it_is_told_how_far_it_drove() -> None:
     far = ended_match(scores=(90, 80, 70, 5), winners=(0,))
     fair = dict.fromkeys(range(4), FREE[0])
-    said = [praises(Words("en"), far, fair, {3: {"distance": way}})[3] for way in (10_000.0, 0.0)]
+    said = [praises(Words("en"), far, fair, {3: {"meters": way}})[3] for way in (13.2, 0.0)]
     assert said == ["13 m driven: well done!", "Great that you played!"]
 
 
