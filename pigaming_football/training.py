@@ -6,32 +6,31 @@ ICML 1999).
 """
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from math import sqrt
 from typing import Any
 
 import numpy as np
 
-from pigaming_app.api.learning import Hyper, LineUp, Tallies, Task
+from pigaming_app.api.learning import Tallies, Task
 from pigaming_app.api.rules import WIDTH, kernel
 
 from .network import ENCODING
 from .rules import lead_of, side_of
 from .state import LEFT, MIDDLE, Football
 
-LEAD, FIELD, NEARNESS = range(3)  # gauges
-POINT = 2.0  # reward of a goal, and cost of one conceded
-ADVANCE, ADVANCED = 1.5, 0.5  # weight of the ball's place, at the begin and at the end of the training
-CHASE, CHASED = 1.0, 0.3  # weight of the nearness to the ball
-WIN = 2.0  # reward of a win; a tie costs a quarter of it
+LEAD, FIELD, NEARNESS, WON, TIED, LOST = range(6)  # gauges
 FAR = 900.0  # px
-LATE, LATEST = 0.2, 0.3  # share of matches in which others and the ball are seen late, and the longest delay, s
 
 
 @kernel
 def gauge(match: Football, seat: int, inputs: Any, gauges: Any) -> None:
-    """Lead of the team, place of the ball between the goals, and nearness of the team to it."""
+    """Lead of the team, end of the match, place of the ball between the goals, and nearness of the team to it."""
     side, ball = side_of(match.robots[seat]), match.ball
-    gauges[LEAD] = lead_of(match, side)
+    lead = lead_of(match, side)
+    gauges[LEAD] = lead
+    if match.over:
+        gauges[WON if lead > 0 else LOST if lead < 0 else TIED] = 1.0
     if ball.out:
         return
     theirs = sqrt((WIDTH - ball.x) * (WIDTH - ball.x) + (ball.y - MIDDLE) * (ball.y - MIDDLE))
@@ -45,61 +44,46 @@ def gauge(match: Football, seat: int, inputs: Any, gauges: Any) -> None:
     gauges[NEARNESS] = 1.0 - nearest / FAR
 
 
-@kernel
-def result(match: Football, seat: int) -> float:
-    """Reward of the end of a match."""
-    lead = lead_of(match, side_of(match.robots[seat]))
-    return WIN if lead > 0 else -WIN if lead < 0 else -0.25 * WIN
+@dataclass(frozen=True)
+class FootballRewards:
+    """Rewards of the decisions."""
+
+    goal: float  # also the cost of one conceded
+    win: float
+    tie: float
+    defeat: float
+    first_advance: float  # weight of the ball's place, at the begin and at the end of the training
+    advance: float
+    first_chase: float  # weight of the nearness to the ball
+    chase: float
+
+    def __call__(self, gains: Any, inputs: Any, choices: Any, share: float) -> Any:
+        """Rewards (T, S)."""
+        advance = self.first_advance + (self.advance - self.first_advance) * share
+        chase = self.first_chase + (self.chase - self.first_chase) * share
+        play = self.goal * gains[..., LEAD] + advance * gains[..., FIELD] + chase * gains[..., NEARNESS]
+        ends = self.win * gains[..., WON] + self.tie * gains[..., TIED] + self.defeat * gains[..., LOST]
+        return play.astype(np.float32) + ends
 
 
-def reward(gains: Any, inputs: Any, choices: Any, share: float) -> Any:
-    """Rewards (T, S) of the decisions."""
-    advance, chase = ADVANCE + (ADVANCED - ADVANCE) * share, CHASE + (CHASED - CHASE) * share
-    return (POINT * gains[..., LEAD] + advance * gains[..., FIELD] + chase * gains[..., NEARNESS]).astype(np.float32)
-
-
-def habits(random: Any) -> Mapping[str, float]:
+@dataclass(frozen=True)
+class FootballHabits:
     """How late a network sees others and the ball in a match."""
-    return {"delay": random.random() * LATEST if random.random() < LATE else 0.0}
 
+    late: float  # share of the matches
+    latest: float  # s
 
-def pairs(share: int, rival: str) -> LineUp:
-    """Two of the learner against two of a rival."""
-    return LineUp(share, ("learner", rival, "learner", rival))
-
-
-def alone(share: int, rival: str) -> LineUp:
-    """One against one."""
-    return LineUp(share, ("learner", rival, "off", "off"))
+    def __call__(self, random: Any) -> Mapping[str, float]:
+        """Fields of a network's senses."""
+        return {"delay": random.random() * self.latest if random.random() < self.late else 0.0}
 
 
 TASK = Task(
     encoding=ENCODING,
-    arenas=("classic", "bumpers", "small_goals"),
-    variants=("standard", "cup", "party"),
-    minutes=(2.0,),
-    line_ups=(
-        pairs(5, "hand3"),
-        pairs(4, "hand2"),
-        pairs(2, "hand1"),
-        pairs(3, "learner"),
-        pairs(4, "pool"),
-        alone(3, "hand3"),
-        alone(2, "hand2"),
-        alone(2, "learner"),
-        alone(2, "pool"),
-        LineUp(1, ("learner", "hand3", "learner", "off")),
-        LineUp(1, ("learner", "hand3", "pool", "hand2")),
-    ),
-    gauges=("lead", "field", "nearness"),
+    gauges=("lead", "field", "nearness", "won", "tied", "lost"),
     gauge=gauge,
-    result=result,
-    reward=reward,
-    rivals=("hand3", "hand2"),
-    habits=habits,
-    cut=0.01,
-    hyper=Hyper(matches=192, epochs=3, entropy=0.008, last_entropy=0.001, discount=0.99),
-    sharpness=2.0,
+    reward=FootballRewards,
+    habits=FootballHabits,
 )
 
 

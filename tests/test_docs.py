@@ -13,6 +13,7 @@ from itertools import pairwise, product
 from math import atan2, degrees
 from operator import attrgetter
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -22,8 +23,7 @@ from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.pitanks.brains import HANDICAPS
 from pigaming_app.ai.pitanks.classic import Parameters
-from pigaming_app.ai.ppo import pitanks as fights
-from pigaming_app.ai.ppo import race as races
+from pigaming_app.ai.ppo import pitanks as fighting
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.qlearning import features as sectors
 from pigaming_app.ai.qlearning import table as qlearning
@@ -330,28 +330,32 @@ def test_the_page_on_environments_lists_the_rewards():
 
 
 def rewards():
-    """Statements of docs/networks.md about the rewards of `train ppo`, with the numbers of the code."""
-    yield f"| a hit taken | −{fights.CARE:g}, falling to −{fights.FULL_CARE:g} by half"
-    yield f"| a win, a tie, a defeat | +{fights.WIN:g}, −{fights.WIN / 2:g}, −{fights.WIN:g} |"
-    yield f"| a decision without an opponent in the line of fire | −{fights.BORED:g} |"
-    yield f"| a shot without an opponent in the line of fire | −{fights.BLIND:g} |"
-    yield f"| a decision within {fights.CLOSE:g} px of an opponent | −{fights.CROWD:g} |"
-    yield f"| a shot | −{fights.SHOT:g} |"
-    yield f"| a shot, in {fights.THRIFTY:.0%} of the matches | up to −{fights.MOST_THRIFT:g} more,".replace("%", " %")
-    yield f"| the change of a potential, × {fights.SHAPING:g} falling to × {fights.SHAPED:g} |"
-    yield f"else −{fights.FAR / 2:g} for each 1600 px"
-    late = f"In {fights.LATE:.0%} of the matches without the exploiter it sees others up to {fights.LATEST:g} s late"
+    """Statements of docs/networks.md about the rewards of `train ppo`, with the numbers of the task files."""
+    fights, races = TASKS["pitanks"], TASKS["race"]
+    reward: Any = fights.reward
+    habits: Any = fights.habits
+    yield f"| a hit taken | −{reward.first_care:g}, falling to −{reward.care:g} by half"
+    yield f"| a win, a tie, a defeat | +{reward.win:g}, −{-reward.tie:g}, −{-reward.defeat:g} |"
+    yield f"| a decision without an opponent in the line of fire | −{reward.bored:g} |"
+    yield f"| a shot without an opponent in the line of fire | −{reward.blind:g} |"
+    yield f"| a decision within {reward.close:g} px of an opponent | −{reward.crowd:g} |"
+    yield f"| a shot | −{reward.shot:g} |"
+    yield f"| a shot, in {habits.thrifty:.0%} of the matches | up to −{habits.most_thrift:g} more,".replace("%", " %")
+    yield f"| the change of a potential, × {reward.first_shaping:g} falling to × {reward.shaping:g} |"
+    yield f"else −{fighting.FAR / 2:g} for each 1600 px"
+    late = f"In {habits.late:.0%} of the matches without the exploiter it sees others up to {habits.latest:g} s late"
     yield late.replace("%", " %")
-    yield f"| progress | +1 for each {races.STRIDE:g} px |"
-    yield f"| +{races.LEADING:g} for each {races.STRIDE:g} px it grows |"
-    yield f"| +{races.FINISH:g} for each place up to the last, +{races.WIN:g} for a win |"
-    yield f"Steps of more than {races.LONGEST:g} px a decision"
-    shares = [line_up.share for line_up in fights.TASK.line_ups]
-    made = f"(`{fights.MADE[0]}` to `{fights.MADE[-1]}`), so that it learns no arena by heart"
-    yield f"{made}. Of {sum(shares)} matches: | matches | line-up |"
+    reward = races.reward
+    yield f"| progress | +1 for each {reward.stride:g} px |"
+    yield f"| +{reward.lead:g} for each {reward.stride:g} px it grows |"
+    yield f"| +{reward.place:g} for each place up to the last, +{reward.win:g} for a win |"
+    yield f"Steps of more than {reward.longest:g} px a decision"
+    shares = [line_up.share for line_up in fights.line_ups]
+    made = [name for name in fights.arenas if name.startswith("surprise-")]
+    yield f"(`{made[0]}` to `{made[-1]}`), so that it learns no arena by heart. Of {sum(shares)} matches: | matches |"
     for places in ((0, 1, 2, 6, 7, 4), (3, 5, 8), (9, 10), (11, 13, 12), (14, 15, 16)):  # rows of the page
         yield f"| {', '.join(str(shares[place]) for place in places)} |"
-    yield f"alone (4 of {sum(line_up.share for line_up in races.TASK.line_ups)})"
+    yield f"alone (4 of {sum(line_up.share for line_up in races.line_ups)})"
 
 
 def test_the_page_on_networks_has_the_rewards():

@@ -26,7 +26,9 @@ from pigaming_app.boot.interpreter import (
 )
 
 NEEDED = {"test": {"test"}, "bundle": {"bundle"}}
-OPTIONAL = {job: {"train"} for job in ("bench", "duel", "league", "train")}  # extras that a job also runs without
+OPTIONAL = {
+    job: {"train"} for job in ("bench", "duel", "exploit", "league", "train")
+}  # extras that a job also runs without
 OPTIONAL |= {"test": {"train", "hardware", "plots", "gym", "onnx", "phones"}, "bench": {"train", "gym", "bench"}}
 OPTIONAL |= {"bundle": {"train", "hardware", "phones", "events"}}
 EXTRA_OF_WORD = {  # words that require an extra anywhere on the command line

@@ -15,7 +15,7 @@ from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
 from pigaming_football.ai import NET
 from pigaming_football.network import BALL, ENCODING, FAR, FEET, GOALS, MATCH, OTHER, OTHERS, PLACE, SIZE
-from pigaming_football.training import FIELD, LEAD, NEARNESS, POINT, TASK
+from pigaming_football.training import FIELD, LEAD, LOST, NEARNESS, TASK, TIED, WON
 from tests.ai.networks.random_network import random_network
 from tests.football.pitch import match, put_ball, put_robot, setup, state
 from tests.matches import match_of, run
@@ -98,7 +98,7 @@ def test_rewards_are_those_of_the_own_side():
     football = state()
     for x, better in ((300.0, 1), (800.0, None), (1300.0, 0)):
         put_ball(football, x, 450.0)
-        gauges = [[0.0] * 3 for _ in range(4)]
+        gauges = [[0.0] * 6 for _ in range(4)]
         for seat in range(4):
             TASK.gauge(football, seat, None, gauges[seat])
         assert gauges[0] == gauges[2]
@@ -107,12 +107,13 @@ def test_rewards_are_those_of_the_own_side():
             assert gauges[better][FIELD] > 0.2
         assert 0.0 <= gauges[0][NEARNESS] <= 1.0
     football.robots[3].score = 1
-    gauges = [[0.0] * 3, [0.0] * 3]
+    football.over = 1
+    gauges = [[0.0] * 6, [0.0] * 6]
     for seat in (0, 1):
         TASK.gauge(football, seat, None, gauges[seat])
     assert [one[LEAD] for one in gauges] == [-1, 1]
-    assert POINT > 0.0
-    assert TASK.result(football, 1) == -TASK.result(football, 0) > 0.0
+    assert [one[WON] - one[LOST] for one in gauges] == [-1.0, 1.0]
+    assert not any(one[TIED] for one in gauges)
 
 
 @needs_numba

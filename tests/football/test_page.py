@@ -2,7 +2,9 @@
 
 import re
 from pathlib import Path
+from typing import Any
 
+from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.sim.world import HZ
 from pigaming_football import network, training
 from pigaming_football.ai import HANDS, STRENGTHS
@@ -42,11 +44,13 @@ def statements():
     yield f"a [network](networks.md) of {network.SIZE} inputs"
     yield f"`drive` {', '.join(f'{stick:g}'.replace('-', '−') for stick in network.DRIVES)};"
     yield f"`MultiDiscrete([{', '.join(str(count) for _, count in network.HEADS)}])`"
-    yield f"| a point of lead | +{training.POINT:g} |"
-    yield f"| +{training.WIN:g}, −{training.WIN / 4:g}, −{training.WIN:g} |"
-    yield f"| × {training.ADVANCE:g}, falling to × {training.ADVANCED:g} |"
-    yield f"| × {training.CHASE:g}, falling to × {training.CHASED:g} |"
-    yield f"In {100 * training.LATE:.0f} % of the matches it sees others and the ball up to {training.LATEST:g} s late"
+    reward: Any = TASKS["football"].reward
+    habits: Any = TASKS["football"].habits
+    yield f"| a point of lead | +{reward.goal:g} |"
+    yield f"| +{reward.win:g}, −{-reward.tie:g}, −{-reward.defeat:g} |"
+    yield f"| × {reward.first_advance:g}, falling to × {reward.advance:g} |"
+    yield f"| × {reward.first_chase:g}, falling to × {reward.chase:g} |"
+    yield f"In {100 * habits.late:.0f} % of the matches it sees others and the ball up to {habits.latest:g} s late"
     yield f"Tallies: {', '.join(f'`{name}`' for name in training.TALLIES.names[:2])}"
 
 

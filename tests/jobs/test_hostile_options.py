@@ -53,9 +53,13 @@ OPTIONS = {
     tuple(LEAGUE): ("--matches", "--seed", "--minutes", "--arena", "--variant", "--laps", "--pallets", ""),
     tuple(TRAIN): ("--reward", "--matches", "--minutes", "--seed", "--arena", "--out", "--set", "--curve", "--csv", ""),
     tuple(PPO): (
-        "--updates", "--decisions", "--minutes", "--from", "--against", "--variant", "--seed", "--out", "--set",
-        "--curve", "--csv", "--population", "--ray", "--workers", "",
+        "--updates", "--decisions", "--minutes", "--from", "--task", "--seed", "--out", "--set",
+        "--curve", "--csv", "--population", "--tensorboard", "--copies", "--ray", "--workers", "",
     ),
+    ("exploit", *SET, "--out", "foreign.npz", "--resume"): (
+        "--game", "--variant", "--decisions", "--seed", "--set", "--out", "--curve", "--csv", "",
+    ),
+    ("train", "task"): ("",),
     ("replay", "--verify"): ("",),
     ("bench",): ("",),
     ("train", "qlearning", "--out", "a.npz"): ("",),

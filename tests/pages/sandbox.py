@@ -17,6 +17,7 @@ import pytest
 from pigaming_app.ai.networks.files import encode
 from pigaming_app.ai.ppo import shard, win_rates
 from pigaming_app.ai.ppo.registry import TASKS
+from pigaming_app.ai.ppo.task_file import file_of, text_of
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games import setup
 from pigaming_app.games.registry import games
@@ -45,6 +46,7 @@ FILES: dict[str, Callable[[Path], object]] = {  # that a page takes for granted,
     "agent.onnx": lambda file: file.write_bytes(model(np.zeros((128, 14)))),
     "robots.toml": lambda file: file.write_text(to_toml([NOMINAL] * 4), encoding="utf-8"),
     "mine.toml": lambda file: shutil.copy(ROOT / "assets/arenas/pitanks/islands.toml", file),
+    "my.task.toml": lambda file: file.write_text(text_of(file_of(replace(TASKS["pitanks"], minutes=(0.05,))))),
     "class.csv": lambda file: file.write_text(CLASS, encoding="utf-8"),
     "cup.json": lambda file: cli.main(["event", "new", str(file), *EVENT]),
     "match.replay": lambda file: cli.main(["play", *["--seats", "idle,idle", "--headless", "--record"], str(file)]),

@@ -52,7 +52,7 @@ PLACEHOLDERS = (
     Placeholder(r"play --seats$", "play --seats level1,level2 --headless", VALUE),
     Placeholder(r"play --record$", "play --record match.replay --seats idle,idle --headless", VALUE),
     Placeholder(r"play --seed$", "play --seed 3 --seats idle,idle --headless", VALUE),
-    Placeholder(r"ppo --(against|from)$", r"ppo --\1 net --out other.npz", VALUE),
+    Placeholder(r"ppo --from$", "ppo --from net --out other.npz", VALUE),
     Placeholder(r"robots --arena$", "robots --arena 4711", VALUE),
     Placeholder(r" --resume", "", "nothing to go on from; tests/jobs/learning/test_train.py resumes"),
     Placeholder(r"(qlearning --set .*=0)$", r"\1 --out readings.npz", "a file that the sentence leaves out"),
@@ -69,6 +69,7 @@ LIMITS: dict[str, dict[str, object]] = {  # of parsed arguments, by the end of t
     "exploits": {"minutes": MINUTES, "matches": 1},
     "train qlearning": {"minutes": 0.05, "matches": 1},
     "train ppo": {"minutes": None, "decisions": None, "updates": 1},
+    "exploit": {"decisions": 16},
     "tests.bench.fairness": {"matches": 4},
     "tests.bench.network_wins": {
         "matches": 1,

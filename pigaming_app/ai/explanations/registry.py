@@ -9,7 +9,7 @@ from pigaming_app.ai.brain.thoughts import Thoughts
 from pigaming_app.ai.explanations import classic, fsm, gunner, tables
 from pigaming_app.ai.explanations.networks import make_explain
 from pigaming_app.ai.explanations.percepts import SUBJECTS
-from pigaming_app.ai.networks.policy import mind_record
+from pigaming_app.ai.networks.policy import is_network_mind
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.pitanks.classic import think as classic_think
 from pigaming_app.ai.pitanks.fsm import think as fsm_think
@@ -55,7 +55,7 @@ def explain_of(kind: BrainKind, game: str) -> Explain | None:
         return kind.explain
     if kind.name in AUTO and (ends := AIS[game].auto) and (inner := explain_of(ends[0], game)):
         return lambda match, seat, mind, weights: inner(match, seat, mind.inner, weights)
-    if game in SUBJECTS and kind.mind is mind_record(ENCODINGS[game]):
+    if game in SUBJECTS and is_network_mind(kind.mind, ENCODINGS[game]):
         return make_explain(ENCODINGS[game])
     return BY_THINK.get(kind.think)
 

@@ -17,7 +17,7 @@ from msgspec import Meta
 from pigaming_app import ASSETS
 from pigaming_app.ai.brain.archive import HEAD, BrainFileError, pack, unpack, verify
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.networks.policy import HIDDEN, NO_HANDICAP, Handicap, Policy, network_brain
+from pigaming_app.ai.networks.policy import HIDDEN, NO_HANDICAP, SIZES, Handicap, Policy, network_brain
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.storage.parsing import ParseError
@@ -31,7 +31,7 @@ MAX_HEAD, MAX_MATRIX, MAX_BIAS = 400_000, 100_000, 2_000  # limits of unpacked s
 MATRICES, BIASES = ("first", "second", "last"), ("first_bias", "second_bias", "last_bias")
 PARTS = {HEAD: MAX_HEAD, **dict.fromkeys(MATRICES, MAX_MATRIX), **dict.fromkeys(BIASES, MAX_BIAS)}
 Text = Annotated[str, Meta(max_length=4_000)]
-Scalar = Text | Finite | int | bool | None
+Scalar = Annotated[str, Meta(max_length=50_000)] | Finite | int | bool | None
 Values = Scalar | list[Scalar]
 
 
@@ -55,7 +55,7 @@ class TrainingCurve:
 class TrainedNetwork:
     """A network with the parameters of its training.
 
-    `matrices`: int16, (inputs, 64), (64, 64), (64, outputs), in units of 1/256; `biases`: int16, one for each column.
+    `matrices`: int16, (inputs, n), (n, n), (n, outputs), in units of 1/256; `biases`: int16, one for each column.
     """
 
     name: Text
@@ -73,6 +73,11 @@ class TrainedNetwork:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "engine", self.engine or engine_hash(self.game))
+
+    @property
+    def units(self) -> int:
+        """Units of each hidden layer."""
+        return int(self.matrices[0].shape[1])
 
     @property
     def other_engine(self) -> bool:
@@ -103,7 +108,7 @@ def decode(raw: bytes, name: str) -> TrainedNetwork:
 
 def brain_of(trained: TrainedNetwork) -> BrainKind:
     """The brain that plays by a network, with its handicap."""
-    return network_brain(trained.name, ENCODINGS[trained.game], policy_of(trained), trained.handicap)
+    return network_brain(trained.name, ENCODINGS[trained.game], policy_of(trained), trained.handicap, trained.units)
 
 
 def policy_of(trained: TrainedNetwork) -> Policy:
@@ -121,21 +126,26 @@ def shipped(name: str, folder: Path = BRAINS) -> TrainedNetwork:
 
 
 def shipped_brain(
-    name: str, game: str, file: str, folder: Path = BRAINS, handicap: Mapping[str, float] = MappingProxyType({})
+    name: str,
+    game: str,
+    file: str,
+    folder: Path = BRAINS,
+    handicap: Mapping[str, float] = MappingProxyType({}),
+    units: int = HIDDEN,
 ) -> BrainKind:
     """A brain `name` by a network that ships as `file`.npz in a folder, read on first use.
 
     `handicap`: what makes it weaker, by name: `delay` (s, age of the poses of others), `error` (rad, of their bearing),
     `sharpness` (below 1 it chooses less surely), `thrift` (points that a shot costs), `speed` (share of full speed),
     `form` (share of that which it lacks on a bad day), `turns` (s for which it goes for one opponent),
-    `reluctance` (off the logit of a shot).
+    `reluctance` (off the logit of a shot). `units`: of each hidden layer, as in the file.
     """
 
     @cache
     def policy() -> Policy:
         return policy_of(shipped(file, folder))
 
-    return network_brain(name, ENCODINGS[game], lambda fast: policy()(fast), Handicap(**handicap))
+    return network_brain(name, ENCODINGS[game], lambda fast: policy()(fast), Handicap(**handicap), units)
 
 
 def _trained(head: Mapping[str, Any], arrays: Mapping[str, Any]) -> TrainedNetwork:
@@ -145,7 +155,10 @@ def _trained(head: Mapping[str, Any], arrays: Mapping[str, Any]) -> TrainedNetwo
     encoding = ENCODINGS.get(str(head.get("game")))
     if encoding is None:
         raise NetworkError(f"a network for another game; networks play {', '.join(ENCODINGS)}")
-    sizes = (encoding.size, HIDDEN, HIDDEN, encoding.outputs)
+    units = arrays["first_bias"].size
+    if units not in SIZES:
+        raise NetworkError(f"its hidden layers have {units} units; possible are {', '.join(map(str, SIZES))}")
+    sizes = (encoding.size, units, units, encoding.outputs)
     shapes = [*pairwise(sizes), *((size,) for size in sizes[1:])]
     if any(array.dtype.str != "<i2" for array in arrays.values()):
         raise NetworkError("its weights are not whole numbers of 16 bits")

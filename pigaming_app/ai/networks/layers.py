@@ -21,6 +21,11 @@ class Layers:
         self.matrices = [np.asarray(matrix, float) for matrix in matrices]
         self.biases = [np.asarray(bias, float) * UNIT for bias in biases]
 
+    @property
+    def units(self) -> int:
+        """Units of each hidden layer."""
+        return int(self.matrices[0].shape[1])
+
     def logits(self, inputs: Sequence[float]) -> list[float]:
         """The outputs, as sums: in units of LOGIT."""
         logits: list[float] = self._sums(inputs).tolist()

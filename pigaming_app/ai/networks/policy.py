@@ -1,4 +1,4 @@
-"""Networks as brains: two hidden layers of 64 units, in whole numbers.
+"""Networks as brains: two hidden layers of as many units each, 64 as a rule, in whole numbers.
 
 Weights, inputs and activations are whole numbers in units of 1/256, so that sums are exact. What remains is arithmetic
 on single numbers, which IEEE 754 rounds alike everywhere: plain and compiled play agree to the last bit on every
@@ -25,7 +25,8 @@ from pigaming_app.storage.schema import Share, between
 if TYPE_CHECKING:
     from pigaming_app.ai.networks.layers import Layers
 
-HIDDEN = 64  # units of each hidden layer
+HIDDEN = 64  # units of each hidden layer, as a rule
+SIZES = range(8, 129, 8)  # possible numbers of them
 LOGIT = 1.0 / (UNIT * UNIT)  # 1 in sums
 DRAWN_FOR = HZ // 2  # ticks for which an aiming error lasts
 
@@ -48,14 +49,14 @@ NO_HANDICAP = Handicap()
 
 
 @cache
-def weights_record(size: int, outputs: int) -> type:
+def weights_record(size: int, outputs: int, units: int = HIDDEN) -> type:
     """The record of a compiled network's parameters."""
     hints = {
-        "first": Annotated[list[float], size * HIDDEN, "f"],
-        "first_bias": Annotated[list[float], HIDDEN, "f"],
-        "second": Annotated[list[float], HIDDEN * HIDDEN, "f"],
-        "second_bias": Annotated[list[float], HIDDEN, "f"],
-        "last": Annotated[list[float], HIDDEN * outputs, "f"],
+        "first": Annotated[list[float], size * units, "f"],
+        "first_bias": Annotated[list[float], units, "f"],
+        "second": Annotated[list[float], units * units, "f"],
+        "second_bias": Annotated[list[float], units, "f"],
+        "last": Annotated[list[float], units * outputs, "f"],
         "last_bias": Annotated[list[float], outputs, "f"],
     }
     return record(type("NetworkWeights", (), {"__annotations__": hints, "__module__": __name__}))
@@ -74,21 +75,28 @@ class NetworkMind:
     speed: float  # share of full speed in this match
     error_left: int  # ticks until the aiming error is redrawn
     inputs: Annotated[list[float], 2, "f"]
-    hidden: Annotated[list[float], 2 * HIDDEN, "f"]  # scratch space of compiled code, else 0
+    hidden: Annotated[list[float], 2, "f"]  # scratch space of compiled code, else 0
     logits: Annotated[list[float], 2, "f"]
     choices: Annotated[list[int], 1]
 
 
 @cache
-def mind_record(encoding: Encoding) -> type[NetworkMind]:
-    """The record of the memory of a game's networks."""
+def mind_record(encoding: Encoding, units: int = HIDDEN) -> type[NetworkMind]:
+    """The record of the memory of a game's networks of one size."""
     hints = {
         "senses": encoding.senses,
         "inputs": Annotated[list[float], encoding.size, "f"],
+        "hidden": Annotated[list[float], 2 * units, "f"],
         "logits": Annotated[list[float], encoding.outputs, "f"],
         "choices": Annotated[list[int], len(encoding.heads)],
     }
-    return record(type("NetworkMind", (NetworkMind,), {"__annotations__": hints, "__module__": __name__}))
+    name = "NetworkMind" if units == HIDDEN else f"NetworkMind{units}"  # casts sort their families by name
+    return record(type(name, (NetworkMind,), {"__annotations__": hints, "__module__": __name__}))
+
+
+def is_network_mind(kind: type, encoding: Encoding) -> bool:
+    """True for the memory of a game's networks, of whatever size."""
+    return any(kind is mind_record(encoding, units) for units in SIZES)
 
 
 def _forward_loops(mind: NetworkMind, weights: Any) -> None:
@@ -97,41 +105,41 @@ def _forward_loops(mind: NetworkMind, weights: Any) -> None:
     Each adds four inputs at once, which saves most loads and stores of the sums; whole numbers allow any order.
     """
     inputs, hidden, logits = mind.inputs, mind.hidden, mind.logits
-    size, outputs = len(inputs), len(logits)
-    for unit in range(HIDDEN):
+    size, outputs, units = len(inputs), len(logits), len(hidden) // 2
+    for unit in range(units):
         hidden[unit] = weights.first_bias[unit]
-        hidden[HIDDEN + unit] = weights.second_bias[unit]
+        hidden[units + unit] = weights.second_bias[unit]
     for unit in range(outputs):
         logits[unit] = weights.last_bias[unit]
     for i in range(0, size - 3, 4):
         a, b, c, d = inputs[i], inputs[i + 1], inputs[i + 2], inputs[i + 3]
         if a != 0.0 or b != 0.0 or c != 0.0 or d != 0.0:
-            for unit in range(HIDDEN):
-                k = i * HIDDEN + unit
-                near = a * weights.first[k] + b * weights.first[k + HIDDEN]
-                far = c * weights.first[k + 2 * HIDDEN] + d * weights.first[k + 3 * HIDDEN]
+            for unit in range(units):
+                k = i * units + unit
+                near = a * weights.first[k] + b * weights.first[k + units]
+                far = c * weights.first[k + 2 * units] + d * weights.first[k + 3 * units]
                 hidden[unit] += near + far
     for i in range(size - size % 4, size):
         a = inputs[i]
-        for unit in range(HIDDEN):
-            hidden[unit] += a * weights.first[i * HIDDEN + unit]
-    for unit in range(HIDDEN):
+        for unit in range(units):
+            hidden[unit] += a * weights.first[i * units + unit]
+    for unit in range(units):
         hidden[unit] = squash(hidden[unit])
-    for i in range(0, HIDDEN, 4):
+    for i in range(0, units, 4):
         a, b, c, d = hidden[i], hidden[i + 1], hidden[i + 2], hidden[i + 3]
-        for unit in range(HIDDEN):
-            k = i * HIDDEN + unit
-            near = a * weights.second[k] + b * weights.second[k + HIDDEN]
-            far = c * weights.second[k + 2 * HIDDEN] + d * weights.second[k + 3 * HIDDEN]
-            hidden[HIDDEN + unit] += near + far
-    for unit in range(HIDDEN, 2 * HIDDEN):
+        for unit in range(units):
+            k = i * units + unit
+            near = a * weights.second[k] + b * weights.second[k + units]
+            far = c * weights.second[k + 2 * units] + d * weights.second[k + 3 * units]
+            hidden[units + unit] += near + far
+    for unit in range(units, 2 * units):
         hidden[unit] = squash(hidden[unit])
-    for i in range(0, HIDDEN, 2):
-        a, b = hidden[HIDDEN + i], hidden[HIDDEN + i + 1]
+    for i in range(0, units, 2):
+        a, b = hidden[units + i], hidden[units + i + 1]
         for unit in range(outputs):
             k = i * outputs + unit
             logits[unit] += a * weights.last[k] + b * weights.last[k + outputs]
-    for unit in range(2 * HIDDEN):
+    for unit in range(2 * units):
         hidden[unit] = 0.0
 
 
@@ -242,16 +250,20 @@ def packed_layers(layers: "Layers") -> Any:
     import numpy as np
 
     size, outputs = len(layers.matrices[0]), layers.matrices[2].shape[1]
-    row = np.zeros(1, dtype(weights_record(size, outputs)))
+    row = np.zeros(1, dtype(weights_record(size, outputs, layers.units)))
     for name, matrix, bias in zip(("first", "second", "last"), layers.matrices, layers.biases, strict=True):
         row[name][0], row[f"{name}_bias"][0] = matrix.ravel(), bias
     return row
 
 
 def network_brain(
-    name: str, encoding: Encoding, weights: Callable[[bool], Any], handicap: Handicap = NO_HANDICAP
+    name: str,
+    encoding: Encoding,
+    weights: Callable[[bool], Any],
+    handicap: Handicap = NO_HANDICAP,
+    units: int = HIDDEN,
 ) -> BrainKind:
-    """A brain that plays by a network."""
+    """A brain that plays by a network with so many units in each hidden layer."""
 
     def reset(mind: NetworkMind, seed: int) -> None:
         mind.random, mind.sharpness, mind.error = seeded(seed), handicap.sharpness, handicap.error
@@ -260,4 +272,4 @@ def network_brain(
         mind.wait = 1 + int(uniform(mind) * PERIOD)
         mind.speed = handicap.speed * (1.0 - handicap.form * uniform(mind))
 
-    return BrainKind(name, mind_record(encoding), make_think(encoding), reset, weights)
+    return BrainKind(name, mind_record(encoding, units), make_think(encoding), reset, weights)

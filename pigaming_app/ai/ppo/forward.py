@@ -5,18 +5,20 @@ from math import exp, log
 
 import numpy as np
 
-from pigaming_app.ai.networks.policy import HIDDEN
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.rng import Rng, uniform
 
 
-@kernel
-def bend(values: np.ndarray) -> None:
-    """Padé's tanh in single precision."""
-    for i in range(HIDDEN):
-        y = min(max(values[i] * np.float32(1.0 / 3.0), np.float32(-1.0)), np.float32(1.0))
-        square = y * y
-        values[i] = y * (square + np.float32(3.0)) / (np.float32(3.0) * square + np.float32(1.0))
+def make_bend(units: int) -> Callable[[np.ndarray], None]:
+    """A kernel for Padé's tanh in single precision."""
+
+    def bend(values: np.ndarray) -> None:
+        for i in range(units):
+            y = min(max(values[i] * np.float32(1.0 / 3.0), np.float32(-1.0)), np.float32(1.0))
+            square = y * y
+            values[i] = y * (square + np.float32(3.0)) / (np.float32(3.0) * square + np.float32(1.0))
+
+    return kernel(bend)
 
 
 def make_layer(inputs: int, units: int) -> Callable[[np.ndarray, np.ndarray, np.ndarray], None]:

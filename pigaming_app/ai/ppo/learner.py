@@ -9,6 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from pigaming_app.ai.networks.encoding import UNIT
+from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.policy import HIDDEN
 
 F = np.float32
@@ -91,9 +93,11 @@ class PolicyNetwork:
     `weights`: three float32 matrices (inputs + 1, units); the last row holds the biases.
     """
 
-    def __init__(self, inputs: int, outputs: int, gain: float, random: np.random.Generator) -> None:
-        """Orthogonal weights; `gain`: of the last layer."""
-        sizes = ((inputs, HIDDEN, 1.4), (HIDDEN, HIDDEN, 1.4), (HIDDEN, outputs, gain))
+    def __init__(
+        self, inputs: int, outputs: int, gain: float, random: np.random.Generator, units: int = HIDDEN
+    ) -> None:
+        """Orthogonal weights; `units`: of each hidden layer; `gain`: of the last layer."""
+        sizes = ((inputs, units, 1.4), (units, units, 1.4), (units, outputs, gain))
         self.weights = [_orthogonal(*size, random) for size in sizes]
         self.means = [np.zeros_like(matrix) for matrix in self.weights]
         self.squares = [np.zeros_like(matrix) for matrix in self.weights]
@@ -107,9 +111,9 @@ class PolicyNetwork:
         trail: Trail = []
         x = x.T
         for matrix in self.weights[:-1]:
-            y = np.empty((HIDDEN + 1, x.shape[1]), x.dtype)
-            y[HIDDEN] = 1
-            z = np.matmul(matrix.T, x, out=y[:HIDDEN])
+            y = np.empty((matrix.shape[1] + 1, x.shape[1]), x.dtype)
+            y[-1] = 1
+            z = np.matmul(matrix.T, x, out=y[:-1])
             np.clip(z, F(-3), F(3), out=z)
             bend = z * z  # tanh z = z (27 + z^2) / (27 + 9 z^2) = z (1/9 + 8/3 / (3 + z^2))
             bend += F(3)
@@ -145,6 +149,18 @@ class PolicyNetwork:
             mean += SLOPE * (gradient - mean)
             square += SMOOTHNESS * (gradient * gradient - square)
             matrix -= step * mean / (np.sqrt(square) + TINY)
+
+    def take_over(self, layers: Layers) -> None:
+        """Go on from a trained network, which may be smaller: the outputs are the same, bit for bit.
+
+        Units that it lacks keep their incoming weights from all units, and have none to its own units or the outputs.
+        """
+        old = layers.units
+        new = [matrix.copy() for matrix in self.weights]
+        new[1][old:-1, :old] = new[2][old:-1] = 0
+        for own, matrix, bias in zip(new, layers.matrices, layers.biases, strict=True):
+            own[: len(matrix), : len(bias)], own[-1, : len(bias)] = matrix / UNIT, bias / UNIT**2
+        self.restart(new)
 
     def restart(self, weights: Sequence[Any]) -> None:
         """Go on from other weights, as if they were the first."""
@@ -229,10 +245,12 @@ def policy_slopes(
 class Learner:
     """Policy and value function, and their updates."""
 
-    def __init__(self, inputs: int, counts: Sequence[int], hyper: Hyper, random: np.random.Generator) -> None:
+    def __init__(
+        self, inputs: int, counts: Sequence[int], hyper: Hyper, random: np.random.Generator, units: int = HIDDEN
+    ) -> None:
         self.counts, self.hyper, self.random = tuple(counts), hyper, random
-        self.policy = PolicyNetwork(inputs, sum(counts), 0.01, random)
-        self.value = PolicyNetwork(inputs, 1, 1.0, random)
+        self.policy = PolicyNetwork(inputs, sum(counts), 0.01, random, units)
+        self.value = PolicyNetwork(inputs, 1, 1.0, random, units)
 
     def update(self, data: Sequence[Any], share: float, threads: Executor, held: bool = False) -> LearnerFigures:
         """Improve both networks on a set of decisions, or the value function alone, while the policy is `held`.

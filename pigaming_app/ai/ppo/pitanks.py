@@ -1,41 +1,27 @@
-"""PiTanks as PPO learns it: duels, free-for-alls and pairs under every rule set, on five arenas.
+"""PiTanks as PPO learns it; all numbers, matches and opponents are in assets/brains/pitanks.task.toml.
 
 Hits count as points; hits taken count little at first, so that the network learns to fight before it learns to hide.
 """
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from pigaming_app.ai.networks.encoding import UNIT, Inputs
 from pigaming_app.ai.networks.pitanks import ENCODING, GUN, HABITS, OTHER, OTHERS, WAY
-from pigaming_app.ai.ppo.learner import Hyper
-from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, OFF, POOL, LineUp, Task
+from pigaming_app.ai.ppo.task import Task
 from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.kernel import kernel
 
-POINTS, TAKEN, SHOTS, POTENTIAL = range(4)  # gauges
-CARE, FULL_CARE = 0.3, 1.0  # cost of a hit taken, at the begin and from half of the training on
-SHAPING, SHAPED = 0.5, 0.3  # weight of the potential, at the begin and at the end of the training
-FAR = 10.0  # by which 1600 px more on the way to an opponent out of sight lower the potential
-SHOT = 0.08  # cost of a shot: who fires at a protected opponent is not loaded when the protection ends
-BLIND = 0.1  # cost of a shot with nobody in the line of fire
-CROWD, CLOSE = 0.03, 160.0  # cost of a decision within so many px of an opponent: blows at arm's length end level
-BORED = 0.02  # cost of a decision with nobody in the line of fire: who waits loses
-THRIFTY, MOST_THRIFT = 0.4, 0.9  # share of matches in which a shot has a cost, and the highest
-LATE, LATEST = 0.3, 0.4  # share of matches in which others are seen late, and the longest delay, s
-WIN = 2.0  # reward of a win; a tie costs half of it
-PAIRS = (0, 1, 0, 1)
-OWN = ("classic", "courtyard", "islands", "labyrinth", "trenches")  # arenas that ship with the game
-MADE = tuple(f"surprise-{seed}" for seed in range(1, 61))  # others, so that it learns no arena by heart
-PURE = ("classic",)  # variants by which the tables learned: with neither turbo nor protection, a stray burst decides
-WALLED = ("labyrinth", "trenches")  # arenas in which somebody who waits must be looked for
+POINTS, TAKEN, SHOTS, POTENTIAL, WON, TIED, LOST = range(7)  # gauges
+FAR = 10.0  # by which 1600 px more on the way to an opponent out of sight lower the potential, twice
 
 
 @kernel
 def gauge(match: PiTanks, seat: int, inputs: Inputs, gauges: list[float]) -> None:
-    """Points made, hits taken, shots, and how well the first of the others can be fought."""
+    """Points made, hits taken, shots, how well the first of the others can be fought, and the end of the match."""
     tank = match.tanks[seat]
     gauges[POINTS] = match.robots[seat].score + match.rules.penalty * tank.taken
     gauges[TAKEN], gauges[SHOTS] = tank.taken, tank.shots
@@ -43,77 +29,70 @@ def gauge(match: PiTanks, seat: int, inputs: Inputs, gauges: list[float]) -> Non
         gauges[POTENTIAL] = 0.5 * inputs[OTHERS + 4] / UNIT + 0.3
     else:
         gauges[POTENTIAL] = -0.5 * FAR * (inputs[WAY + 7] / UNIT + 1.0)
+    if match.over:
+        ahead = lead(match, seat)
+        gauges[WON if ahead > 0 else LOST if ahead < 0 else TIED] = 1.0
 
 
-@kernel
-def result(match: PiTanks, seat: int) -> float:
-    """Reward of the end of a match."""
-    ahead = lead(match, seat)
-    return WIN if ahead > 0 else -WIN if ahead < 0 else -0.5 * WIN
+@dataclass(frozen=True)
+class PiTanksRewards:
+    """Rewards of the decisions; costs are positive."""
+
+    win: float
+    tie: float
+    defeat: float
+    first_care: float  # cost of a hit taken, at the begin and from half of the training on
+    care: float
+    first_shaping: float  # weight of the potential, at the begin and at the end of the training
+    shaping: float
+    shot: float  # cost of a shot: who fires at a protected opponent is not loaded when the protection ends
+    blind: float  # cost of a shot with nobody in the line of fire
+    bored: float  # cost of a decision with nobody in the line of fire: who waits loses
+    crowd: float  # cost of a decision within `close` px of an opponent: blows at arm's length end level
+    close: float
+
+    def __call__(self, gains: np.ndarray, inputs: np.ndarray, choices: np.ndarray, share: float) -> Any:
+        """Rewards (T, S)."""
+        care = min(self.care, self.first_care + (self.care - self.first_care) * share / 0.5)
+        shaping = self.first_shaping + (self.shaping - self.first_shaping) * share
+        blind, crowded = np.ones(gains.shape[:2], bool), np.zeros(gains.shape[:2], bool)
+        for k in range(OTHERS, OTHERS + 3 * OTHER, OTHER):
+            opponent = (inputs[..., k] > 0) & (inputs[..., k + 1] <= 0)
+            blind &= ~(opponent & (inputs[..., k + 11] > 0))
+            crowded |= opponent & (inputs[..., k + 2] < self.close / 800.0 - 1.0)
+        fired = (choices[..., 2] == 1) & (inputs[..., GUN] < 0.15)
+        rewards = (
+            gains[..., POINTS]
+            - care * gains[..., TAKEN]
+            + shaping * gains[..., POTENTIAL]
+            - (self.shot + inputs[..., HABITS]) * gains[..., SHOTS]
+            - self.blind * (fired & blind)
+            - self.bored * blind
+            - self.crowd * crowded
+        ).astype(np.float32)
+        return rewards + (self.win * gains[..., WON] + self.tie * gains[..., TIED] + self.defeat * gains[..., LOST])
 
 
-def reward(gains: np.ndarray, inputs: np.ndarray, choices: np.ndarray, share: float) -> Any:
-    """Rewards (T, S) of the decisions."""
-    care = min(FULL_CARE, CARE + (FULL_CARE - CARE) * share / 0.5)
-    shaping = SHAPING + (SHAPED - SHAPING) * share
-    blind, crowded = np.ones(gains.shape[:2], bool), np.zeros(gains.shape[:2], bool)
-    for k in range(OTHERS, OTHERS + 3 * OTHER, OTHER):
-        opponent = (inputs[..., k] > 0) & (inputs[..., k + 1] <= 0)
-        blind &= ~(opponent & (inputs[..., k + 11] > 0))
-        crowded |= opponent & (inputs[..., k + 2] < CLOSE / 800.0 - 1.0)
-    fired = (choices[..., 2] == 1) & (inputs[..., GUN] < 0.15)
-    return (
-        gains[..., POINTS]
-        - care * gains[..., TAKEN]
-        + shaping * gains[..., POTENTIAL]
-        - (SHOT + inputs[..., HABITS]) * gains[..., SHOTS]
-        - BLIND * (fired & blind)
-        - BORED * blind
-        - CROWD * crowded
-    ).astype(np.float32)
-
-
-def habits(random: np.random.Generator) -> dict[str, float]:
+@dataclass(frozen=True)
+class PiTanksHabits:
     """How sparing of shots a network is in a match, and how late it sees others."""
-    thrift = random.random() * MOST_THRIFT if random.random() < THRIFTY else 0.0
-    delay = random.random() * LATEST if random.random() < LATE else 0.0
-    return {"thrift": thrift, "delay": delay}
 
+    thrifty: float  # share of matches in which a shot has a cost, and the highest, in points
+    most_thrift: float
+    late: float  # share of matches in which others are seen late, and the longest delay, s
+    latest: float
 
-def duel(share: int, rival: str, arenas: tuple[str, ...] = (), variants: tuple[str, ...] = ()) -> LineUp:
-    """The learner against one rival."""
-    return LineUp(share, (LEARNER, rival, OFF, OFF), variants=variants, arenas=arenas)
+    def __call__(self, random: np.random.Generator) -> dict[str, float]:
+        """Fields of a network's senses."""
+        thrift = random.random() * self.most_thrift if random.random() < self.thrifty else 0.0
+        delay = random.random() * self.latest if random.random() < self.late else 0.0
+        return {"thrift": thrift, "delay": delay}
 
 
 TASK = Task(
     encoding=ENCODING,
-    arenas=OWN * 12 + MADE,
-    variants=("pickups", "pickups", "party", "party", "party", "plain", "classic", "original"),
-    minutes=(2.0,),
-    line_ups=(
-        duel(3, "hand3"),
-        duel(1, "hand2"),
-        duel(2, "classic"),
-        duel(2, "classic", WALLED),
-        duel(1, "idle"),
-        duel(1, "idle", WALLED),
-        duel(3, "q1"),
-        duel(2, "q2"),
-        duel(2, "q2", WALLED),
-        duel(5, "q1", variants=PURE),
-        duel(2, "q2", variants=PURE),
-        duel(3, LEARNER),
-        duel(16, EXPLOITER),
-        duel(8, POOL),
-        LineUp(2, (LEARNER, "hand3", "hand3", "hand3")),
-        LineUp(1, (LEARNER, LEARNER, POOL, "hand3")),
-        LineUp(2, (LEARNER, "hand3", LEARNER, "hand3"), PAIRS),
-    ),
-    gauges=("points", "taken", "shots", "potential"),
+    gauges=("points", "taken", "shots", "potential", "won", "tied", "lost"),
     gauge=gauge,
-    result=result,
-    reward=reward,
-    habits=habits,
-    rivals=("hand3", "q2", "classic"),
-    hyper=Hyper(discount=0.995),
+    reward=PiTanksRewards,
+    habits=PiTanksHabits,
 )

@@ -1,15 +1,17 @@
 """The network of a training as a file's content, with the recipe by which it was trained."""
 
+import json
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 from pigaming_app.ai.brain.archive import HEAD, BrainFileError, pack, read, unpack, verify
 from pigaming_app.ai.networks.encoding import UNIT
-from pigaming_app.ai.networks.files import TrainedNetwork, TrainingCurve
+from pigaming_app.ai.networks.files import MAX_BYTES, TrainedNetwork, TrainingCurve, decode
 from pigaming_app.ai.networks.policy import Handicap
-from pigaming_app.ai.ppo.task import LineUp, Task
+from pigaming_app.ai.ppo.task import Length
+from pigaming_app.ai.ppo.task_file import TaskFile, file_of, text_of
 from pigaming_app.ai.ppo.training import POOL, Training, columns
 from pigaming_app.games.engine_hash import engine_hash
 
@@ -34,40 +36,24 @@ def trained_network(training: Training, name: str) -> TrainedNetwork:
 
 
 def recipe(training: Training) -> dict[str, Any]:
-    """Learner, plan, hyper-parameters, constants of the rewards, and matches of a training."""
-    task = training.task
-    return {
-        "learner": "ppo",
-        "planned_updates": training.planned if training.minutes is None else None,
-        "planned_minutes": training.minutes,
-        "start": training.start and training.start.name,
-        **asdict(training.hyper),
-        **constants(task),
-        "arenas": list(task.arenas),
-        "variants": list(task.variants),
-        "match_minutes": list(task.minutes),
-        "line_ups": [described(line_up) for line_up in task.line_ups],
-        "population": task.population,
-        "cut": task.cut,
-        "sharpness": task.sharpness,
-    }
+    """By what it was trained: the task file that makes the same network, and the one from which it was continued."""
+    return {"learner": "ppo", "start": training.start and training.start.name, "task": text_of(task_file(training))}
 
 
-def constants(task: Task) -> dict[str, float]:
-    """The decimal constants by which a task rewards and varies its matches, such as WIN."""
-    functions = (task.gauge, task.result, task.reward, task.habits)
-    found = {name: function.__globals__.get(name) for function in functions for name in function.__code__.co_names}
-    return {name: value for name, value in sorted(found.items()) if name.isupper() and type(value) is float}
+def recorded_task(path: Path) -> str:
+    """The task file by which a network was trained. Raises BrainFileError."""
+    trained = decode(read(path, MAX_BYTES), path.name)
+    task = trained.recipe.get("task")
+    if not isinstance(task, str):
+        raise BrainFileError(f"{path.name}: it does not tell by which task file it was trained")
+    return task
 
 
-def described(line_up: LineUp) -> str:
-    """A line-up in words, such as "4 learner hand3"."""
-    teams = f" teams {' '.join(map(str, line_up.teams))}" if line_up.teams else ""
-    return (
-        " ".join([str(line_up.share), *line_up.seats])
-        + teams
-        + "".join(f" {name}" for name in (*line_up.variants, *line_up.arenas))
-    )
+def task_file(training: Training) -> TaskFile:
+    """The task of a training as a file, with its seed and length."""
+    updates = training.planned if training.minutes is None else None
+    length = Length(training.seed, updates=updates, minutes=training.minutes)
+    return file_of(replace(training.task, hyper=training.filed, length=length))
 
 
 FORMAT = "pigaming-checkpoint-1"
@@ -121,4 +107,5 @@ def _pools(arrays: Mapping[str, Any]) -> list[str]:
 def _plan(training: Training) -> dict[str, Any]:
     """What determines the course of a training."""
     game = training.task.game
-    return {"engine": engine_hash(game), "game": game, "seed": training.seed, **recipe(training)}
+    start = training.start and training.start.name
+    return {"engine": engine_hash(game), "start": start, **json.loads(json.dumps(asdict(task_file(training))))}

@@ -14,9 +14,9 @@ from pigaming_app.ai.learning.batch import matches as new_matches
 from pigaming_app.ai.learning.cast import Cast, dispatcher, family_of
 from pigaming_app.ai.networks.encoding import PERIOD, UNIT
 from pigaming_app.ai.networks.layers import Layers
-from pigaming_app.ai.networks.policy import HIDDEN, Policy, network_brain
+from pigaming_app.ai.networks.policy import Policy, network_brain
 from pigaming_app.ai.plugin_faults import bound, late
-from pigaming_app.ai.ppo.forward import bend, make_layer, sample
+from pigaming_app.ai.ppo.forward import make_bend, make_layer, sample
 from pigaming_app.ai.ppo.population import EXPLOITED, Pool
 from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, LEARNERS, OFF, POOL, LineUp, Task
 from pigaming_app.ai.registry import find_brain
@@ -68,8 +68,9 @@ def make_collect(task: Task, think: Callable[..., None], field: str) -> Callable
     size, outputs = task.encoding.size, task.encoding.outputs
     counts = tuple(choices for _, choices in task.encoding.heads)
     heads = len(counts)
-    first_layer, second_layer = make_layer(size, HIDDEN), make_layer(HIDDEN, HIDDEN)
-    last_layer = make_layer(HIDDEN, outputs)
+    units = task.units
+    first_layer, second_layer = make_layer(size, units), make_layer(units, units)
+    last_layer, bend = make_layer(units, outputs), make_bend(units)
 
     def collect(
         matches: np.ndarray,
@@ -88,7 +89,7 @@ def make_collect(task: Task, think: Callable[..., None], field: str) -> Callable
         results: np.ndarray,
         players: np.ndarray,
     ) -> None:
-        one, two, logits = np.zeros(HIDDEN, np.float32), np.zeros(HIDDEN, np.float32), np.zeros(outputs, np.float32)
+        one, two, logits = np.zeros(units, np.float32), np.zeros(units, np.float32), np.zeros(outputs, np.float32)
         decisions = len(choices)
         for i in range(len(matches)):
             match, seated = matches[i], minds[i]
@@ -237,8 +238,7 @@ class Shard:
 
     def warm(self) -> None:
         """Compile the loop, for a fresh shard."""
-        encoding = self.task.encoding
-        sizes = ((encoding.size, HIDDEN), (HIDDEN, HIDDEN), (HIDDEN, encoding.outputs))
+        sizes = self.task.sizes
         policies = [np.zeros((len(self.task.learners), inputs + 1, units), np.float32) for inputs, units in sizes]
         self.collect(policies, Pool(self.cast.weights[self._number]), 0)
 
@@ -335,9 +335,8 @@ def brains_of(task: Task) -> list[str]:
 @cache
 def cast_of(task: Task) -> tuple[Cast, Any]:
     """The cast of a task's matches, and an empty network; those of the pool are added to its family in every round."""
-    sizes = ((task.encoding.size, HIDDEN), (HIDDEN, HIDDEN), (HIDDEN, task.encoding.outputs))
-    empty = Layers([np.zeros(size) for size in sizes], [np.zeros(units) for _, units in sizes])
-    network = network_brain("network", task.encoding, Policy(empty))
+    empty = Layers([np.zeros(size) for size in task.sizes], [np.zeros(units) for _, units in task.sizes])
+    network = network_brain("network", task.encoding, Policy(empty), units=task.units)
     names = {*brains_of(task), *task.rivals} - {*LEARNERS, POOL, OFF}
     rivals = {find_brain(task.game, name) for name in names}
     return Cast([network, *sorted(rivals, key=lambda kind: kind.name)], fast=True), network

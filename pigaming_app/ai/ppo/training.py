@@ -6,6 +6,7 @@ shards. With a planned time it also depends on the speed of the machine.
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
+from dataclasses import replace
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -62,21 +63,25 @@ class Training:
         minutes: float | None = None,
         start: Origin | None = None,
     ) -> None:
-        """`updates`: of the whole training, unless its time, `minutes`, is planned. `hyper`: None for the task's.
+        """`updates`: of the whole training, unless its time, `minutes`, is planned.
 
-        `start`: what it continues, with the rewards of the end of a training; None for a fresh network.
+        `hyper`: None for the task's, `continued` with a start. `start`: what it continues, with the rewards of the end
+        of a training, and with more units if the task has more; None for a fresh network.
         Raises ImportError without numba, ValueError for too few matches.
         """
-        hyper = hyper or task.hyper
+        if start and start.layers.units > task.units:
+            task = replace(task, units=start.layers.units)
+        self.filed = hyper or task.hyper  # the hyper-parameters as a task file has them
+        hyper = hyper or (task.hyper.continued if start else task.hyper)
         self.task, self.seed, self.planned, self.minutes, self.hyper = task, seed, updates, minutes, hyper
         seeds = np.random.SeedSequence(abs(seed)).generate_state(SHARDS + 1, np.uint64).tolist()
         self.shards = [Shard(task, line_ups, seeds[k]) for k, line_ups in enumerate(dealt(task, hyper.matches))]
         counts = [choices for _, choices in task.encoding.heads]
         random = np.random.default_rng(seeds[-1])
-        self.learners = [Learner(task.encoding.size, counts, hyper, random) for _ in task.learners]
+        self.learners = [Learner(task.encoding.size, counts, hyper, random, task.units) for _ in task.learners]
         self.start = start
         if start:
-            self._take_over(start.layers)
+            self.learner.policy.take_over(start.layers)
         self.population = Population() if task.population else None
         if self.population:
             self._renew_exploiter()
@@ -87,10 +92,6 @@ class Training:
         self.telemetry = dict[int, LearnerFigures]()  # of the last update, by learner
         self.entropy = float(np.log(counts).sum())  # of an even choice
         self.points: list[tuple[float, ...]] = []  # progress, by `columns`
-
-    def _take_over(self, layers: Layers) -> None:
-        for own, matrix, bias in zip(self.learner.policy.weights, layers.matrices, layers.biases, strict=True):
-            own[:-1], own[-1] = matrix / UNIT, bias / UNIT**2
 
     def _renew_exploiter(self) -> None:
         """Start an exploiter from the present weights. It keeps what the last one expected of the same matches."""

@@ -70,12 +70,12 @@ def test_the_forward_pass_is_exact():
     assert layers.largest_sum() < EXACT
 
 
-@pytest.mark.parametrize("game", ENCODINGS)
-def test_the_loops_of_compiled_code_are_the_matrices_of_numpy(game):
+@pytest.mark.parametrize(("game", "units"), [*((game, HIDDEN) for game in ENCODINGS), ("race", 8), ("race", 128)])
+def test_the_loops_of_compiled_code_are_the_matrices_of_numpy(game, units):
     """Plain, on NumPy records: inputs of every length, none, some or all of them at work."""
     chance, encoding = np.random.default_rng(2), ENCODINGS[game]
-    layers = policy_of(random_network(3, game)).layers
-    weights, mind = packed_layers(layers).view(np.recarray)[0], np.recarray(1, dtype(mind_record(encoding)))[0]
+    layers = policy_of(random_network(3, game, units=units)).layers
+    weights, mind = packed_layers(layers).view(np.recarray)[0], np.recarray(1, dtype(mind_record(encoding, units)))[0]
     for share in (0.0, 0.1, 0.5, 1.0):
         mind.inputs[:] = chance.integers(-256, 257, encoding.size) * (chance.random(encoding.size) < share)
         _forward_loops(mind, weights)

@@ -7,21 +7,16 @@ import numpy as np
 
 from pigaming_app.ai.learning.cast import Cast, dispatcher, family_of
 from pigaming_app.ai.networks.layers import Layers
-from pigaming_app.ai.ppo import pitanks, shard, win_rates
+from pigaming_app.ai.ppo import shard, win_rates
 from pigaming_app.ai.ppo.learner import Hyper
 from pigaming_app.ai.ppo.registry import TASKS
-from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, POOL
+from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, OFF, POOL, LineUp
 from pigaming_app.games.registry import games
 from pigaming_app.sim.record import packed, unpack
 
 TASK = replace(
-    pitanks.TASK,
-    line_ups=(
-        pitanks.duel(1, "hand3"),
-        pitanks.duel(1, LEARNER),
-        pitanks.duel(1, EXPLOITER),
-        pitanks.duel(1, POOL),
-    ),
+    TASKS["pitanks"],
+    line_ups=tuple(LineUp(1, (LEARNER, name, OFF, OFF)) for name in ("hand3", LEARNER, EXPLOITER, POOL)),
     rivals=("idle",),
     minutes=(0.1,),
 )

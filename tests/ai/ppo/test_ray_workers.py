@@ -8,11 +8,12 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from pigaming_app.ai.ppo.learner import Hyper
-from pigaming_app.ai.ppo.race import TASK  # compiled in half the time of the others
 from pigaming_app.ai.ppo.ray_workers import SYNCED_EVERY, NoCluster, RayShards
+from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.training import Training, in_threads
 from tests.ai.ppo.plain import same
 
+TASK = TASKS["race"]  # compiled in half the time of the others
 UPDATES = SYNCED_EVERY + 3
 SMALL = Hyper(matches=32, decisions=8, minibatch=128)
 

@@ -15,6 +15,7 @@ from pigaming_app.ai.ppo import product
 from pigaming_app.ai.ppo import training as training_module
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.registry import TASKS
+from pigaming_app.ai.ppo.task_file import parse_task_file
 from pigaming_app.ai.ppo.training import Training, in_threads, start_of, whole_layers
 from pigaming_app.ai.ppo.win_rates import DuelScore, win_rates
 from pigaming_app.ai.registry import find_brain
@@ -84,18 +85,19 @@ def test_a_damaged_or_foreign_checkpoint_is_refused_in_one_line(halfway, tmp_pat
         with pytest.raises(BrainFileError, match=f"^a.checkpoint.npz: .*{reason}"):
             product.restore(Training(TASK, 5, 4, TINY), path)
     path.write_bytes(raw)
-    for other, reason in ((Training(TASK, 6, 4, TINY), "seed"), (Training(TASK, 5, 5, TINY), "planned updates")):
+    for other, reason in ((Training(TASK, 6, 4, TINY), "seed"), (Training(TASK, 5, 5, TINY), "updates")):
         with pytest.raises(BrainFileError, match=f"another {reason}$"):
             product.restore(other, path)
 
 
 def test_the_file_of_the_network_names_its_recipe(halfway):
     network = decode(encode(trained_network(halfway, "mine")), "mine.npz")
-    assert network.recipe["rate"] == TINY.rate
-    assert network.recipe["WIN"] == 2.0
-    assert network.recipe["line_ups"] == [
-        f"1 learner {name} off off" for name in ("hand3", "learner", "exploiter", "pool")
-    ]
+    task = parse_task_file(str(network.recipe["task"]))
+    assert task.training == TINY
+    assert task.rewards
+    assert task.rewards["win"] == 2.0
+    assert [line_up.seats[1] for line_up in task.line_ups] == ["hand3", "learner", "exploiter", "pool"]
+    assert (task.seed, task.updates) == (5, 4)
     assert (network.updates, network.decisions, network.licence) == (2, halfway.decisions, "MIT")
     assert json.dumps(network.recipe)
     played = packed_layers(halfway.layers())
@@ -134,6 +136,39 @@ def test_what_continues_a_network_begins_with_its_weights_and_values_them_before
     assert not np.array_equal(training.learner.value.weights[0], values)
     trained(1, training=training)
     assert not np.array_equal(trained_network(training, "later").matrices[0], shipped.matrices[0])
+
+
+def test_a_network_that_grows_plays_on_as_before_and_learns_with_all_its_units():
+    """New units have nothing to say at first, so all outputs are the same whole numbers."""
+    start, random = start_of("pitanks", "net"), np.random.default_rng(4)
+    task = replace(TASK, units=start.layers.units + 32, hyper=replace(TINY, held=1, rate=0.05))
+    training = Training(task, 5, 4, start=start)
+    seen = random.integers(-256, 257, (200, task.encoding.size)) * (random.random((200, task.encoding.size)) < 0.5)
+    assert training.layers().logits_of(seen.tolist()) == start.layers.logits_of(seen.tolist())
+    rows = np.column_stack([seen / 256, np.ones(len(seen))]).astype(np.float32)
+    same = Training(replace(task, units=start.layers.units), 5, 4, start=start).learner.policy.forward(rows)[0]
+    first = training.learner.policy.forward(rows)[0]
+    assert chances(task, first) == pytest.approx(chances(task, same), abs=1e-5)
+    before = [matrix.copy() for matrix in training.learner.policy.weights]
+    trained(3, training=training)
+    pairs = zip(training.learner.policy.weights, before, strict=True)
+    first_layer, second, last = ((matrix != old)[:-1] for matrix, old in pairs)
+    new = slice(start.layers.units, None)
+    assert first_layer[:, new].any(axis=0).all(), "each new unit learns"
+    assert second[new].any(axis=1).all()
+    assert second[:, new].any(axis=0).all()
+    assert last[new].any(axis=1).all()
+    grown = decode(encode(trained_network(training, "grown")), "grown.npz")
+    assert grown.units == start.layers.units + 32
+    assert brain_of(grown).weights(False)[0].logits_of(seen.tolist()) == training.layers().logits_of(seen.tolist())
+    smaller = Training(TASK, 5, 4, TINY, start=start._replace(layers=training.layers()))
+    assert smaller.task.units == grown.units, "a network never shrinks"
+
+
+def chances(task, logits):
+    """Probabilities of all choices (outputs, n) from logits."""
+    heads = np.split(np.exp(logits), np.cumsum([count for _, count in task.encoding.heads])[:-1])
+    return np.concatenate([head / head.sum(axis=0) for head in heads])
 
 
 def test_who_has_no_weights_cannot_be_continued():

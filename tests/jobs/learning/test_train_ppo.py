@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.networks.files import BRAINS, decode
+from pigaming_app.ai.ppo.task_file import parse_task_file
 from pigaming_app.ai.ppo.training import Training
 from pigaming_app.jobs.cli import main
 from tests.ai.ppo.plain import SET, play_plain
@@ -64,7 +65,7 @@ def test_the_job_trains_and_prints_its_result(tmp_path, capsys):
 def test_a_best_response_begins_with_the_weights_of_the_network_and_its_curve_is_printed(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("pigaming_app.jobs.learning.train.ppo_training.MEASURED_AGAINST", 2)
     out, log = tmp_path / "rival.npz", tmp_path / "a.csv"
-    job = ["train", "ppo", "pitanks", *SET, "--out", str(out), "--csv", str(log), "--against", "net"]
+    job = ["exploit", "net", *SET, "--out", str(out), "--csv", str(log)]
     assert main([*job, "--decisions", "60", "--variant", "pickups"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert [line.split()[0] for line in lines] == ["2", "trained", "0.00", "against"], "60 of 8 × 4 an update"
@@ -74,8 +75,32 @@ def test_a_best_response_begins_with_the_weights_of_the_network_and_its_curve_is
     assert rows[0]["net_share"] == "0.5000"
     assert float(rows[0]["net_low"]) < 0.5 < float(rows[0]["net_high"])
     rival = decode(out.read_bytes(), out.name)
-    assert (rival.recipe["start"], rival.recipe["variants"]) == ("net", ["pickups"])
-    assert rival.recipe["line_ups"] == ["1 learner net off off"]
+    task = parse_task_file(str(rival.recipe["task"]))
+    assert (rival.recipe["start"], task.variants, task.rivals) == ("net", ("pickups",), ("net",))
+    assert [line_up.seats for line_up in task.line_ups] == [("learner", "net", "off", "off")]
+    monkeypatch.chdir(tmp_path)
+    assert main(["exploit", "rival.npz", *SET, "--decisions", "30"]) == 0, "a file, which says what it plays"
+    assert decode(Path("rival_rival.npz").read_bytes(), "").recipe["start"] == "rival"
+
+
+@pytest.mark.parametrize(
+    ("more", "word"),
+    [
+        (["nobody"], "no brain 'nobody'"),
+        (["net", "--variant", "chess"], "no variant 'chess'"),
+        (["net", "--game", "factory"], "learns pitanks, race, football only"),
+        (["net", "--game", "chess"], "no game 'chess'"),
+        (["none.npz"], "none.npz: cannot be read"),
+        (["FILE.npz"], "FILE.npz: neither a network nor"),
+        (["net", "--decisions", "0"], "less than 1"),
+        ([str(BRAINS / "race.npz"), "--game", "pitanks"], "race.npz: it plays race, not pitanks"),
+    ],
+)
+def test_who_cannot_be_exploited_is_refused_in_one_line(tmp_path, refused, monkeypatch, more, word):
+    monkeypatch.chdir(tmp_path)
+    Path("FILE.npz").write_text("text")
+    assert word in refused("exploit", *more)
+    assert not [*tmp_path.glob("rival*")]
 
 
 @pytest.mark.usefixtures("_plain")
@@ -138,10 +163,8 @@ def test_a_full_disk_leaves_the_network_and_the_checkpoint_before(tmp_path, caps
         (["--updates", "-1"], "less than 1"),
         (["--workers", "0"], "less than 1"),
         (["--workers", "2"], "only with --ray"),
-        (["--against", "nobody"], "no brain 'nobody'"),
-        (["--against", "net", "--variant", "chess"], "no variant 'chess'"),
-        (["--variant", "party"], "only with --against"),
-        (["--population", "--against", "net"], "--population: not with --against"),
+        (["--task", "none.toml"], "none.toml: "),
+        (["--task", "wrong.toml"], "wrong.toml: speed is not a key here"),
         (["--from", "nobody"], "no brain 'nobody'"),
         (["--from", "hand3"], "hand3 is not a network"),
         (["--from", str(BRAINS / "race.npz")], "race.npz: it plays race, not pitanks"),
@@ -156,6 +179,7 @@ def test_a_full_disk_leaves_the_network_and_the_checkpoint_before(tmp_path, caps
 def test_a_wrong_option_is_one_line_and_exit_code_2(tmp_path, refused, monkeypatch, more, word):
     monkeypatch.chdir(tmp_path)
     Path("foreign.checkpoint.npz").write_text("text")
+    Path("wrong.toml").write_text("speed = 1")
     length = [] if "--minutes" in more and "nan" in more else ["--updates", "1"]
     assert word in refused("train", "ppo", *length, "--out", "a.npz", *more)
     assert not (tmp_path / "a.npz").exists()

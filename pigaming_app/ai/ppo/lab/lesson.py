@@ -1,6 +1,7 @@
 """The training of the Lab's network, step by step: updates, measured win rates, and its habits by direction."""
 
 from concurrent.futures import Executor
+from dataclasses import replace
 from math import log
 from time import monotonic
 from typing import Any
@@ -13,7 +14,7 @@ from pigaming_app.ai.networks.pitanks import ENCODING, GUN, OTHERS, TURNS
 from pigaming_app.ai.networks.pitanks_rewards import RELOADED, STAND
 from pigaming_app.ai.networks.policy import packed_layers
 from pigaming_app.ai.ppo.lab.messages import UNTRAINED, Begin, Habit, Report, State, Weights
-from pigaming_app.ai.ppo.lab.task import HYPER, MINUTES, RIVAL, TASK, NetworkRecipe, task_of
+from pigaming_app.ai.ppo.lab.task import HYPER, MINUTES, RIVAL, TASK, NetworkRecipe, reward_of
 from pigaming_app.ai.ppo.learner import PolicyNetwork
 from pigaming_app.ai.ppo.training import Origin, Training, in_threads
 from pigaming_app.ai.ppo.win_rates import win_rates
@@ -38,6 +39,7 @@ class LabTraining:
         self.number, self.threads = begin.number, threads
         start = begin.state and Origin("", Layers(*begin.state.weights))
         self.training = Training(TASK, begin.seed, updates=2**31, hyper=HYPER, start=start)
+        self.task = self.training.task
         self.before = begin.state
         self.situations = Situations()
         self.entropy = MOST
@@ -53,7 +55,7 @@ class LabTraining:
     def learn(self, recipe: NetworkRecipe) -> None:
         """One update."""
         training = self.training
-        training.task = task_of(recipe)
+        training.task = replace(self.task, reward=reward_of(recipe))
         training.update(self._gather, self.threads)
         self.entropy += 0.1 * (training.entropy - self.entropy)
 
@@ -74,7 +76,7 @@ class LabTraining:
     def _share(self) -> float:
         self._measured = self.matches
         row = packed_layers(self.training.layers())
-        score = win_rates(TASK, row, MATCHES, self.threads)[RIVAL]
+        score = win_rates(self.task, row, MATCHES, self.threads)[RIVAL]
         self._measured_at = monotonic()
         return score.share
 

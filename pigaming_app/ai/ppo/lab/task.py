@@ -5,7 +5,7 @@ The rewards have the names of the Q-learner's in the Lab. The network beats the 
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,16 +14,17 @@ from pigaming_app.ai.networks.encoding import UNIT, Inputs
 from pigaming_app.ai.networks.pitanks import ENCODING, OTHERS, WAY
 from pigaming_app.ai.networks.pitanks_rewards import quantities_of
 from pigaming_app.ai.ppo.learner import Hyper
-from pigaming_app.ai.ppo.pitanks import duel, result
-from pigaming_app.ai.ppo.task import LEARNER, Task
+from pigaming_app.ai.ppo.task import LEARNER, OFF, LineUp, Task
 from pigaming_app.ai.reward_line import points_of, program_of
 from pigaming_app.ai.reward_quantities import QUANTITIES, WEIGHTED
+from pigaming_app.games.pitanks.scoring import lead
 from pigaming_app.games.pitanks.state import PiTanks
 from pigaming_app.sim.kernel import can_compile, kernel
 
 ARENA, VARIANT, MINUTES, RIVAL = "classic", "classic", 2.0, "hand3"
 POINTS, TAKEN, POTENTIAL = range(3)  # gauges
 POINT = 0.1  # reward per point of the recipe
+WIN = 2.0  # reward of a win; a tie costs half of it
 SHAPING = 0.5  # weight of the potential
 
 HYPER = Hyper(
@@ -51,6 +52,13 @@ def gauge(match: PiTanks, seat: int, inputs: Inputs, gauges: list[float]) -> Non
     gauges[POTENTIAL] = clear * (0.5 * towards + 0.3) - 0.8 * length
 
 
+@kernel
+def result(match: PiTanks, seat: int) -> float:
+    """Reward of the end of a match."""
+    ahead = lead(match, seat)
+    return WIN if ahead > 0 else -WIN if ahead < 0 else -0.5 * WIN
+
+
 def reward_of(recipe: NetworkRecipe) -> Callable[[Any, Any, Any, float], Any]:
     """The reward of a task."""
 
@@ -74,7 +82,7 @@ TASK = Task(
     arenas=(ARENA,),
     variants=(VARIANT,),
     minutes=(MINUTES,),
-    line_ups=(duel(3, RIVAL), duel(1, LEARNER)),
+    line_ups=(LineUp(3, (LEARNER, RIVAL, OFF, OFF)), LineUp(1, (LEARNER, LEARNER, OFF, OFF))),
     gauges=("points", "taken", "potential"),
     gauge=gauge,
     result=result,
@@ -82,8 +90,3 @@ TASK = Task(
     rivals=(RIVAL,),
     habits=no_habits,
 )
-
-
-def task_of(recipe: NetworkRecipe) -> Task:
-    """The task with other rewards."""
-    return replace(TASK, reward=reward_of(recipe))

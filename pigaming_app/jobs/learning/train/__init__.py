@@ -1,5 +1,5 @@
 """Train an AI from nothing. Ctrl-C keeps what has been learned; --resume continues from there."""
 
-from pigaming_app.jobs.learning.train import ppo, qlearning
+from pigaming_app.jobs.learning.train import ppo, qlearning, task
 
-WORDS = {"qlearning": qlearning, "ppo": ppo}
+WORDS = {"qlearning": qlearning, "ppo": ppo, "task": task}

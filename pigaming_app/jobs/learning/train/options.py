@@ -11,7 +11,6 @@ from pigaming_app.jobs.terminal.options import (
     GameOption,
     Groups,
     JsonOption,
-    SeedOption,
     decimal,
     flag,
     integer,
@@ -20,6 +19,7 @@ from pigaming_app.jobs.terminal.options import (
     word,
 )
 from pigaming_app.jobs.terminal.refusal import Refusal, require
+from pigaming_app.sim.rng import SEEDS
 from pigaming_app.storage.safe_files import require_writable
 
 T = TypeVar("T")
@@ -76,7 +76,7 @@ def check_outputs(options: OutputOptions, noun: str, beside: Sequence[Path] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
-class PpoOptions(OutputOptions, JsonOption, SeedOption, GameOption):
+class PpoOptions(OutputOptions, JsonOption, GameOption):
     """What is learned, for how long, and by which machines."""
 
     GROUPS: ClassVar[Groups] = {
@@ -84,20 +84,18 @@ class PpoOptions(OutputOptions, JsonOption, SeedOption, GameOption):
         ("several machines", "The same network, bit for bit, as without them."): ("ray", "workers"),
     }
 
+    task: Path | None = option("task file (.toml); default: the game's own, see `train task`", path, metavar="FILE")
+    seed: int | None = option("random seed; default: that of the task file", integer(0, SEEDS - 1), metavar="NUMBER")
     updates: int | None = option(
         "length; the same seed gives the same network", integer(high=1_000_000), metavar="NUMBER"
     )
-    decisions: int | None = option(
-        f"length, in decisions of the network; default with --against {DEFAULT_DECISIONS}",
-        integer(high=10**12),
-        metavar="NUMBER",
-    )
-    minutes: float | None = option(f"length; default {DEFAULT_MINUTES:g}", decimal(0.01, 10_000.0), metavar="NUMBER")
+    decisions: int | None = option("length, in decisions of the network", integer(high=10**12), metavar="NUMBER")
+    minutes: float | None = option("length; default: that of the task file", decimal(0.01, 10_000.0), metavar="NUMBER")
     base: str | None = option("network to continue, a name or a file", name=("--from",), metavar="AI")
-    against: str | None = option(
-        "learn to beat this one alone, from its own weights if it is a network, and print the curve", metavar="AI"
-    )
     population: bool = flag("against exploiters that start from its present weights, and members of a pool that win")
-    variant: str | None = option("with --against: set of rules; default: the game's first")
+    tensorboard: Path | None = option("folder for TensorBoard, a row each update", path, metavar="FOLDER")
+    copies: Path | None = option("folder for a copy each tenth, which a league rates", path, metavar="FOLDER")
     ray: str | None = option("Ray cluster, auto, or local (extra `ray`)", word, metavar="ADDRESS")
     workers: int | None = option(f"processes that play; default {DEFAULT_WORKERS}", integer(), metavar="NUMBER")
+    against: str | None = None  # to beat this one alone, by this set of rules; see the job `exploit`
+    variant: str | None = None

@@ -26,6 +26,19 @@ def two_plots() -> tuple[Any, Any, Any]:
     return figure, upper, lower
 
 
+def with_plots(places: Sequence[Sequence[str]]) -> tuple[Any, Any]:
+    """A figure of matplotlib with plots by name, over the same axis; `places`: their names by row and column."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, plots = pyplot.subplot_mosaic(
+        [[*row] for row in places], figsize=(13, 9), sharex=True, layout="constrained"
+    )
+    return figure, plots
+
+
 def png_of(figure: Any) -> bytes:
     """A figure as a PNG file; closes it."""
     from matplotlib import pyplot

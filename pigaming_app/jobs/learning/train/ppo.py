@@ -1,13 +1,10 @@
 """A network, learned by proximal policy optimisation against rivals, earlier copies and itself.
 
-With --against it becomes a best response to one AI, and its curve tells how far that one can be exploited.
 Ctrl-C ends the training after the current update and saves the result; the same command with --resume continues it,
 bit for bit with --updates. The checkpoint for that lies beside the network.
 """
 
-from dataclasses import replace
-
-from pigaming_app.jobs.learning.train.options import DEFAULT_DECISIONS, DEFAULT_MINUTES, PpoOptions, check_outputs
+from pigaming_app.jobs.learning.train.options import PpoOptions, check_outputs
 from pigaming_app.jobs.terminal.refusal import Refusal, require
 
 
@@ -20,13 +17,6 @@ def run(options: PpoOptions) -> int:
         require("ray")
     checkpoint = options.out.with_suffix(".checkpoint.npz")
     check_outputs(options, "network", beside=[checkpoint])
-    if options.population and options.against is not None:
-        raise Refusal("--population: not with --against, which has one opponent")
-    if options.variant is not None and options.against is None:
-        raise Refusal("--variant: only with --against")
-    if options.updates is None and options.decisions is None and options.minutes is None:
-        length = {"decisions": DEFAULT_DECISIONS} if options.against else {"minutes": DEFAULT_MINUTES}
-        options = replace(options, **length)
     from pigaming_app.jobs.learning.train.ppo_training import train_and_save
 
     return train_and_save(options, checkpoint)

@@ -5,29 +5,41 @@ import os
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from time import monotonic
 from typing import Any, NamedTuple
 
 from pigaming_app.ai.brain.archive import BrainFileError
+from pigaming_app.ai.learning.league import League
 from pigaming_app.ai.learning.rollout import rehearse
 from pigaming_app.ai.networks.files import encode as encode_network
 from pigaming_app.ai.ppo.product import encode, restore, trained_network
 from pigaming_app.ai.ppo.ray_workers import NoCluster, RayShards
 from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.shard import is_compiled
-from pigaming_app.ai.ppo.task import SHARDS, Task
+from pigaming_app.ai.ppo.task import NO_LENGTH, SHARDS, Length, Task
+from pigaming_app.ai.ppo.task_file import read_task
 from pigaming_app.ai.ppo.training import Diverged, Gather, Origin, Training, in_threads, scores_at, start_of
 from pigaming_app.ai.ppo.win_rates import DuelScore
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
-from pigaming_app.jobs.learning.train.options import DEFAULT_WORKERS, PpoOptions, changed
-from pigaming_app.jobs.learning.train.outputs import png_of, two_plots
+from pigaming_app.jobs.learning.league import plain
+from pigaming_app.jobs.learning.league import table as league_table
+from pigaming_app.jobs.learning.train.copies import FrozenCopies
+from pigaming_app.jobs.learning.train.live_page import page_of
+from pigaming_app.jobs.learning.train.options import (
+    DEFAULT_MINUTES,
+    DEFAULT_WORKERS,
+    PpoOptions,
+    changed,
+)
 from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
 from pigaming_app.jobs.learning.train.telemetry import TrainingTable
+from pigaming_app.jobs.learning.train.tensorboard import TensorboardFile
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic, write_atomic
@@ -50,6 +62,10 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
     """Train, save and print the result; 130 after Ctrl-C. `beside`: the checkpoint. Raises Refusal or NotSaved."""
     with refused(ChoiceError, BrainFileError):
         training = _begin(options, beside)
+    events = TensorboardFile(options.tensorboard, training.updates) if options.tensorboard else None
+    copies = FrozenCopies(training, options.copies, options.out.stem) if options.copies else None
+    if copies:
+        copies.add()
     if not is_compiled(training.task):
         note("compiling the training, once; it takes a minute")
     with (
@@ -63,12 +79,15 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
             note("Ctrl-C ends the training after the current update and saves the result")
             table = TrainingTable(training, options.csv if options.resume else None)
             save = partial(_save, table, sync, options, beside)
-            _train(table, measures, scores, gather, threads, save, stopped)
+            follow = partial(_follow, table, events, copies)
+            _train(table, measures, scores, gather, threads, save, follow, stopped)
             scores = training.measure(measures.at_end, threads)
             save()
-            if options.curve:
-                write_atomic(options.curve, _curve_of(training))
-    _print(training, scores, options, bool(stopped))
+    standings = None
+    if copies and not stopped:
+        note("playing a league of the copies")
+        standings = copies.league()
+    _print(training, scores, options, bool(stopped), standings)
     return end_of(stopped)
 
 
@@ -79,16 +98,17 @@ def _begin(options: PpoOptions, beside: Path) -> Training:
         raise Refusal(f"train ppo: learns {', '.join(TASKS)} only, not {options.game}")
     if (options.workers or 0) > SHARDS:
         raise Refusal(f"--workers: {options.workers}; the matches are divided among {SHARDS} at most")
+    start = _start(options)
     task = _task(options)
     _rehearse(task)
-    start = _start(options)
+    length = _length(options, task)
     try:
-        hyper = changed(task.hyper.continued if start else task.hyper, options.set)
-        training = Training(task, options.seed, options.updates or 0, hyper, options.minutes, start)
+        task = replace(task, hyper=changed(task.hyper, options.set))
+        training = Training(task, length.seed, length.updates or 0, None, length.minutes, start)
     except ValueError as wrong:
         raise Refusal(f"--set: {wrong}" if options.set else str(wrong)) from None
-    if options.decisions is not None:
-        training.planned = -(-options.decisions // training.decisions_of_update)
+    if length.decisions is not None:
+        training.planned = -(-length.decisions // training.decisions_of_update)
     if options.resume:
         restore(training, beside)
     return training
@@ -103,9 +123,21 @@ def _rehearse(task: Task) -> None:
     rehearse(setup, [find_brain(task.game, "random")] * ROBOTS)
 
 
+def _length(options: PpoOptions, task: Task) -> Length:
+    """Seed and length: those of the command, else of the task."""
+    length = NO_LENGTH._replace(updates=options.updates, decisions=options.decisions, minutes=options.minutes)
+    if length[1:] == NO_LENGTH[1:]:
+        length = task.length
+    if length[1:] == NO_LENGTH[1:]:
+        length = NO_LENGTH._replace(minutes=DEFAULT_MINUTES)
+    return length._replace(seed=task.length.seed if options.seed is None else options.seed)
+
+
 def _task(options: PpoOptions) -> Task:
     """The game as it is to be learned. Raises ChoiceError."""
     task = TASKS[options.game]
+    if options.task is not None:
+        task = read_task(options.task, task)
     if options.against is None:
         return task.populated() if options.population else task
     find_brain(options.game, options.against)
@@ -147,6 +179,7 @@ def _train(
     gather: Gather,
     threads: Executor,
     save: Callable[[], None],
+    follow: Callable[[], None],
     stopped: list[int],
 ) -> None:
     """Train to the end of the plan, or until stopped. `scores`: of the network as it is."""
@@ -158,23 +191,34 @@ def _train(
         if measured:
             scores = training.measure(measures.matches, threads)
         show(_line(training, scores), milestone=measured)
-        if monotonic() - saved > SAVED_EVERY:
-            saved = monotonic()
-            try:
+        try:
+            follow()
+            if monotonic() - saved > SAVED_EVERY:
+                saved = monotonic()
                 save()
-            except NotSaved as error:  # there may be room later
-                end_line()
-                note(str(error))
+        except NotSaved as error:  # there may be room later
+            end_line()
+            note(str(error))
     end_line()
 
 
+def _follow(table: TrainingTable, events: TensorboardFile | None, copies: FrozenCopies | None) -> None:
+    """Tell of an update, and freeze a copy. Raises NotSaved."""
+    if events:
+        events.add(table.training.updates, table.numbers())
+    if copies:
+        copies.add()
+
+
 def _save(table: TrainingTable, sync: Callable[[], None], options: PpoOptions, beside: Path) -> None:
-    """Write network, checkpoint and table. Raises NotSaved or NoCluster."""
+    """Write network, checkpoint, table and page. Raises NotSaved or NoCluster."""
     sync()
     training, out = table.training, options.out
     write_all_atomic({out: encode_network(trained_network(training, out.stem)), beside: encode(training)})
     if options.csv:
         write_atomic(options.csv, table.csv())
+    if options.curve:
+        write_atomic(options.curve, page_of(table))
 
 
 def _line(training: Training, scores: Mapping[str, DuelScore]) -> str:
@@ -187,24 +231,10 @@ def _line(training: Training, scores: Mapping[str, DuelScore]) -> str:
     return f"{bar(training.share)} {done}  {training.decisions / training.seconds:,.0f} decisions/s  {ends}"
 
 
-def _curve_of(training: Training) -> bytes:
-    """The learning curve as a PNG file: wins against the rivals, and the policy's entropy."""
-    figure, upper, lower = two_plots()
-    millions = [point[1] / 1e6 for point in training.points]
-    for rival in training.task.rivals:
-        scores = [scores_at(training.task, point)[rival] for point in training.points]
-        low, high = zip(*(score.interval for score in scores), strict=True)
-        upper.plot(millions, [score.share for score in scores], label=f"wins against {rival}")
-        upper.fill_between(millions, low, high, alpha=0.2)
-    upper.set(title=f"{training.task.game}, seed {training.seed}", ylabel="share of wins", ylim=(-0.03, 1.03))
-    upper.legend()
-    lower.plot(millions, [point[3] for point in training.points], color="tab:orange")
-    lower.set(xlabel="decisions, millions", ylabel="entropy of the policy, nats")
-    return png_of(figure)
-
-
-def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOptions, stopped: bool) -> None:
-    """Print the result."""
+def _print(
+    training: Training, scores: Mapping[str, DuelScore], options: PpoOptions, stopped: bool, standings: League | None
+) -> None:
+    """Print the result. `standings`: of its frozen copies."""
     speed = training.decisions / training.seconds if training.seconds else 0.0
     if options.json:
         result = {
@@ -221,6 +251,7 @@ def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOpti
                 for point in training.points
                 for found in [scores_at(training.task, point)]
             ],
+            "copies": standings and plain(standings),
             "finished": not stopped,
             "out": str(options.out),
         }
@@ -233,6 +264,8 @@ def _print(training: Training, scores: Mapping[str, DuelScore], options: PpoOpti
             print(f"{point[1] / 1e6:6.2f} million  {_sentence(scores_at(training.task, point)[options.against])}")
     for rival, score in scores.items():
         print(f"against {rival}: {_sentence(score)}")
+    if standings:
+        print("", *(line.rstrip() for line in league_table(standings)), sep="\n")
 
 
 def _described(score: DuelScore) -> dict[str, Any]:

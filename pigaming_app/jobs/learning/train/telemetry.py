@@ -26,9 +26,33 @@ class TrainingTable:
     def columns(self) -> list[str]:
         """The names of the columns."""
         task = self.training.task
-        figures = [f"{prefix}{name}" for prefix in _prefixes(self.training) for name in LearnerFigures._fields]
+        figures = [f"{prefix}{name}" for prefix in self.prefixes for name in LearnerFigures._fields]
         measured = [f"{rival}_{name}" for rival in task.rivals for name in MEASURED]
         return ["updates", "decisions", "seconds", "decisions_per_second", *figures, "pool", *measured]
+
+    @property
+    def prefixes(self) -> list[str]:
+        """Of the columns of each learner."""
+        return ["", *(f"{name}_" for name in self.training.task.learners[1:])]
+
+    def points(self, column: str) -> list[tuple[float, float]]:
+        """A number of every update, each with the decisions so far, in millions."""
+        found = ((int(row["decisions"]) / 1e6, row.get(column)) for _, row in sorted(self._rows.items()))
+        return [(millions, float(value)) for millions, value in found if value]
+
+    def numbers(self) -> dict[str, float]:
+        """The last update for TensorBoard, by tag, and the wins if they were measured after it."""
+        training = self.training
+        row = self._rows[training.updates]
+        speed = float(row["decisions_per_second"])
+        found = {"training/decisions": training.decisions, "training/decisions_per_second": speed}
+        found["training/pool"] = sum(map(len, training.pools))
+        for name, telemetry in zip(training.task.learners, map(training.telemetry.get, range(2)), strict=False):
+            found |= {f"{name}/{figure}": x for figure, x in (telemetry._asdict() if telemetry else {}).items()}
+        if training.points and training.points[-1][0] == training.updates:
+            scores = scores_at(training.task, training.points[-1])
+            found |= {f"wins/{rival}": score.share for rival, score in scores.items()}
+        return found
 
     def note(self) -> None:
         """Add a row for the last update."""
@@ -36,7 +60,7 @@ class TrainingTable:
         decisions, seconds = training.decisions - self._last[0], training.seconds - self._last[1]
         self._last = training.decisions, training.seconds
         row = {"decisions_per_second": f"{decisions / seconds:.0f}", "pool": _pool(training)}
-        for prefix, telemetry in zip(_prefixes(training), map(training.telemetry.get, range(2)), strict=False):
+        for prefix, telemetry in zip(self.prefixes, map(training.telemetry.get, range(2)), strict=False):
             row |= {f"{prefix}{name}": f"{x:.6g}" for name, x in (telemetry._asdict() if telemetry else {}).items()}
         self._rows[training.updates] = self._begun() | row
 
@@ -60,10 +84,6 @@ class TrainingTable:
             shares = [f"{x:.4f}" for x in (score.share, *score.interval)]
             found |= {f"{rival}_{name}": x for name, x in zip(MEASURED, (*score, *shares), strict=True)}
         return found
-
-
-def _prefixes(training: Training) -> list[str]:
-    return ["", *(f"{name}_" for name in training.task.learners[1:])]
 
 
 def _pool(training: Training) -> str:
