@@ -8,18 +8,15 @@ a failure of the page.
 import gc
 import logging
 import threading
-from dataclasses import replace
 from time import monotonic, perf_counter, sleep
-from typing import Any
 
 from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.ai.learning.evaluation import compile_all
 from pigaming_app.ai.learning.training import Checkpoint, TableTraining, resumed
 from pigaming_app.ai.qlearning.recipe import Recipe
 from pigaming_app.ai.qlearning.table_files import Trained
-from pigaming_app.ai.reward_line import line_of, with_line
-from pigaming_app.ai.reward_quantities import QUANTITIES, WEIGHTED
 from pigaming_app.scenes.lab.progress import TrainingProgress, TrainingState
+from pigaming_app.scenes.lab.rewarded import Rewarded
 from pigaming_app.scenes.lab.saved_robots import RobotFileError, save_robot
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile
@@ -38,7 +35,7 @@ FIRST_SHARE = 0.1  # the same until the first point of the curve
 log = logging.getLogger("pigaming")
 
 
-class Trainer:
+class Trainer(Rewarded[Recipe]):
     """Runs one training. `recipe` and `speed` may be set at any time; `snapshot` is the published state."""
 
     available, trouble = True, ""  # tables are learned on every machine
@@ -104,20 +101,6 @@ class Trainer:
         """Checkpoints after 0, 10, 50 and 200 matches, as far as reached."""
         with self._lock:
             return dict(self.progress.checkpoints)
-
-    def turn(self, knob: str, value: int) -> None:
-        """Change one reward."""
-        reward: dict[str, Any] = {knob: float(value)}
-        self.recipe = replace(self.recipe, **reward)
-
-    @property
-    def line(self) -> str:
-        """The reward as code."""
-        return line_of(self.recipe, WEIGHTED)
-
-    def reward_by(self, line: str) -> None:
-        """Reward by a line of code. Raises LineError."""
-        self.recipe = with_line(self.recipe, line, QUANTITIES, WEIGHTED)
 
     @property
     def first_point(self) -> int | None:

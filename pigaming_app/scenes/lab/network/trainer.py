@@ -6,7 +6,7 @@ network plays here against the hand-made robot.
 
 import logging
 from collections.abc import Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from math import ceil, inf
 from time import monotonic
 from typing import Any
@@ -20,13 +20,13 @@ from pigaming_app.ai.networks.policy import Policy, network_brain
 from pigaming_app.ai.networks.registry import ENCODINGS
 from pigaming_app.ai.ppo.lab.messages import PATIENCE, UNTRAINED, Begin, Habit, Report, State, TrainingOrder, Weights
 from pigaming_app.ai.ppo.lab.task import NetworkRecipe
-from pigaming_app.ai.reward_line import line_of, with_line
-from pigaming_app.ai.reward_quantities import QUANTITIES, WEIGHTED
+from pigaming_app.ai.reward_quantities import WEIGHTED
 from pigaming_app.scenes.brain.rose import PETALS
 from pigaming_app.scenes.lab.learning_curve import Measure
 from pigaming_app.scenes.lab.network.exhibition import Exhibition
 from pigaming_app.scenes.lab.network.process import COMMAND, TrainingProcess
 from pigaming_app.scenes.lab.progress import CHECKPOINTS, TrainingState
+from pigaming_app.scenes.lab.rewarded import Rewarded
 from pigaming_app.scenes.lab.saved_robots import save_network_as
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import HZ
@@ -70,7 +70,7 @@ class NetworkProgress:
         self.snapshot = TrainingState(match, now.number + 1, now.matches, now.knowing)
 
 
-class NetworkTrainer:
+class NetworkTrainer(Rewarded[NetworkRecipe]):
     """Runs one training. `recipe` and `speed` may be set at any time."""
 
     arena, fast = ARENA, False  # comparisons here are plain
@@ -134,20 +134,6 @@ class NetworkTrainer:
     def checkpoints(self) -> dict[int, Checkpoint]:
         """Checkpoints after some numbers of matches, as far as reached."""
         return dict(self.progress.checkpoints)
-
-    def turn(self, knob: str, value: int) -> None:
-        """Change one reward."""
-        reward: dict[str, Any] = {knob: float(value)}
-        self.recipe = replace(self.recipe, **reward)
-
-    @property
-    def line(self) -> str:
-        """The reward as code."""
-        return line_of(self.recipe, WEIGHTED)
-
-    def reward_by(self, line: str) -> None:
-        """Reward by a line of code. Raises LineError."""
-        self.recipe = with_line(self.recipe, line, QUANTITIES, WEIGHTED)
 
     @property
     def first_point(self) -> int | None:
