@@ -268,7 +268,7 @@ def side_switch(chosen: int, sides: int) -> LitImage:
         x, on = i * w / 2, i == chosen
         if on:
             layer.canvas.crisp.fill(kit.cut_box(x + 6, 6, w / 2 - 12, h - 12, 8), kit.dim(kit.BLUE, 0.3))
-        label = letter if i < sides else f"+{letter}"
+        label = letter if i < sides else "+" + letter
         color = SIDE_COLORS[i] if i < sides and sides > 1 else kit.ICE if on else kit.MIST
         layer.canvas.crisp.text(label, kit.BODY - 4, x + w / 4, h / 2, color, "head", "c")
     return layer.render()

@@ -23,12 +23,13 @@ from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.robots.guide_page import GuidePage
 from pigaming_app.scenes.mat.robots.menu import RobotsMenu
 from pigaming_app.scenes.mat.things.arena_page import ArenaPage
+from pigaming_app.sim.world import RADIUS
 from pigaming_app.storage.messages import OperatorMessage
 from tests.scenes.arcade import KEYS, Arcade, setup
 
 PAUSING = {rule.name: rule for rule in RULES if rule.pauses}
 PAUSING |= {REMOTE[name]: replace(rule, name=REMOTE[name]) for name, rule in PAUSING.items() if name in REMOTE}
-GROUNDLESS: Any = SimpleNamespace(ground=None)  # a session that was never calibrated
+GROUNDLESS: Any = SimpleNamespace(ground=None, radius=lambda robots: RADIUS)  # a session that was never calibrated
 WHERE = "/dev/serial/by-id/usb-FTDI_FT231X_USB_UART_DN02MQBC-if00-port0"  # a long port
 
 
