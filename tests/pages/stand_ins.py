@@ -122,6 +122,7 @@ ELSEWHERE = (
     Elsewhere(r".*people fit\b.*", "a replay with people", "tests/jobs/balance/test_fit.py"),
     Elsewhere(r".*tests\.bench\.fit_people.*", MINUTES_LONG, "tests/ai/people/fit/test_known_people.py"),
     Elsewhere(r".*tests\.pages\.pictures", "it writes into the project", "tests/pages/test_pictures.py"),
+    Elsewhere(r".*tests\.pages\.lessons .*", "it writes into the project", "tests/pages/test_lessons.py"),
     Elsewhere(r".*tests\.constraints", "it needs uv, and writes into the project", "tests/boot/test_main.py"),
     Elsewhere(r"python3 examples/ppo_torch\.py .*", "it needs PyTorch", "examples/ppo_torch.py"),
     Elsewhere(r"(pip|pipx|uvx|uv|.*-m pip) .*", "packages are fetched", "tests/test_package.py"),
