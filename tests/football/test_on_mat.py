@@ -15,12 +15,12 @@ def test_real_robots_play_the_projected_ball_and_keep_out_of_the_walls(monkeypat
     """By level 5, in the arena with walls, with packets and frames lost. Poses are seen, late and with noise."""
     depths, shots, touched = list[float](), list[int](), set[int]()
 
-    def noted(state, x, y, depth=trials.entered):
+    def noted(state, x, y, radius, depth=trials.entered):
         if not state.ball.out:
             depths.append(overlap(state))
             touched.add(state.ball.touched)
         shots.append(sum(player.shots for player in state.players))
-        return depth(state, x, y)
+        return depth(state, x, y, radius)
 
     monkeypatch.setattr(trials, "entered", noted)
     match = MatMatch("football", "bumpers", 30.0, 7, 0.5, brain="level5", carried=True)

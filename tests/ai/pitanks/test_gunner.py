@@ -173,6 +173,7 @@ def test_strengths_are_ordered():
 
 
 @pytest.mark.long
+@pytest.mark.again
 @pytest.mark.skipif(not can_compile(), reason="hundreds of matches need numba")
 @pytest.mark.parametrize(
     ("arena", "variant"), repeated((arena, variant) for variant in ("party", "pickups") for arena in arenas("pitanks"))

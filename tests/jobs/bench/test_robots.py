@@ -39,9 +39,9 @@ def test_knocked_out_robots_keep_out_of_the_walls_on_the_mat(ground, monkeypatch
     """They reverse blindly; the virtual walls stop them."""
     seen = {"hits": 0}
 
-    def noted(state, x, y, depth=trials.entered):
+    def noted(state, x, y, radius, depth=trials.entered):
         seen["hits"] = sum(tank.taken for tank in state.tanks)
-        return depth(state, x, y)
+        return depth(state, x, y, radius)
 
     monkeypatch.setattr(trials, "entered", noted)
     run = on_mat(MatMatch("pitanks", arena, 30.0, 7, 0.3, brain="hand2", carried=True, variant="party"), ground)

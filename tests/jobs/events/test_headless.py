@@ -31,6 +31,7 @@ def test_a_match_ends_as_it_does_in_the_arcade(game):
 
 
 @pytest.mark.long
+@pytest.mark.again
 def test_compiled_matches_have_the_same_outcomes():
     """Few brains, since compiling takes long; in one batch every match has a line-up of its own."""
     entrants = tuple(

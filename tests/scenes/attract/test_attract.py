@@ -26,7 +26,7 @@ from pigaming_app.scenes.results.high_scores import HighScores, high_score_table
 from pigaming_app.scenes.start import run
 from pigaming_app.storage.scores import ScoreTable
 from pigaming_app.ui.i18n import LANGUAGES
-from tests.cases import one_in, repeated
+from tests.cases import one_in
 from tests.scenes.arcade import KEYS, Arcade, setup
 from tests.scenes.measuring import lit_boxes
 
@@ -48,7 +48,8 @@ def test_every_picture_of_a_lesson_is_drawn_in_all_its_phases(arcade: Arcade, ga
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("language", repeated(LANGUAGES))
+@pytest.mark.again
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_attract_mode_shows_match_lesson_and_scores_of_every_game(
     home: Path, monkeypatch: pytest.MonkeyPatch, language: str
 ) -> None:

@@ -63,6 +63,7 @@ def test_a_slice_ends_in_time_whatever_is_going_on() -> None:
 
 
 @pytest.mark.long(first=True)
+@pytest.mark.again
 @needs_numba
 def test_it_trains_while_it_compiles_then_goes_on_with_the_same_table_compiled(trainer: Trainer) -> None:
     trainer.speed = FASTEST

@@ -33,7 +33,7 @@ def calibration_of(game: str, driving: str) -> FitCalibration:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(("game", "driving"), repeated(FOUND))
+@pytest.mark.parametrize(("game", "driving"), repeated(sorted(FOUND, key=lambda one: one != ("race", "turn"))))
 def test_known_people_are_found_within_15_percent(game: str, driving: str) -> None:
     known = calibration_of(game, driving)
     off: dict[str, list[float]] = {name: [] for name in known.traits}

@@ -279,6 +279,8 @@ def test_standby_shows_who_is_next_while_an_event_runs(arcade: Arcade) -> None:
     assert all(box.collidelist(boxes[i + 1 :]) == -1 for i, box in enumerate(boxes))
 
 
+@pytest.mark.long
+@pytest.mark.again
 def test_its_cost_is_measured_over_all_of_its_pages(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     seen: list[tuple[str, bool]] = []
     whole = second_screen.frame
