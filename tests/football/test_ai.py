@@ -115,6 +115,8 @@ def test_a_keeper_stops_what_an_empty_goal_lets_in():
     assert conceded[True] <= 1
 
 
+@pytest.mark.long
+@pytest.mark.again
 @needs_numba
 @pytest.mark.parametrize("arena", ARENAS)
 def test_a_team_that_plays_together_does_not_leave_its_goal_empty(arena):

@@ -11,6 +11,7 @@ from tests.football.test_ball import SLOP
 
 
 @pytest.mark.long
+@pytest.mark.again
 def test_real_robots_play_the_projected_ball_and_keep_out_of_the_walls(monkeypatch):
     """By level 5, in the arena with walls, with packets and frames lost. Poses are seen, late and with noise."""
     depths, shots, touched = list[float](), list[int](), set[int]()

@@ -132,6 +132,7 @@ def test_no_sprite_of_a_match_is_ever_made_twice(arcade: Arcade, game: str, monk
 
 
 @pytest.mark.long
+@pytest.mark.again
 def test_two_thousand_random_presses_stay_within_the_budget(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
     monkeypatch.setattr(surfaces, "budget", 64 << 20)

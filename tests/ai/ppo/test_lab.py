@@ -120,6 +120,7 @@ def test_the_plan_tells_left_from_right():
 
 
 @pytest.mark.long
+@pytest.mark.again
 @pytest.mark.skipif(not can_compile(), reason="numba is not installed")
 def test_it_beats_the_hand_made_robot_within_a_minute_at_the_speed_of_real_matches():
     with ThreadPoolExecutor(1) as threads:

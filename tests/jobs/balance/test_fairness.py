@@ -65,6 +65,7 @@ def test_leads_are_those_of_the_same_matches_in_the_arcade(game, brains) -> None
 
 
 @pytest.mark.long
+@pytest.mark.again
 @pytest.mark.skipif(not can_compile(), reason="needs numba")
 def test_compiled_matches_lead_as_plain_ones() -> None:
     setups = [setup_of("race", ["random"] * 4, "", 0.2, seed) for seed in range(4)]

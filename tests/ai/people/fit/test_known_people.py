@@ -8,7 +8,6 @@ import pytest
 from pigaming_app.ai.people.fit.calibration import FITTED, SHARES, FitCalibration, calibration, plain, raw_of
 from pigaming_app.ai.people.fit.known import samples_of
 from pigaming_app.ai.people.fit.people import FittedPerson, mean_of
-from tests.cases import repeated
 
 PEOPLE, SEED = 24, 2026
 MATCHES = {"pitanks": 16, "race": 16, "football": 8, "factory": 16}  # about half an hour
@@ -33,7 +32,8 @@ def calibration_of(game: str, driving: str) -> FitCalibration:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(("game", "driving"), repeated(sorted(FOUND, key=lambda one: one != ("race", "turn"))))
+@pytest.mark.again
+@pytest.mark.parametrize(("game", "driving"), FOUND)
 def test_known_people_are_found_within_15_percent(game: str, driving: str) -> None:
     known = calibration_of(game, driving)
     off: dict[str, list[float]] = {name: [] for name in known.traits}
