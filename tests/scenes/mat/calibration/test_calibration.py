@@ -251,7 +251,7 @@ def test_check_calibration_sets_the_exposure_again_and_shows_exposure_and_blur(c
 
 
 def test_a_mirrored_picture_is_turned_over_at_a_press_and_calibrated_again(
-    arcade: Operated, made: CalibrationResult, _home: None
+    arcade: Operated, made: CalibrationResult
 ) -> None:
     result = concluded(arcade, replace(made, trouble=OperatorMessage("mirrored"), ground=None))
     assert [spot.name for spot in result.focus.spots] == ["flip", "again", "leave"]
