@@ -36,7 +36,7 @@ from pigaming_app.ui.widgets.labels import black_out, chip, heading
 
 HIGH = 84  # px, height of a chip
 FOOT = 836  # px, top of the chips
-GAUGE = 146  # px, pitch of the gauges
+GAUGE, FACT = 146, 38  # px, pitch of the gauges, and of the quantities without a limit
 PROMPTS_ROOM = 2 * (SIDE.x - 960) - 48  # px, left of the warning beside the plot
 
 UNKNOWN = ExposureState()
@@ -155,9 +155,9 @@ class ResultPage(Page):
         warning, color = self._warning(quality)
         for name, value_text, warned in self._facts(finding.ground, quality):
             fact(words(f"calibrate.{name}"), value_text, color if warned else ICE).draw(screen, SIDE.x, y)
-            y += 43
+            y += FACT
         for i, line in enumerate(paragraph(warning, SIDE.w, 4, color)):
-            line.draw(screen, SIDE.x, y + 24 + 46 * i)
+            line.draw(screen, SIDE.x, y + 12 + 46 * i)
 
     def _facts(self, ground: GroundPlane, quality: CameraQuality) -> list[tuple[str, str, bool]]:
         """Name, value and warning of the quantities without a limit of their own."""

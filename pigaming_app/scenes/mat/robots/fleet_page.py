@@ -39,6 +39,7 @@ REOPEN_DELAY = 0.8  # s after a change until all devices are reopened
 EVERY = 0.4  # s between two readings
 EVERYBODY = set(range(ROBOTS))
 ROBOTS_H = 486  # px, height of the robots' frame
+ABOVE = 7  # rows for which there is room above the message
 MESSAGE = pygame.Rect(150, 858, 1620, 80)  # px, between description and prompts
 LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: description of the focused row
 
@@ -58,7 +59,9 @@ class FleetPage(SettingsPage):
         self.aside, self.sheet = BlockLayout(), pygame.Surface((1920, 1080))
         self.lines: list[tuple[str, Color, str, Color]] = []  # per robot: radio and vision status
         real = session.radio and not session.emulated
-        super().__init__(context, ROWS if real else ("radio", *ACTIONS) if context.robots_problem else ACTIONS, "pair")
+        rows = ROWS if real else ("radio", *ACTIONS) if context.robots_problem else ACTIONS
+        super().__init__(context, rows, "pair")
+        self.focus.set_spots(dials.spots(rows, ABOVE))
 
     def on_enter(self) -> None:
         """Open camera and radio."""
