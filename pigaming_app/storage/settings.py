@@ -83,6 +83,11 @@ def none_or_eight(corners: list[int]) -> str:
     return "" if len(corners) in (0, 8) else "neither empty nor eight numbers"
 
 
+def none_or_four(tops: list[int]) -> str:
+    """The reason why a list of speeds is invalid; empty if it is valid."""
+    return "" if len(tops) in (0, 4) else "neither empty nor four numbers"
+
+
 def time_of_day(text: str) -> str:
     """The reason why a text is no time; empty if it is one."""
     return "" if re.fullmatch(r"([01]\d|2[0-3]):[0-5]\d", text) else "not a time such as 22:30"
@@ -154,6 +159,9 @@ class Settings:
     kinds: Annotated[list[Short], Meta(min_length=4, max_length=4)] = field(
         default_factory=lambda: [""] * 4
     )  # of the robot on each radio; empty: as it announces
+    tops: Annotated[list[Annotated[int, between(0, 5000)]], none_or_four] = field(
+        default_factory=list
+    )  # mm/s, of a wheel of the robot on each radio, by the test drive; 0: as fast as it can; empty: never driven
     pad_driving: Short = ""  # driving style last chosen on a pad; empty: never
     keys_driving: Short = ""  # the same on the keyboard
     keypad: bool = False  # a key of the number pad was pressed once

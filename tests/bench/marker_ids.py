@@ -25,12 +25,13 @@ BLOCKS = range(20, 40)
 
 
 class View(NamedTuple):
-    """A marker in a picture: edge, px; blur, px; speed, mm/s; exposure, s."""
+    """A marker in a picture: edge, px; blur, px; speed, mm/s; exposure, s; light, as a share of the usual one."""
 
     edge: float
     blur: float
     speed: float
     exposure: float
+    light: float = 1.0
 
 
 VIEWS = (
@@ -72,7 +73,7 @@ def photo(number, view, at, size, random):
         paper = np.where(forward**2 + right**2 < 47.5**2, PAPER, MAT)
         light += np.where(inside & ~marker[row.clip(0, 5), column.clip(0, 5)], PRINT, paper)
     light = light.reshape(size, SUB, size, SUB).mean(axis=(1, 3)) / MOMENTS
-    light = cv2.GaussianBlur(light, (0, 0), view.blur) + random.normal(0.0, 2.5, light.shape)
+    light = view.light * cv2.GaussianBlur(light, (0, 0), view.blur) + random.normal(0.0, 2.5, light.shape)
     grey = np.clip(np.rint(light), 0, 255).astype(np.uint8)
     return cv2.imdecode(cv2.imencode(".jpg", grey, [cv2.IMWRITE_JPEG_QUALITY, 80])[1], cv2.IMREAD_GRAYSCALE)
 

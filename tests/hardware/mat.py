@@ -135,6 +135,7 @@ class Mat:
         return self.sense(now), [self.sense(now + more)[i] for i, more in enumerate(ahead)]
 
     delay = wrong_size = None
+    keystone = 0.0
     wait = 0.015
 
     def quality(self, robot):

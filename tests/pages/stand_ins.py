@@ -87,6 +87,7 @@ WITHOUT_ROBOTS = ("arena", "microbit", "sheet", "wifi_config")  # but not with t
 
 MINUTES_LONG = "it takes minutes"
 ELSEWHERE = (
+    Elsewhere(r".*robots update.*", "it needs a robot on Wi-Fi", "tests/hardware/emulator/test_board_update.py"),
     Elsewhere(r".*robots setup.*", "it needs a board on USB", "tests/jobs/mat/test_usb_setup.py"),
     Elsewhere(r"openscad .*", "it needs OpenSCAD", "tests/hardware/test_chassis.py"),
     Elsewhere(r"python examples/bots/.*", "it needs the arcade beside it", "tests/jobs/bots/test_bots.py"),
@@ -102,7 +103,9 @@ ELSEWHERE = (
     Elsewhere(r".*robots check udp\b.*", "boards run MicroPython", "tests/hardware/proof/test_conformance.py"),
     Elsewhere(r".*(games on|robots check) lines", "a plug-in is copied first", "tests/storage/plugins/test_drivers.py"),
     Elsewhere(r".*robots --radio-setup .*", "a radio on a cable", "tests/jobs/mat/test_robots.py"),
-    Elsewhere(r".*robots\b.*--(pair|latency|wheels).*", "half a minute of driving", "tests/jobs/mat/test_robots.py"),
+    Elsewhere(
+        r".*robots\b.*--(pair|latency|wheels|drive).*", "half a minute of driving", "tests/jobs/mat/test_robots.py"
+    ),
     Elsewhere(r".*fidelity (record|identify|replay)\b.*", "a minute of driving", "tests/jobs/mat/test_robots.py"),
     Elsewhere(r".*calibrate --emulate .*--json.*", "half a minute of pictures", "tests/jobs/mat/test_calibrate.py"),
     Elsewhere(r".*play pitanks --real .*", "robots take their places first", "tests/jobs/bench/test_robots.py"),

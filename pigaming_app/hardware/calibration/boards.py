@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, Points
 from pigaming_app.hardware.signals import CameraFrame, Image
 from pigaming_app.hardware.vision.markers import CORNER_IDS, WEARERS, MarkerDetector, dictionary, opencv
-from pigaming_app.hardware.vision.sharpness import blur_of
+from pigaming_app.hardware.vision.sharpness import LightField, blur_of, contrasts_of
 from pigaming_app.storage.messages import OperatorMessage
 
 CANVAS = (1920, 1080)
@@ -77,6 +77,8 @@ class BoardSamples:
         self._markers = MarkerDetector(numbers)
         self._seen: dict[int, list[Points]] = {}
         self._blurs: dict[int, list[float]] = {}
+        self._lights: dict[int, list[float]] = {}  # grey levels
+        self._newest: Image | None = None
         self.frames = 0
         self.size = (0, 0)  # of the pictures
 
@@ -85,8 +87,10 @@ class BoardSamples:
         self.frames += 1
         self.size = (frame.image.shape[1], frame.image.shape[0])
         marks = self._markers.refine(frame.image, self._markers.detect(frame.image))
-        for mark in marks:
+        self._newest = frame.image
+        for mark, light in zip(marks, contrasts_of(frame.image, marks).tolist(), strict=True):
             self._seen.setdefault(mark.number, []).append(mark.corners)
+            self._lights.setdefault(mark.number, []).append(light)
         if self.frames % BLUR_EVERY == 1:
             for mark in marks:
                 self._blurs.setdefault(mark.number, []).extend(blur_of(opencv(), frame.image, [mark]))
@@ -99,8 +103,30 @@ class BoardSamples:
 
     def blur(self) -> float:
         """Blur of the board's softest tenth of markers, standard deviation in camera px; 0 if none was clear."""
-        blurs = [float(np.median(blurs)) for blurs in self._blurs.values() if blurs]
+        blurs = [*self._typical_blurs().values()]
         return float(np.percentile(blurs, 90.0)) if blurs else 0.0
+
+    def light(self) -> LightField:
+        """Light over the field: its darkest tenth of markers, each at its darkest."""
+        lows = {number: min(lights) for number, lights in self._lights.items()}
+        means = [float(np.mean(lights)) for lights in self._lights.values()]
+        swings = [np.ptp(lights) / max(np.mean(lights), 1.0) for lights in self._lights.values()]
+        if not lows:
+            return LightField()
+        share, blurs = np.percentile([*lows.values()], 10.0) / max(np.median(means), 1.0), self._typical_blurs()
+        softest = max(blurs, key=lambda number: blurs[number], default=-1)
+        flicker = min(1.0, float(np.percentile(swings, 90.0)))
+        return LightField(min(1.0, float(share)), flicker, softest, min(lows, key=lambda number: lows[number]))
+
+    @property
+    def mirrored(self) -> bool:
+        """True if the newest picture shows the board in a mirror."""
+        if self._newest is None:
+            return False
+        return len(self._markers.detect(np.ascontiguousarray(self._newest[:, ::-1]))) > len(self._markers.ids) // 3
+
+    def _typical_blurs(self) -> dict[int, float]:
+        return {number: float(np.median(blurs)) for number, blurs in self._blurs.items() if blurs}
 
     def corners(self) -> Mapping[int, Points]:
         """Median corners of the markers seen in at least half of the pictures, camera px. Raises CalibrationError."""
@@ -114,6 +140,8 @@ class BoardSamples:
     def check(self, often: Mapping[int, object]) -> None:
         """Raises CalibrationError if these markers are too few."""
         if len(often) < MIN_MARKERS:
+            if self.mirrored:
+                raise CalibrationError(OperatorMessage("mirrored"))
             raise CalibrationError(OperatorMessage("few", seen=len(often), all=COLUMNS * ROWS, needed=MIN_MARKERS))
         if empty := _empty_corner(often):
             raise CalibrationError(OperatorMessage(empty))

@@ -22,7 +22,7 @@ from pigaming_app.hardware.signals import CameraFrame, CameraSource, ExposureKep
 from pigaming_app.hardware.vision.camera import shown
 from pigaming_app.hardware.vision.discovery import CameraId
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector, OpenCVMissing, opencv
-from pigaming_app.hardware.vision.sharpness import blur_of, overexposed
+from pigaming_app.hardware.vision.sharpness import LightField, blur_of, overexposed
 from pigaming_app.storage.messages import OperatorMessage
 
 BLIND = 6.0  # s, timeout without a picture
@@ -222,7 +222,9 @@ class DriftCheck(CameraTask):
             blur = float(np.median(blurs))
             if overexposed(frame.image, drift.seen):
                 blur = max(blur, before.blur_px)
-            self.quality = replace(assessed(before.marker_px, blur, self.exposure), anyway=before.anyway)
+            self.quality = replace(
+                assessed(before.marker_px, blur, self.exposure, LightField(before.light)), anyway=before.anyway
+            )
 
 
 def scaled_preview(image: Image) -> Image:

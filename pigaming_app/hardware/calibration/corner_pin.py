@@ -1,7 +1,8 @@
-"""Corner pin: a perspective warp of the picture into a quadrangle, for a projector that hangs askew over the mat.
+"""Corner pin: a perspective warp of the picture into a quadrangle, for a projector that hangs askew over the mat, or
+shines on it by a mirror: a quadrangle that runs the other way round turns the picture over.
 
 OpenCV warps with the nearest pixel: 3 to 4 ms for 1920 x 1080. Corners are the targets of the picture's corners in
-canvas px, top left first, clockwise.
+canvas px, top left first, clockwise unless the picture is turned over.
 """
 
 from collections.abc import Sequence
@@ -30,7 +31,23 @@ def is_degenerate(corners: Sequence[float]) -> bool:
     sides = np.roll(points, -1, axis=0) - points
     after = np.roll(sides, -1, axis=0)
     turns = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
+    turns *= np.sign(turns.sum())
     return bool(turns.min() < MIN_SIDE * CANVAS[0] * MIN_SIDE * CANVAS[1])
+
+
+def turned_over(corners: Sequence[float]) -> tuple[float, ...]:
+    """These corners left for right, as for a mirror; empty ones are STRAIGHT."""
+    return tuple(value if i % 2 else CANVAS[0] - value for i, value in enumerate(corners or STRAIGHT))
+
+
+def is_turned_over(corners: Sequence[float]) -> bool:
+    """True if these corners turn the picture over."""
+    return bool(corners) and corners[0] > corners[2]
+
+
+def pin_of(corners: Sequence[float]) -> "CornerPin | None":
+    """The pin for these corners; None if they are straight. Raises OperatorError or OpenCVMissing."""
+    return None if tuple(corners) == STRAIGHT else CornerPin(corners)
 
 
 class CornerPin:

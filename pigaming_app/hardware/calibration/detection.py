@@ -31,23 +31,26 @@ BLOCK = 8  # px, of the compression
 
 
 class Look(NamedTuple):
-    """Marker of a robot in pictures: its number, edge and blur (standard deviation) in px, exposure in s."""
+    """Marker of a robot in pictures: its number, edge and blur (standard deviation) in px, exposure in s, and light
+    as a share of the usual one.
+    """
 
     number: int
     edge: float
     blur: float
     exposure: float
+    light: float = 1.0
 
 
-def found_share(number: int, edge: float, blur: float, exposure: float) -> float:
+def found_share(number: int, edge: float, blur: float, exposure: float, light: float = 1.0) -> float:
     """Share of the pictures, 0..1, in which this marker of a robot at SPEED is found.
 
-    `edge`: of the marker, px; `blur`: standard deviation, px; `exposure`: s; 0, unknown, counts as LONGEST. Standard
-    error at most 0.03. Takes up to 0.3 s, once for each set of rounded arguments. Raises OpenCVMissing.
+    `edge`: of the marker, px; `blur`: standard deviation, px; `exposure`: s; 0, unknown, counts as LONGEST; `light`: a
+    share of the usual one. Standard error at most 0.03. Takes up to 0.3 s, once for each set of rounded arguments.
+    Raises OpenCVMissing.
     """
-    return _tried(
-        Look(number, min(round(2.0 * edge) / 2.0, LARGEST), round(20.0 * blur) / 20.0, round(exposure or LONGEST, 4))
-    )
+    edge, blur = min(round(2.0 * edge) / 2.0, LARGEST), round(20.0 * blur) / 20.0
+    return _tried(Look(number, edge, blur, round(exposure or LONGEST, 4), round(20.0 * light) / 20.0))
 
 
 @lru_cache(maxsize=1024)
@@ -81,6 +84,7 @@ def _picture(
     light = cv.warpAffine(lid, matrix, (size, size), flags=flags, borderMode=cv.BORDER_REPLICATE)
     light = cv.GaussianBlur(light, (0, 0), max(look.blur, 0.1))
     left, top = random.integers(0, GRAIN - size, 2)
+    light *= look.light
     light += _grain()[top : top + size, left : left + size]
     packed = cv.imencode(".jpg", cv.convertScaleAbs(light), [cv.IMWRITE_JPEG_QUALITY, JPEG])[1]
     return np.asarray(cv.imdecode(packed, cv.IMREAD_GRAYSCALE))

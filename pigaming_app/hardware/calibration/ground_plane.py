@@ -28,6 +28,7 @@ PRINTED = "printed"  # the display of a calibration by printed markers, which ho
 LID = 70.0  # mm from the mat to the marker on a robot
 MARKER = 50.0  # mm, the edge of a robot's marker
 MAX_SIZE_ERROR = 0.04  # relative deviation of the markers' size beyond which the arena's width is in doubt
+MAX_KEYSTONE = 0.05  # relative difference of their sizes across the arena beyond which the image is no rectangle
 SIZE_TOLERANCE = 0.12  # relative deviation beyond which a marker is not on a lid
 SKEW_TOLERANCE = 1.18  # longest edge by shortest, beyond which a marker is tilted
 
@@ -170,6 +171,16 @@ class GroundPlane:
         (ax, ay), (bx, by), (cx, cy), (dx, dy) = corners
         heading = atan2(ay + by - cy - dy, ax + bx - cx - dx)
         return Fix(robot, (ax + bx + cx + dx) / 4.0, (ay + by + cy + dy) / 4.0, heading, captured)
+
+
+def keystone(places: Points, sizes: Sequence[float]) -> float:
+    """By how much markers look larger at one side of the arena than at the other, a share; `places`: (n, 2), arena px.
+
+    Robots' markers are alike, so sizes that change with the place show that the projected image is no rectangle.
+    """
+    rows = np.column_stack([np.ones(len(places)), places - places.mean(axis=0)])
+    mean, across, down = np.linalg.lstsq(rows, np.array(sizes), rcond=None)[0].tolist()
+    return float((abs(across) * WIDTH + abs(down) * HEIGHT) / max(mean, 1e-6))
 
 
 def _edges(corners: list[list[float]]) -> list[float]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from pigaming_app.hardware.calibration.camera_position import height_by_robot
 from pigaming_app.hardware.calibration.camera_task import CameraTask
-from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
+from pigaming_app.hardware.calibration.ground_plane import MAX_KEYSTONE, CalibrationError, GroundPlane, keystone
 from pigaming_app.hardware.calibration.procedure import LIT
 from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.signals import CameraFrame, DetectedMarker
@@ -40,6 +40,7 @@ class HeightProcedure(CameraTask):
         self.seen: list[tuple[float, float]] = []  # camera px, one for each outline done
         self._markers: MarkerDetector | None = None
         self._recent: list[DetectedMarker] = []
+        self._marks: list[DetectedMarker] = []  # one for each outline done
         self._begun = self._shown = inf
 
     @property
@@ -86,7 +87,9 @@ class HeightProcedure(CameraTask):
         """Note the position of a robot at rest; after the last outline, solve."""
         x, y = np.median([mark.corners.mean(axis=0) for mark in self._recent], axis=0).tolist()
         self.seen.append((x, y))
-        last, self._recent, self._shown = self._recent[-1], [], inf
+        corners = np.median([mark.corners for mark in self._recent], axis=0)
+        self._marks.append(DetectedMarker(self._recent[-1].number, corners))
+        self._recent, self._shown = [], inf
         if len(self.seen) < len(PLACES):
             return
         try:
@@ -94,7 +97,11 @@ class HeightProcedure(CameraTask):
         except CalibrationError as error:
             self.give_up(error.message)
             return
-        self.marker_mm = found.edge_mm(last)
+        sizes = [found.edge_mm(mark) for mark in self._marks]
+        if (share := keystone(np.array(PLACES), sizes)) > MAX_KEYSTONE:
+            self.give_up(OperatorMessage("keystone", share=round(100 * share)))
+            return
+        self.marker_mm = sizes[-1]
         self.found = replace(found, quality=found.quality.with_edge(found.weakest_edge))
 
 

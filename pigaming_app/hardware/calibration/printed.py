@@ -53,6 +53,8 @@ class PrintedSamples(BoardSamples):
 
     def check(self, often: Mapping[int, object]) -> None:
         if missing := [number for number in CORNER_IDS if number not in often]:
+            if self.mirrored:
+                raise CalibrationError(OperatorMessage("printed_mirrored"))
             raise CalibrationError(OperatorMessage("printed_few", seen=len(CORNER_IDS) - len(missing)))
 
 
@@ -100,6 +102,6 @@ class PrintedCalibration(CameraTask):
         ground = solve(seen, PrintedMarkers(), samples.size, measures.width, PRINTED, least)
         ground = height_by_ruler(replace(ground, lid=measures.lid), measures.height)
         if residuals.accepted:
-            quality = assessed(ground.weakest_edge, samples.blur(), self.exposure)
+            quality = assessed(ground.weakest_edge, samples.blur(), self.exposure, samples.light())
             ground = with_verification(replace(ground, quality=quality), residuals)
         self.ground, self.residuals = ground, residuals

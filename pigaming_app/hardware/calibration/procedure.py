@@ -38,6 +38,9 @@ class Calibration(CameraTask):
         self.ground: GroundPlane | None = None
         self.residuals: Residuals | None = None
         self.seen = 0  # markers in the newest picture
+        self.weak: tuple[float, float] | None = (
+            None  # arena px: the place with the most blur or the least light, if poor
+        )
         self._samples: BoardSamples | None = None
         self._shown = inf  # s, when the board was first projected
         self._skipped = 0  # pictures since then
@@ -94,10 +97,16 @@ class Calibration(CameraTask):
         assert self.ground is not None
         self.residuals = verify(self.ground, samples.corners(), HELD_OUT)
         if self.residuals.accepted:
-            blur, edge = samples.blur(), self.ground.weakest_edge
-            ground = replace(self.ground, quality=assessed(edge, blur, self.exposure))
-            self.ground = with_verification(ground, self.residuals)
+            field, edge = samples.light(), self.ground.weakest_edge
+            quality = assessed(edge, samples.blur(), self.exposure, field)
+            self.ground = with_verification(replace(self.ground, quality=quality), self.residuals)
+            weak = {"finds_blurred": field.softest, "finds_dim": field.darkest}.get(quality.cause, -1)
+            self.weak = self._place(weak) if weak >= 0 else None
         self.board = self._samples = None
+
+    def _place(self, number: int) -> tuple[float, float]:
+        x, y = HELD_OUT.corners[number].mean(axis=0).tolist()
+        return x, y
 
     def end(self) -> None:
         super().end()

@@ -49,6 +49,8 @@ USB = {  # by vendor; radios have FTDI's
 }
 RATE, SILENT = 115_200, 3.0  # bit/s; s
 AGAIN = 3.0  # s after which a board is tried once more: a running program's watchdog may have restarted it
+AIR_FILES = ("robot.py", "motors.py", "wifi.py", "update.py")  # those that updates over the air replace, in this order
+POINTERS = ("kept", "trial")  # files that name the program that came over the air
 PINS = "board.py"  # the file with pins and divider, which its owner may have changed
 MAIN, PART = "main.py", ".part"  # the file that starts the robot; suffix of files that are not complete
 ASK = """
@@ -142,9 +144,10 @@ def files_of(kind: str, robot: int, arena: int, key: bytes, network: str, passwo
     config = robot_config(robot, arena, key).replace(f'"{WIFI}"', f'"{board.radio}"')
     config = config.replace('"name of the network"', json.dumps(network, ensure_ascii=False))
     config = config.replace('"its password"', json.dumps(password, ensure_ascii=False))
-    files = {name: (PROGRAM / name).read_bytes() for name in ("motors.py", f"{board.radio}.py")}
+    names = AIR_FILES if board.radio == WIFI else ("motors.py", f"{board.radio}.py", "robot.py")
+    files = {name: (PROGRAM / name).read_bytes() for name in names}
     files |= {"board.py": (PROGRAM / f"{board.file}.py").read_bytes(), "config.py": config.encode()}
-    return {**files, MAIN: (PROGRAM / "robot.py").read_bytes()}
+    return {**files, MAIN: (PROGRAM / "start.py").read_bytes()}
 
 
 class BoardOnUsb:
@@ -198,6 +201,8 @@ class BoardOnUsb:
         differ = [name for name, data in files.items() if self._ask(f"print(h({name!r}))") != _hash(data)]
         if differ and MAIN not in differ:  # a robot never starts with files of two versions
             differ.append(MAIN)
+        for pointer in POINTERS:
+            self._ask(f"try:\n os.remove({pointer!r})\nexcept OSError:\n pass")
         if MAIN in differ:
             self._ask(f"try:\n os.remove({MAIN!r})\nexcept OSError:\n pass")
         for name, data in files.items():

@@ -23,6 +23,13 @@ FRESH = 0.5 * DT  # s, age of a prediction beyond which `drive` makes a new one
 REST: Twist = (0.0, 0.0)
 
 
+def held_to(pace: tuple[float, float], twist: Twist) -> Twist:
+    """A twist of the same curvature whose wheels are not faster than a pace (see Rig.pace)."""
+    (top, half), (linear, angular) = pace, twist
+    share = min(1.0, top / max(abs(linear) + half * abs(angular), 1e-9))
+    return linear * share, angular * share
+
+
 class RealPlant:
     """The robots of `real` are those of the rig; the others stay at the pose of the world's record."""
 
@@ -85,12 +92,8 @@ class RealPlant:
 
     def paced(self, twists: Sequence[Twist]) -> list[Twist]:
         """Twists that the slowest real robot can follow, so that nobody is faster; paths keep their curvature."""
-        top, half = self.rig.pace([i for i in self.real if self.world.robots[i].present])
-        paced = []
-        for linear, angular in twists:
-            share = min(1.0, top / max(abs(linear) + half * abs(angular), 1e-9))
-            paced.append((linear * share, angular * share))
-        return paced
+        pace = self.rig.pace([i for i in self.real if self.world.robots[i].present])
+        return [held_to(pace, twist) for twist in twists]
 
     def place(self, poses: Sequence[Pose]) -> None:
         """Start homing the real robots of the match to these poses."""

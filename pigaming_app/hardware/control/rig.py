@@ -84,6 +84,7 @@ class Rig:
         usual: RobotKind = DEFAULT,
     ) -> None:
         self.mm, self._kinds, self._usual = mm, kinds, usual
+        self.tops = [inf] * ROBOTS  # px/s, top speed of a wheel of each robot, as found by a test drive
         self.camera, self.tracker, self.link, self.clock = camera, tracker, link, clock
         self.kinematics = [Kinematics(drivetrain) for drivetrain in drivetrains]
         self.motion_checks = [RobotMotionCheck(drivetrain) for drivetrain in drivetrains]
@@ -211,8 +212,10 @@ class Rig:
 
     def pace(self, robots: Iterable[int]) -> tuple[float, float]:
         """Speed of a wheel that each of these robots reaches, px/s, and the widest half base, px."""
+        robots = [*robots]
         trains = [self.kinematics[robot].drivetrain for robot in robots]
         tops = [SURE * min(train.left.speed, train.right.speed) for train in trains]
+        tops += [self.tops[robot] for robot in robots]
         return min(tops, default=inf), max((0.5 * train.base for train in trains), default=0.0)
 
     def health(self, outside: Mapping[int, float], seen: RobotSnapshot) -> dict[int, Health]:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 MAGIC = b"PG2"
 DRIVE, REPORT, ANNOUNCE = b"D", b"T", b"A"  # kinds: arcade to robot, robot to arcade, robot to everybody
+UPDATE, ANSWER = b"U", b"V"  # arcade to a robot that stands, and back: see firmware/micropython/update.py
 NONCE, CODE, HEAD = 8, 8, 12  # bytes
 FIELDS = struct.Struct(">HBBB8sQHB")  # of an announcement, see there; the name follows
 NAME = 16  # bytes, at most

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import NamedTuple, Self
 
 from pigaming_app.hardware.radio import envelope
-from pigaming_app.hardware.radio.envelope import ANNOUNCE, DRIVE, LAST_COUNTER, REPORT, Announcement
+from pigaming_app.hardware.radio.envelope import ANNOUNCE, ANSWER, DRIVE, LAST_COUNTER, REPORT, UPDATE, Announcement
 from pigaming_app.hardware.radio.packets import LENGTHS, NO_ARENA, ROBOTS, VERSION
 from pigaming_app.hardware.radio.packets import REPORT as REPORT_HEAD
 from pigaming_app.hardware.radio.protocol import Misfit
@@ -73,6 +73,7 @@ class WifiNetwork:
         self._strangers: dict[Address, tuple[WifiRobot, float]] = {}  # robots not driven, in order of their calls, s
         self._void: set[bytes] = set()  # nonces of robots that have restarted since
         self._reports = bytearray()
+        self._answers: dict[int, bytes] = {}  # the newest one of each robot to `ask`
 
     def open(self) -> Self:
         """Open the socket. Raises OSError, e.g. if another program has the port."""
@@ -171,6 +172,21 @@ class WifiNetwork:
         self.offline = not reached and bool(faults) and all(fault in NO_NETWORK for fault in faults)
         return len(data)
 
+    def ask(self, address: int, body: bytes) -> None:
+        """Send a message of an update to a robot (1 to 4) that has called; `answer` tells what it answers."""
+        assert self._socket is not None
+        session = self._sessions[address]
+        session.sent += 1
+        self._answers.pop(address, None)
+        with suppress(OSError):  # counts as lost on the way
+            datagram = envelope.seal(self.key, session.announced.nonce, UPDATE, session.sent, body)
+            self._socket.sendto(datagram, session.address)
+
+    def answer(self, address: int) -> bytes | None:
+        """What a robot has answered to the last `ask`; None: nothing yet."""
+        self._receive()
+        return self._answers.get(address)
+
     def close(self) -> None:
         """Close the socket; sessions stay, so that `open` continues them."""
         for session in self._sessions.values():
@@ -198,7 +214,9 @@ class WifiNetwork:
                 return
             except ConnectionError:
                 continue  # an earlier datagram met a closed port
-            if not (self._take_report(datagram) or self._take_announcement(datagram, sender)):
+            if not (
+                self._take_report(datagram) or self._take_answer(datagram) or self._take_announcement(datagram, sender)
+            ):
                 self.dropped += 1
             if self._clock() >= end:
                 return
@@ -216,6 +234,16 @@ class WifiNetwork:
                     self._void.add(session.replaces)
                     self._reports += report
                     return True
+        return False
+
+    def _take_answer(self, datagram: bytes) -> bool:
+        """Accept a new answer of one of our robots."""
+        for address, session in self._sessions.items():
+            opened = envelope.unseal(self.key, session.announced.nonce, ANSWER, datagram)
+            if opened is not None and opened[0] > session.received:
+                session.received, self._answers[address] = opened
+                session.heard = self._clock()
+                return True
         return False
 
     def _take_announcement(self, datagram: bytes, sender: Address) -> bool:

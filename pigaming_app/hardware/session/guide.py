@@ -12,7 +12,7 @@ from pigaming_app.hardware.session.robot_session import settings_problem
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings
 
-STEPS = ("robots", "sheet", "pin", "calibrate", "mat", "pair", "match")
+STEPS = ("robots", "sheet", "pin", "calibrate", "mat", "pair", "drive", "match")
 SHEET = "markers.pdf"  # in the data folder
 
 
@@ -46,6 +46,7 @@ def steps(
         GuideStep("calibrate", calibrated, wrong if begun else None),
         GuideStep("mat", settings.mat),
         GuideStep("pair", paired),
+        GuideStep("drive", bool(settings.tops)),
         GuideStep("match", settings.mat and bool(settings.real)),
     ]
 

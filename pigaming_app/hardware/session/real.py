@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from functools import partial
+from math import inf
 from typing import TYPE_CHECKING
 
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, driver_of, new_rig
@@ -80,6 +81,8 @@ class RealSession(RobotSession):
             except (DrivetrainError, ImportError) as error:
                 raise RobotsUnavailable(OperatorMessage("robots_file", detail=error)) from error
             rig.channels = tuple(radio - 1 for radio in self.settings.radios)
+            if self.settings.tops:
+                rig.tops = [(self.settings.tops[channel] or inf) / ground.mm for channel in rig.channels]
             if self.settings.camera_delay >= 0:
                 rig.begin_camera_delay(self.settings.camera_delay / 1000.0)
             self.mm, self.quality, self.ground, self._rig = ground.mm, ground.quality, ground, rig.start()

@@ -160,7 +160,7 @@ def settings_problem(settings: "Settings") -> OperatorMessage | None:
 
 def camera_warning(session: RobotSession, rig: "Rig") -> OperatorMessage | None:
     """Warning about a session's camera: exposure, sharpness, the arena's width; or None."""
-    from pigaming_app.hardware.calibration.ground_plane import MARKER
+    from pigaming_app.hardware.calibration.ground_plane import MARKER, MAX_KEYSTONE
     from pigaming_app.hardware.calibration.quality import used_anyway
     from pigaming_app.hardware.vision.exposure import warning_of
 
@@ -170,6 +170,8 @@ def camera_warning(session: RobotSession, rig: "Rig") -> OperatorMessage | None:
         return used_anyway(quality)
     if warning is None and rig.tracker.wrong_size is not None:
         return OperatorMessage("marker_off", mm=f"{rig.tracker.wrong_size:.1f}", true=f"{MARKER:.0f}")
+    if warning is None and (share := rig.tracker.keystone) > MAX_KEYSTONE:
+        return OperatorMessage("keystone", share=round(100 * share))
     return warning
 
 

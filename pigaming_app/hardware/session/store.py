@@ -5,7 +5,7 @@ Files of the emulated arena have separate names, so they never overwrite those o
 
 import logging
 import secrets
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane, read, to_toml
@@ -95,6 +95,22 @@ def save_pairing(channels: Sequence[int], camera_delay: float) -> None:
     settings, _ = Settings.load(config)
     settings.radios = [channel + 1 for channel in channels]
     settings.camera_delay = round(1000.0 * camera_delay)
+    settings.save(config)
+
+
+def tops_by_radio(tops_mm: Mapping[int, int], channels: Sequence[int], before: Sequence[int]) -> list[int]:
+    """Top speeds, mm/s, by radio, from those by robot; robots that did not drive keep what was found before."""
+    tops = [*(before or [0] * ROBOTS)]
+    for robot, top in tops_mm.items():
+        tops[channels[robot]] = top
+    return tops
+
+
+def save_tops(tops_mm: Mapping[int, int], channels: Sequence[int]) -> None:
+    """Save the top speeds that a test drive has found, mm/s by robot, in the settings. Raises NotSaved."""
+    config = folders().config
+    settings, _ = Settings.load(config)
+    settings.tops = tops_by_radio(tops_mm, channels, settings.tops)
     settings.save(config)
 
 

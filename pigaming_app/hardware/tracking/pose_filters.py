@@ -33,6 +33,11 @@ class PoseFilters:
         """Size of the robots' markers, mm, if it is so far from the true one that the arena's width is in doubt."""
         return None
 
+    @property
+    def keystone(self) -> float:
+        """By how much markers look larger at one side of the arena than at the other, as a share; 0: unknown."""
+        return 0.0
+
     def duplicates(self) -> set[int]:
         """Robots that were lately seen twice in one frame."""
         return set()

@@ -11,7 +11,7 @@ from math import cos, inf, pi, sin, sqrt
 import numpy as np
 
 from pigaming_app.hardware.calibration.drift import DriftMonitor
-from pigaming_app.hardware.calibration.ground_plane import MAX_SIZE_ERROR, GroundPlane, Points
+from pigaming_app.hardware.calibration.ground_plane import MAX_SIZE_ERROR, GroundPlane, Points, keystone
 from pigaming_app.hardware.signals import CameraFrame, Clock, DetectedMarker, Fix
 from pigaming_app.hardware.tracking.camera_delay import CameraDelay
 from pigaming_app.hardware.tracking.ekf import COAST
@@ -32,7 +32,8 @@ OUTSIDE = 3.0 * RADIUS  # px outside the arena within which a fix is accepted
 GLANCE = 0.1  # s between quick searches of the whole image, for new robots and duplicate markers
 SEARCH = 0.05  # the same while a robot is missing, s
 THOROUGH = 1.0  # s between thorough searches while a robot is missing
-SIZES = 30  # of markers, for their median
+SIZES = 60  # of markers, for their median
+CELL, NEW = 200.0, 0.1  # arena px, edge of a cell in which sizes are averaged; weight of a new one
 REMEMBERED = 0.5  # s for which a rejection is reported
 MARGIN, ASTRAY = 6.0, 200.0  # search radius around a prediction: px, plus px/s of its age
 
@@ -56,6 +57,7 @@ class Tracker(PoseFilters):
         self._markers = MarkerDetector(WEARERS)
         self._rejections: dict[tuple[int, str], float] = {}  # s, by robot and reason
         self._sizes: deque[float] = deque(maxlen=SIZES)  # mm
+        self._sizes_at: dict[tuple[int, int], float] = {}  # mm, mean, by CELL of the arena
         self._glanced = self._searched = self._sized = -inf
         self._dim = False  # mode of the last quick search
         self._edge = self._expected_edge()
@@ -85,6 +87,13 @@ class Tracker(PoseFilters):
     def wrong_size(self) -> float | None:
         size = float(np.median(self._sizes)) if len(self._sizes) == SIZES else self.ground.marker
         return size if abs(size / self.ground.marker - 1.0) > MAX_SIZE_ERROR else None
+
+    @property
+    def keystone(self) -> float:
+        places = (np.array([*self._sizes_at]).reshape(-1, 2) + 0.5) * CELL
+        if not len(places) or (np.ptp(places, axis=0) < (WIDTH / 2.0, HEIGHT / 2.0)).any():
+            return 0.0
+        return keystone(places, [*self._sizes_at.values()])
 
     def duplicates(self) -> set[int]:
         """Robots whose marker was seen twice in one frame within the last REMEMBERED s."""
@@ -151,6 +160,8 @@ class Tracker(PoseFilters):
     def _credible(self, marks: Sequence[DetectedMarker], captured: float) -> list[list[Fix]]:
         """Plausible fixes by robot; rejections are recorded with their reason."""
         fixes: list[list[Fix]] = [[] for _ in range(ROBOTS)]
+        if due := captured - self._sized > GLANCE:
+            self._sized = captured
         for mark, fix in zip(marks, self.ground.fixes(marks, captured), strict=True):
             robot = WEARERS[mark.number]
             if isinstance(fix, str):
@@ -159,10 +170,16 @@ class Tracker(PoseFilters):
                 self._rejections[robot, "outside"] = captured
             else:
                 fixes[robot].append(fix)
-                if captured - self._sized > GLANCE:
-                    self._sized = captured
-                    self._sizes.append(self.ground.edge_mm(mark))
+                if due:
+                    self._note_size(fix, self.ground.edge_mm(mark))
         return fixes
+
+    def _note_size(self, fix: Fix, mm: float) -> None:
+        """Note the size of a marker at its place."""
+        self._sizes.append(mm)
+        cell = int(fix.x // CELL), int(fix.y // CELL)
+        before = self._sizes_at.get(cell, mm)
+        self._sizes_at[cell] = before + NEW * (mm - before)
 
 
 def _outline(pose: Sighting, edge: float) -> Points:

@@ -1,11 +1,11 @@
-"""Sharpness of a picture: blur of the outer edges of its markers.
+"""Sharpness and light of a picture: blur of the outer edges of its markers, and their contrast.
 
 An edge between black and white, averaged along its length, rises from 16 % to 84 % within two standard deviations of a
 Gaussian blur.
 """
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,17 @@ SATURATED, SATURATED_SHARE = 254, 0.02  # grey level; share of a marker's px bey
 SHARPEST = 0.3  # px, of a picture whose every px is black or white
 
 
+class LightField(NamedTuple):
+    """Light of a board: that of its darkest place, as a share of the usual one; flicker from picture to picture, as a
+    share, where it is strongest. `softest`, `darkest`: markers at the places with the most blur and the least light.
+    """
+
+    light: float = 1.0
+    flicker: float = 0.0
+    softest: int = -1
+    darkest: int = -1
+
+
 def blur_of(cv: Any, image: Image, marks: Sequence[DetectedMarker]) -> list[float]:
     """Blur of each marker, standard deviation in px; markers without a clear edge are left out.
 
@@ -41,6 +52,15 @@ def blur_of(cv: Any, image: Image, marks: Sequence[DetectedMarker]) -> list[floa
     return blurs
 
 
+def contrasts_of(image: Image, marks: Sequence[DetectedMarker]) -> NDArray[np.float64]:
+    """Light of each marker, (n,): grey levels by which the white around it is brighter than its rim, 0 or more."""
+    corners = np.array([mark.corners for mark in marks]).reshape(-1, 4, 1, 2)
+    middles, after = corners.mean(axis=1, keepdims=True), np.roll(corners, -1, axis=1)
+    edges = corners + (after - corners) * ALONG[:, None] - middles
+    white, rim = (_levels(image, middles + edges * (1.0 + side / CELLS)) for side in (1.0, -1.0))
+    return np.maximum(white - rim, 0.0)
+
+
 def overexposed(image: Image, marks: Sequence[DetectedMarker]) -> bool:
     """True if the white of a marker is saturated: its edges then look sharper than they are."""
     for mark in marks:
@@ -49,6 +69,12 @@ def overexposed(image: Image, marks: Sequence[DetectedMarker]) -> bool:
         if np.count_nonzero(inside >= SATURATED) > SATURATED_SHARE * inside.size:
             return True
     return False
+
+
+def _levels(image: Image, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Mean grey level at the points (n, 4, m, 2) of each of n markers."""
+    at = np.clip(np.rint(points).astype(int), 0, np.array(image.shape[::-1]) - 1)
+    return np.asarray(image[at[..., 1], at[..., 0]].mean(axis=(1, 2)), np.float64)
 
 
 def _edge(cv: Any, image: Image, begin: NDArray[np.float64], end: NDArray[np.float64]) -> float | None:

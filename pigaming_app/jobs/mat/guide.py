@@ -19,7 +19,12 @@ from pigaming_app.ui.i18n import english
 if TYPE_CHECKING:
     from pigaming_app.hardware.session.guide import GuideStep
 
-COMMANDS = {"robots": "robots setup", "calibrate": "calibrate", "pair": "robots --pair"}  # for steps that have one
+COMMANDS = {
+    "robots": "robots setup",
+    "calibrate": "calibrate",
+    "pair": "robots --pair",
+    "drive": "robots --drive",
+}  # for steps that have one
 
 
 @dataclass(frozen=True, kw_only=True)

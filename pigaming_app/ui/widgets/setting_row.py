@@ -44,10 +44,10 @@ class SettingValue:
         return CELLS + 1 if self.kind == "meter" else len(self.options)
 
 
-def spots(names: Sequence[str]) -> list[FocusSpot]:
-    """The spots of rows with these names."""
+def spots(names: Sequence[str], at_most: int = AT_MOST) -> list[FocusSpot]:
+    """The spots of rows with these names; more than `at_most` have the room of so many."""
     x, w = span(0, 8)
-    pitch = PITCH if len(names) <= AT_MOST else PITCH * (AT_MOST - 1) // (len(names) - 1)
+    pitch = PITCH if len(names) <= at_most else PITCH * (at_most - 1) // (len(names) - 1)
     return [FocusSpot(name, pygame.Rect(x, TOP - HIGH // 2 + pitch * i, w, HIGH)) for i, name in enumerate(names)]
 
 

@@ -51,7 +51,7 @@ def test_the_mouse_points_at_what_is_seen_under_it() -> None:
     "corners",
     [
         (0, 0, 1920, 0, 0, 1080, 1920, 1080),  # crossed
-        (1920, 0, 0, 0, 0, 1080, 1920, 1080),  # mirrored
+        (1920, 0, 0, 0, 1920, 1080, 0, 1080),  # crossed, in a mirror
         (0, 0, 960, 540, 1920, 1080, 0, 1080),  # collinear
         (0, 0, 100, 0, 100, 50, 0, 50),  # tiny
         (0, 0, float("nan"), 0, 1920, 1080, 0, 1080),

@@ -91,6 +91,14 @@ def test_the_prediction_is_within_5_points_of_an_independent_camera(number):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("light", repeated([0.2, 0.3]))
+def test_the_prediction_in_little_light_is_within_5_points_too(light):
+    seen = share(16, HARD._replace(light=light), 240)
+    assert found_share(16, HARD.edge, HARD.blur, HARD.exposure, light) == pytest.approx(seen, abs=0.05 + 0.05)
+    assert seen < found_share(16, HARD.edge, HARD.blur, HARD.exposure)
+
+
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("width", "defocus", "exposure", "numbers"),
     repeated([(1280, 1.5, 1 / 60, ROBOT_IDS), (1280, 1.1, 1 / 60, (0, 1, 2, 3))]),

@@ -11,7 +11,7 @@ from pigaming_app.hardware.commissioning.board_setup import MAIN, PART, BoardOnU
 from pigaming_app.hardware.emulator.wifi.usb import UsbBoard
 
 FILES = files_of("pico_w", 2, 4711, bytes(range(16)), 'Schule "Süd"', "geheim\\\\ 'x'")
-ORDER = ["motors.py", "wifi.py", "board.py", "config.py", "main.py"]
+ORDER = ["robot.py", "motors.py", "wifi.py", "update.py", "board.py", "config.py", "main.py"]
 
 pytestmark = [pytest.mark.long, pytest.mark.usefixtures("micropython")]
 
@@ -49,6 +49,14 @@ def test_all_files_arrive_and_the_second_time_none_is_written(usb: UsbBoard) -> 
             assert on_board(board) == hashes(FILES)
         assert told == [(name, new) for name in ORDER]
         told.clear()
+
+
+def test_a_program_that_came_over_the_air_makes_room_for_that_of_usb(usb: UsbBoard) -> None:
+    with BoardOnUsb(usb.port) as board:
+        board.write(FILES)
+        board._ask("for n in ('kept', 'trial'):\n with open(n, 'w') as f:\n  f.write('a')")
+        board.write(FILES)
+        assert board._ask("import os\nprint('kept' in os.listdir() or 'trial' in os.listdir())") == "False"
 
 
 def test_the_board_reads_name_and_password_as_they_were_typed(usb: UsbBoard) -> None:

@@ -73,6 +73,14 @@ def test_nobody_in_a_mixed_match_is_faster_than_its_slowest_real_robot(twist):
         assert linear * twist[1] == pytest.approx(angular * twist[0]), "the path has another curvature"
 
 
+def test_a_top_speed_found_by_a_test_drive_holds_for_everybody_in_a_match_with_that_robot():
+    mat = Mat()
+    mat.rig.tops[1] = 100.0
+    for real, limit in (((0, 1), 100.0), ((0, 2), 300.0)):
+        plant = on_floor(mat, real=real, kind=MixedPlant)
+        assert [abs(linear) for linear, _ in plant.paced([(300.0, 0.0)] * 4)] == pytest.approx([limit] * 4)
+
+
 def test_where_all_are_fast_nobody_is_slowed():
     plant = on_floor(Mat())
     asked = [(422.0, 3.0), (-260.0, 0.0), (0.0, 3.0), (338.0, -3.0)]

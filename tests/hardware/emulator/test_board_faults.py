@@ -295,3 +295,4 @@ def test_the_program_of_a_robot_has_at_most_400_lines():
         for radio in ("wifi.py", "serial_radio.py"):
             files = ("robot.py", "motors.py", "config_example.py", board, radio)
             assert sum(len((PROGRAM / file).read_text("utf-8").splitlines()) for file in files) <= 400
+    assert sum(len((PROGRAM / file).read_text("utf-8").splitlines()) for file in ("start.py", "update.py")) <= 170

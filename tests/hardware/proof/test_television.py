@@ -94,6 +94,26 @@ def test_robots_are_followed_on_a_television(lens, television, readout, monkeypa
     assert way.min() > 0.7 * SLOWER * 5.0  # they drive: two seconds, then three
 
 
+@pytest.mark.long
+@pytest.mark.again
+@pytest.mark.parametrize(
+    ("lens", "television", "light", "advice"),
+    [
+        (ABOVE, Television(hertz=100.0, duty=0.5), (0.4, 0.7), "flickers"),
+        (ASIDE, Television(falloff=6.0), (0.5, 0.7), None),
+        (ABOVE, Television(lamps=LAMPS), (0.8, 0.95), None),
+    ],
+    ids=["flicker", "at an angle", "mirrored lamps"],
+)
+def test_the_wizard_measures_the_light_of_a_television_and_its_flicker(lens, television, light, advice):
+    session = TelevisionSession(5, False)
+    session.lens, session.television = lens, television
+    quality = session.ground.quality
+    assert light[0] < quality.light < light[1]
+    assert (quality.advice and quality.advice.key) == advice
+    assert quality.sufficient
+
+
 def test_a_backlight_flickers_less_the_longer_the_exposure():
     """By hand: half of each 10 ms is dark."""
     television = Television(hertz=100.0, duty=0.5)

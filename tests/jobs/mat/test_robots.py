@@ -1,6 +1,7 @@
 """The jobs `robots` and `fidelity`, without hardware and on the emulated arena."""
 
 import json
+import socket
 import sys
 from math import cos, sin
 from typing import cast
@@ -80,16 +81,39 @@ def test_a_radio_is_written_and_refusals_are_one_line(capsys, monkeypatch, refus
     assert "refuses CH 1A" in refused("robots", "--radio-setup", "0", "--channel", "1A")
 
 
-@pytest.mark.parametrize("wish", ["--pair", "--latency"])
+@pytest.mark.parametrize("wish", ["--pair", "--latency", "--drive"])
 def test_robots_that_nobody_sees_are_not_moved(refused, wish):
     line = refused("robots", wish)
     assert "calibrat" in line or "opencv" in line.lower()
+
+
+def test_robots_are_updated_over_the_air_only_while_no_arcade_has_the_port(refused, monkeypatch):
+    monkeypatch.setattr("pigaming_app.jobs.mat.robots.wifi_setup.APPEARS", 0.1)
+    assert "update 2" in refused("robots", "update", "5")
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as arcade:
+        arcade.bind(("", 0))
+        monkeypatch.setattr(
+            "pigaming_app.hardware.radio.wifi.WifiNetwork.__init__.__defaults__", (arcade.getsockname()[1], "")
+        )
+        assert "end the arcade first" in refused("robots", "update")
+    assert "No robot on Wi-Fi calls" in refused("robots", "update")
 
 
 @pytest.mark.parametrize("job", [["robots"], ["fidelity", "record", "run.jsonl"]])
 def test_without_opencv_there_is_no_emulated_arena_and_one_sentence(refused, monkeypatch, job):
     monkeypatch.setitem(sys.modules, "cv2", None)
     assert "opencv" in refused(*job, "--emulate").lower()
+
+
+@pytest.mark.long
+@pytest.mark.again
+def test_the_emulated_robots_hold_at_full_speed(capsys, monkeypatch):
+    pytest.importorskip("cv2")
+    monkeypatch.setattr("pigaming_app.hardware.commissioning.speed_trial.ROUND", 6.0)
+    assert main(["robots", "--emulate", "--drive", "--json"]) == 0
+    drive = json.loads(capsys.readouterr().out)["drive"]
+    assert drive == [{"robot": robot, "top_mm_s": None, "late": False} for robot in (1, 2, 3, 4)]
+    assert not Settings.load(folders().config)[0].tops, "those of emulated robots are not kept"
 
 
 @pytest.mark.long
@@ -105,6 +129,23 @@ def test_the_emulated_robots_are_heard_and_seen_and_paired(capsys):
     assert [(one["radio"], one["marker"], one["case"]) for one in found["pairing"]] == [
         (i, i, "fits") for i in range(1, 5)
     ]
+
+
+@pytest.mark.parametrize(
+    ("words", "kept"),
+    [
+        (["--radio", "udp"], ("udp", "")),
+        (["--radio", "thymio", "--port", "/dev/nowhere"], ("thymio", "/dev/nowhere")),
+        (["--radio", "stock"], ("api2", "")),  # plays no match
+        (["--radio", "udp", "--emulate", "--arena", "5"], ("api2", "")),
+    ],
+)
+def test_radio_and_port_that_are_given_once_are_kept(capsys, monkeypatch, words, kept):
+    monkeypatch.setattr(robots, "look", lambda options: {})
+    monkeypatch.setattr(robots, "_print", lambda status: None)
+    main(["robots", *words])
+    settings, _ = Settings.load(folders().config)
+    assert (settings.radio, settings.port) == kept
 
 
 def test_the_pairing_is_remembered():

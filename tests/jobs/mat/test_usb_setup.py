@@ -57,7 +57,7 @@ def test_a_board_at_a_port_becomes_robot_three(tmp_path: Path) -> None:
         words = (usb.port, "--network", "Schule", "--robot", "3", "--board", "pico_w", "--no-wait")
         done = setup(tmp_path, *words)
         assert done.returncode == 0, done.stderr
-        assert done.stdout.count("written") == 5
+        assert done.stdout.count("written") == 7
         assert "main.py robots --radio udp --wheels 3" in done.stdout
         assert "geheim" not in done.stdout + done.stderr
         usb.plug()
@@ -76,7 +76,7 @@ def test_a_pololu_becomes_robot_two_without_a_network(tmp_path: Path) -> None:
         done = setup(tmp_path, usb.port, "--robot", "2", "--board", "pololu_2040", typed="")
         assert done.returncode == 0, done.stderr
         assert [line.split()[0] for line in done.stdout.splitlines() if "written" in line] == [
-            *("motors.py", "serial_radio.py", "board.py", "config.py", "main.py")
+            *("motors.py", "serial_radio.py", "robot.py", "board.py", "config.py", "main.py")
         ]
         assert "main.py robots --radio-setup 2" in done.stdout
         usb.plug()

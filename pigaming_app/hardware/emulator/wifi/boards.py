@@ -75,7 +75,7 @@ class BoardConfig(NamedTuple):
     def files(self) -> dict[str, bytes]:
         """Files of the robot, by name."""
         files: dict[str, bytes | None] = {file.name: file.read_bytes() for file in PROGRAM.glob("*.py")}
-        main, board = files.pop("robot.py"), files.get(f"{self.board}.py")
+        main, board = files.pop("start.py"), files.get(f"{self.board}.py")
         files |= {"main.py": main, "board.py": board, "config.py": self._config().encode()}
         return {name: data for name, data in {**files, **self.changed}.items() if data is not None}
 
@@ -174,7 +174,7 @@ class Boards:
 
         `do`: "reboot", "off", "hang loop" (the timer runs on), "hang board", or in the main loop "error" or "interrupt"
         (Ctrl-C); `battery`, `reference` (of the ADC): mV; `button`, `offline`: 1 or 0; `pulses`: totals of the left and
-        the right encoder.
+        the right encoder; `cut`: the power is off after so many changes of the disk, 0: not.
         """
         self._tell({"robot": robot, **order})
         if order.get("do") == "off" and self._keeping[robot]:  # the chip has no power either

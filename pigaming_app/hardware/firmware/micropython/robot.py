@@ -1,9 +1,9 @@
 """Program of a PiGaming robot in stock MicroPython: obeys drive packets, reports, and stops by itself.
 
-On the robot: this file as `main.py`, the board file as `board.py`, `motors.py`, `config.py`, and the radio file that
-`config` names. A hardware timer stops the motors 200 ms after the last new command, whatever the main loop does; the
-watchdog restarts a robot whose main loop or timer hangs. An error stops the motors at once, is printed in one line, and
-restarts the robot; one in its files keeps it from starting. docs/hardware.md, section Protocol, has the packets.
+On the robot: this file, `start.py` as `main.py`, the board file as `board.py`, `motors.py`, `config.py`, the radio file
+that `config` names, for Wi-Fi `update.py`. A hardware timer stops the motors 200 ms after the last new command; the
+watchdog restarts a robot whose main loop or timer hangs. An error stops the motors, is printed, and restarts the robot
+after a moment; one in its files keeps it from starting. docs/hardware.md, section Protocol, has the packets.
 """
 
 import io
@@ -18,6 +18,7 @@ BODY = 13  # bytes of a drive packet before its check
 MIDDLE = 63  # speed code of a wheel at rest
 DEADMAN_MS, TIMER_MS, REPORT_MS, SLOT_MS, BATTERY_MS = 200, 10, 200, 10, 20
 LONELY_MS = 3000  # ms without a command after which the reports end
+TRIAL_MS = 60000  # ms for which a program on trial feeds its watchdog, see start.py
 RESTART_MS = 3000  # until a restart after an error, unless the watchdog is earlier
 SUPPLY_MV = 3300  # 65535 of an ADC without calibration
 
@@ -128,18 +129,16 @@ class Robot:
         return checked(head + bytes([mv & 127, mv >> 7 & 127]))
 
 
-def run(robot, radio):
-    """Drive and report until the power is switched off. The watchdog starts with the first command.
+def run(robot, radio, watchdog):
+    """Drive and report until the power is switched off. The watchdog, unless given, starts with the first command.
 
-    Until then nothing turns, and the robot's files can be changed by USB.
+    Until then nothing turns, and the robot's files can be changed by USB. A given one is that of a program on trial.
     """
-    watchdog = None
+    end = watchdog and time.ticks_add(time.ticks_ms(), TRIAL_MS)
     while True:
         now = time.ticks_ms()
-        packet = radio.receive()
-        while packet is not None:
+        while (packet := radio.receive()) is not None:
             robot.obey(packet, time.ticks_ms())
-            packet = radio.receive()
         robot.work(now)
         report = robot.report(now)
         if report is not None:
@@ -147,7 +146,8 @@ def run(robot, radio):
         radio.work(now)
         if watchdog is None and not robot.stopped:
             watchdog = WDT(timeout=robot.board.WATCHDOG_MS)
-        if watchdog is not None and time.ticks_diff(now, robot.ticked) < 10 * TIMER_MS:
+        patient = end is None or time.ticks_diff(end, now) > 0
+        if watchdog is not None and patient and time.ticks_diff(now, robot.ticked) < 10 * TIMER_MS:
             watchdog.feed()
         time.sleep_ms(2)
 
@@ -169,8 +169,8 @@ def await_repair(lamp, why):
             time.sleep_ms(RESTART_MS // 20)
 
 
-def main():
-    """Start and run; after an error, but not after Ctrl-C, restart."""
+def main(watchdog):
+    """Start and run; after an error, but not after Ctrl-C, restart. `watchdog`: of a program on trial, see `run`."""
     lamp = None
     try:
         import board
@@ -184,14 +184,10 @@ def main():
     except Exception as error:
         await_repair(lamp, reason(error))
     try:
-        run(robot, radio)
+        run(robot, radio, watchdog)
     except Exception as error:
         print("The robot restarts.", reason(error))
     finally:
         robot.halt()
     time.sleep_ms(RESTART_MS)
     reset()
-
-
-if __name__ == "__main__":
-    main()

@@ -15,7 +15,7 @@ from hashlib import sha256
 import config
 import network
 
-DRIVE, REPORT, ANNOUNCE = b"PG2D", b"PG2T", b"PG2A"
+DRIVE, REPORT, ANNOUNCE, UPDATE, ANSWER = b"PG2D", b"PG2T", b"PG2A", b"PG2U", b"PG2V"
 HEAD, CODE = 12, 8  # bytes
 ANNOUNCE_MS, RECONNECT_MS = 1000, 8000
 MOST = 64  # datagrams of strangers in one turn: a flood leaves time for the rest of the program
@@ -55,12 +55,15 @@ class Radio:
                 data, sender = self.socket.recvfrom(128)
             except OSError:
                 return None
-            if len(data) < HEAD + CODE or data[:4] != DRIVE or self.code(data[:-CODE]) != data[-CODE:]:
+            kind, body = data[:4], data[HEAD:-CODE]
+            if len(data) < HEAD + CODE or kind not in (DRIVE, UPDATE) or self.code(data[:-CODE]) != data[-CODE:]:
                 continue
             counter = int.from_bytes(data[4:HEAD], "big")
             if counter > self.received and (sender == self.owner or self.robot.stopped):
                 self.received, self.owner = counter, sender
-                return data[HEAD:-CODE]
+                if kind == DRIVE:
+                    return body
+                self._send(ANSWER, __import__("update").answer(body, self.robot), sender)
 
     def send(self, report):
         """Send a report to the arcade that drives."""

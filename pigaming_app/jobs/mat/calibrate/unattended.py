@@ -119,13 +119,15 @@ def calibrate(seed: int, robot: bool = False, view: str = "good", anyway: bool =
 
 def _picture(quality: CameraQuality) -> dict[str, Any]:
     """Quality of the camera's picture; None: not measured, or no figure of the driver."""
-    look = quality.marker_px, quality.blur_px, quality.exposure
+    look = quality.marker_px, quality.blur_px, quality.exposure, quality.light
     shares = {str(number): found_share(number, *look) for number in WEARERS} if quality.measured else None
     return {
         "marker_edge_px": quality.marker_px or None,
         "blur_px": quality.blur_px or None,
         "exposure_ms": 1e3 * quality.exposure or None,
         "gain": quality.gain,
+        "darkest_light": quality.light if quality.measured else None,
+        "flicker": quality.flicker if quality.measured else None,
         "predicted_detection": quality.detection if quality.measured else None,
         "predicted_by_marker": shares,
         "sufficient": quality.sufficient,

@@ -1,7 +1,7 @@
 """Status of robots, radios and cameras; on request pairing (each robot spins in turn), latency, set-up of radios.
 
 `robots check DRIVER` tries every promise of a driver on its emulated robots; `robots setup` makes the board on USB a
-robot.
+robot; `robots update` gives robots on Wi-Fi the program of this version.
 """
 
 import json
@@ -61,19 +61,29 @@ class RobotsOptions(wifi_setup.WifiSetupOptions, radio_setup.RadioSetupOptions, 
 
     check: tuple[str, ...] = argument(
         "check and a driver, such as udp: its promises, tried on emulated robots; setup, and a port if there are "
-        "several: the board on USB becomes a robot",
+        "several: the board on USB becomes a robot; update, and a robot if not all: its program, over the air",
         default=(),
         nargs="*",
-        metavar="check DRIVER | setup PORT",
+        metavar="check DRIVER | setup PORT | update ROBOT",
     )
     pair: bool = flag("spin each robot in turn to find its marker")
     latency: bool = flag("wiggle each robot to measure the end-to-end latency")
+    drive: bool = flag(
+        "drive all robots at full speed on the empty mat; who responds too late, is held slower from then on"
+    )
+
+    @property
+    def moves(self) -> bool:
+        """True if robots are to move in view of the camera."""
+        return self.pair or self.latency or self.drive
 
 
 def run(options: RobotsOptions) -> int:
     """Print the status. Raises Refusal."""
     if options.check[:1] == ("setup",):
         return usb_setup.set_up(options, options.check)
+    if options.check[:1] == ("update",):
+        return wifi_setup.update(options.check)
     if options.check:
         return conformance.check(options, options.check)
     options.mat_settings()
@@ -86,7 +96,7 @@ def run(options: RobotsOptions) -> int:
         return 0
     if options.radio_setup is not None:
         return radio_setup.set_up(options, options.radio_setup, settings)
-    if options.emulate is not None or options.pair or options.latency:
+    if options.emulate is not None or options.moves:
         require("hardware")
     status = look(options)
     if options.json:
@@ -110,7 +120,7 @@ def look(options: RobotsOptions) -> dict[str, Any]:
             status["arena"] = session.arena_id
             return {**status, **_full_status(session, options)}
         except RobotsUnavailable as trouble:
-            if options.pair or options.latency:
+            if options.moves:
                 raise Refusal(f"Robots move only in view of the camera. {sentence(trouble)}") from None
             return {**status, **_radio_status(session), "eyes": sentence(trouble)}
 
@@ -135,12 +145,15 @@ def _full_status(session: RobotSession, options: RobotsOptions) -> dict[str, Any
     status["robots"] = [_robot(rig.link, i, rig.channels[i], seen[i]) for i in range(4)]
     status["network"] = wifi_setup.network(session)
     movable = [i for i in range(4) if status["robots"][i]["heard"]]
-    if (options.pair or options.latency) and not movable:
+    if options.moves and not movable:
         raise Refusal(status["radio"] or "No robot answers: are they switched on?")
     if options.pair:
         status["pairing"] = _pair(session, rig, save=options.emulate is None)
     if options.latency:
         status["latency"] = [_latency(session, rig, i) for i in movable if status["robots"][i]["seen"]]
+    if options.drive:
+        seen_robots = [i for i in movable if status["robots"][i]["seen"]]
+        status["drive"] = _drive(session, rig, seen_robots, save=options.emulate is None)
     return status
 
 
@@ -204,6 +217,21 @@ def _latency(session: RobotSession, rig: "Rig", robot: int) -> dict[str, Any]:
     return {"robot": robot + 1, **{f"{name}_ms": result and round(1000 * getattr(result, name)) for name in names}}
 
 
+def _drive(session: RobotSession, rig: "Rig", robots: list[int], save: bool) -> list[dict[str, Any]]:
+    """The test drive of these robots; their top speeds are saved. Raises Refusal."""
+    from pigaming_app.hardware.commissioning.speed_trial import SpeedTrial
+    from pigaming_app.hardware.session.store import save_tops
+
+    drive = SpeedTrial(rig, robots)
+    while not drive.tick():
+        session.tick()
+    if drive.held_up or not robots:
+        raise Refusal("The test drive has ended: robots were out of sight, or did not answer.")
+    if save:
+        save_tops(drive.tops_mm, rig.channels)
+    return [{"robot": i + 1, "top_mm_s": top or None, "late": i in drive.late} for i, top in drive.tops_mm.items()]
+
+
 def _print(status: dict[str, Any]) -> None:
     for name in ("ports", "cameras"):
         devices = ", ".join(" ".join(str(part) for part in device.values()) for device in status[name])
@@ -226,6 +254,11 @@ def _print(status: dict[str, Any]) -> None:
         if entry["total_ms"] is not None:
             text = f"{entry['total_ms']} ms: {entry['acts_ms']} to the motors, {entry['picture_ms']} for the picture"
         print(f"latency {entry['robot']} {text}")
+    for entry in status.get("drive", ()):
+        top = (
+            f"held to {entry['top_mm_s']} mm/s, as all are in a match with it" if entry["top_mm_s"] else "at full speed"
+        )
+        print(f"robot {entry['robot']}   {'too late to play: use another radio' if entry['late'] else top}")
 
 
 def _set_up(robot: int, status: dict[str, Any]) -> str:

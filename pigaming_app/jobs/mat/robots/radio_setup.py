@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 from pigaming_app.hardware.radio.packets import LAST_ARENA, ROBOTS
 from pigaming_app.hardware.radio.xbee_frames import CHANNELS
 from pigaming_app.hardware.robot_kinds import set_up_command
-from pigaming_app.jobs.mat.sessions import robots_of
+from pigaming_app.jobs.mat.sessions import require_driver, robots_of
 from pigaming_app.jobs.terminal.options import Groups, JsonOption, RadioOptions, hexadecimal, integer, option
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.storage.messages import OperatorError
@@ -38,12 +38,18 @@ class RadioSetupOptions(RadioOptions, JsonOption):
 
 
 def save_arena(options: RadioSetupOptions) -> Settings:
-    """Save the given arena number, channel and PAN; returns the settings. Raises Refusal."""
+    """Save the given arena number, channel, PAN, port and radio mode; returns the settings. Raises Refusal.
+
+    A radio mode that plays no match is for one command alone, and emulated robots change nothing.
+    """
     settings, _ = Settings.load(folders().config)
-    given = {"arena_id": options.arena, "radio_channel": options.channel, "radio_pan": options.pan}
-    given = {name: value for name, value in given.items() if value is not None}
+    asked = {"arena_id": options.arena, "radio_channel": options.channel, "radio_pan": options.pan}
+    given: dict[str, object] = {name: value for name, value in asked.items() if value is not None}
     if given and options.emulate is not None:
         raise Refusal("the emulated arena has a number and radios of its own: leave out --emulate")
+    if options.emulate is None:
+        given |= {"port": options.port} if options.port is not None else {}
+        given |= {"radio": options.radio} if options.radio and require_driver(options.radio).problem is None else {}
     for name, value in given.items():
         settings.choose(name, value)
     if given:

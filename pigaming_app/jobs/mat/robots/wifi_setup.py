@@ -1,17 +1,24 @@
 """Robots with MicroPython in the job `robots`: their files, the robots on the network, a first turn of the wheels."""
 
 import time
+from collections.abc import Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pigaming_app.hardware.radio.packets import ROBOTS
 from pigaming_app.hardware.robot_kinds import CHASSIS, RELAY, microbit_program, robot_config, robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.jobs.terminal.options import integer, option, path
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
+from pigaming_app.storage.messages import OperatorError
 from pigaming_app.storage.safe_files import NotSaved, write_with_backup
 from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.ui.i18n import english
+
+if TYPE_CHECKING:
+    from pigaming_app.hardware.commissioning.air_update import AirUpdate
 
 APPEARS, TURNS = 5.0, 1.5  # s: for a robot to report; for each turn of the wheels
 TICK = 0.02  # s
@@ -64,6 +71,51 @@ def supply_file(options: WifiSetupOptions, settings: Settings) -> bool:
         write_with_backup(options.out, text)
     print(options.out)
     return True
+
+
+def update(words: Sequence[str]) -> int:
+    """Give robots on Wi-Fi the program of this version, over the air: all that call, or the one in the words.
+
+    Raises Refusal, also while an arcade runs here: it has the port, and may be in a match.
+    """
+    from pigaming_app.hardware.commissioning.air_update import AirUpdate, program
+    from pigaming_app.hardware.radio.wifi import PORT, WifiNetwork
+    from pigaming_app.hardware.session.store import arena_id, wifi_key
+
+    if len(words) > 2 or not set(words[1:]) <= {"1", "2", "3", "4"}:
+        raise Refusal("robots update: one word more, a robot: robots update 2")
+    settings, _ = Settings.load(folders().config)
+    network = WifiNetwork(arena_id(settings), wifi_key(settings), time.monotonic)
+    with closing(network):
+        try:
+            network.open()
+        except OSError:
+            raise Refusal(f"UDP port {PORT} is in use: end the arcade first, nobody is updated in a match") from None
+        deadline = time.monotonic() + APPEARS
+        while time.monotonic() < deadline and network.in_waiting >= 0:
+            time.sleep(TICK)
+        wanted = [int(word) for word in words[1:]] or range(1, ROBOTS + 1)
+        ours = [one.announced.address for one in network.robots if one.status == "ours"]
+        found = [number for number in wanted if number in ours]
+        if not found:
+            raise Refusal("No robot on Wi-Fi calls: is it switched on, and of this arena?")
+        done = [_updated(AirUpdate(network, number, time.sleep, _tell), program()) for number in found]
+    return 0 if all(done) else 1
+
+
+def _updated(update: "AirUpdate", files: Mapping[str, bytes]) -> bool:
+    """Update a robot; true unless it failed, which is printed."""
+    try:
+        new = update.run(files)
+    except OperatorError as failed:
+        print(english().long_sentence(failed.message))
+        return False
+    print(f"robot {update.robot}   {'has the new program' if new else 'is up to date'}", flush=True)
+    return True
+
+
+def _tell(step: str) -> None:
+    print(f"  {step}", flush=True)
 
 
 def network(session: RobotSession) -> list[dict[str, Any]] | None:

@@ -61,6 +61,7 @@ class BoardsPage(Page):
             work.fault,
             work.small,
             exposure=work.exposure,
+            weak=work.weak if isinstance(work, Calibration) else None,
         )
         self.context.sounds.play("accept" if finding.good else "back")
         if finding.accurate and not self.measures.height:

@@ -7,7 +7,7 @@ import logging
 
 import pygame
 
-from pigaming_app.hardware.calibration.corner_pin import STRAIGHT, CornerPin
+from pigaming_app.hardware.calibration.corner_pin import STRAIGHT, CornerPin, is_turned_over, pin_of, turned_over
 from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.stack import Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
@@ -67,7 +67,8 @@ class CornerPinPage(Page):
     def __init__(self, context: Context) -> None:
         super().__init__(context)
         self.before = context.canvas.corners
-        self.corners = [round(value) for value in self.before or STRAIGHT]
+        self.over = is_turned_over(self.before)  # as for a mirror; `corners` are those in the mirror
+        self.corners = [round(value) for value in (turned_over(self.before) if self.over else self.before or STRAIGHT)]
         self.chosen = self.step = 0
 
     @property
@@ -95,7 +96,7 @@ class CornerPinPage(Page):
                 self.step = 1 - self.step
                 self.context.sounds.play("move")
             case Button.Y:
-                self.corners = [round(value) for value in STRAIGHT]
+                self.corners, self.over = [round(value) for value in STRAIGHT], False
                 self.context.sounds.play("accept")
                 self._pin()
             case Button.CLICK if event.at:
@@ -141,9 +142,8 @@ class CornerPinPage(Page):
 
     def _pin(self) -> bool:
         """Apply the pin; on failure, show the reason and return false."""
-        straight = self.corners == [round(value) for value in STRAIGHT]
         try:
-            self.context.canvas.pin(None if straight else CornerPin(self.corners))
+            self.context.canvas.pin(pin_of(turned_over(self.corners) if self.over else self.corners))
             return True
         except OperatorError as trouble:
             log.warning("%s", english().long_sentence(trouble.message))

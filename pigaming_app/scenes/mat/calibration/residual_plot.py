@@ -28,12 +28,13 @@ AREA = pygame.Rect(span(0, 8)[0], 210, span(0, 8)[1], 596)  # of the plot
 SIDE = pygame.Rect(span(8, 4)[0] + 24, 226, span(8, 4)[1] - 24, 600)  # of the numbers beside it
 GAP = 20  # px, between a name and its value
 SCALE = 0.47  # plot px per canvas px
+RING = 44.0  # px, radius of the ring round a weak place
 MAX_LENGTH = 40.0  # px, length of the longest arrow
 TIMES = (2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
-def arrows(residuals: Residuals) -> tuple[LitImage, int]:
-    """The plot and its magnification. Built once, not in a steady frame."""
+def arrows(residuals: Residuals, weak: tuple[float, float] | None = None) -> tuple[LitImage, int]:
+    """The plot and its magnification. Built once, not in a steady frame. `weak`: a place to be marked, arena px."""
     lengths = (residuals.misses**2).sum(axis=1) ** 0.5
     longest = max(float(lengths.max()) * SCALE, 1e-6)
     times = max((factor for factor in TIMES if factor * longest <= MAX_LENGTH), default=1)
@@ -50,6 +51,8 @@ def arrows(residuals: Residuals) -> tuple[LitImage, int]:
         layer.glow.disc(*begin, 3, dim(ICE, 0.6))
         layer.canvas.crisp.line([begin, end], color, HAIR + 1)
         layer.canvas.crisp.disc(*end, 3.5, color)
+    if weak:
+        layer.glow.ring(*_at(*weak), RING, ALARM)
     return layer.render(), times
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import pygame
 
+from pigaming_app.hardware.calibration.corner_pin import pin_of, turned_over
 from pigaming_app.hardware.calibration.ground_plane import MAX_SIZE_ERROR, GroundPlane
 from pigaming_app.hardware.calibration.quality import NEEDED, SMALL_EDGE, CameraQuality, used_anyway
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
@@ -35,7 +36,7 @@ from pigaming_app.ui.widgets.labels import black_out, chip, heading
 
 HIGH = 84  # px, height of a chip
 FOOT = 836  # px, top of the chips
-GAUGE = 146  # px, pitch of the gauges
+GAUGE, FACT = 146, 38  # px, pitch of the gauges, and of the quantities without a limit
 PROMPTS_ROOM = 2 * (SIDE.x - 960) - 48  # px, left of the warning beside the plot
 
 UNKNOWN = ExposureState()
@@ -56,6 +57,7 @@ class CalibrationResult:
     picture: Image | None = None  # last picture of the camera
     marker_mm: float = 0.0
     exposure: ExposureState = UNKNOWN
+    weak: tuple[float, float] | None = None  # arena px: the place with the most blur or the least light, if poor
 
     @property
     def accurate(self) -> bool:
@@ -80,6 +82,8 @@ class ResultPage(Page):
         names = ("save", "again", "leave") if finding.good else ("again", "leave")
         if finding.accurate and not finding.good:
             names = ("again", "anyway", "leave")
+        if finding.trouble and finding.trouble.key == "mirrored":
+            names = ("flip", "again", "leave")
         super().__init__(context, Focus([FocusSpot(name, self._box(i)) for i, name in enumerate(names)]))
         self.arrows: tuple[LitImage, int] | None = None
         small = finding.picture
@@ -127,7 +131,7 @@ class ResultPage(Page):
 
     def _draw_errors(self, screen: pygame.Surface, residuals: Residuals) -> None:
         words, finding = self.context.words, self.finding
-        self.arrows = self.arrows or arrows(residuals)
+        self.arrows = self.arrows or arrows(residuals, finding.weak)
         lit, times = self.arrows
         lit.draw(screen)
         text(words("calibrate.enlarged", times=times), BODY, MIST, "body", "l", AREA.w).draw(
@@ -151,9 +155,9 @@ class ResultPage(Page):
         warning, color = self._warning(quality)
         for name, value_text, warned in self._facts(finding.ground, quality):
             fact(words(f"calibrate.{name}"), value_text, color if warned else ICE).draw(screen, SIDE.x, y)
-            y += 43
+            y += FACT
         for i, line in enumerate(paragraph(warning, SIDE.w, 4, color)):
-            line.draw(screen, SIDE.x, y + 24 + 46 * i)
+            line.draw(screen, SIDE.x, y + 12 + 46 * i)
 
     def _facts(self, ground: GroundPlane, quality: CameraQuality) -> list[tuple[str, str, bool]]:
         """Name, value and warning of the quantities without a limit of their own."""
@@ -162,6 +166,7 @@ class ResultPage(Page):
             ("height", words("calibrate.metres", m=f"{ground.height / 1000.0:.2f}"), False),
             ("edge", words("calibrate.px", px=f"{quality.marker_px:.0f}"), quality.marker_px < SMALL_EDGE),
             ("blur", words("calibrate.px", px=f"{quality.blur_px:.1f}"), _cause(quality) == "finds_blurred"),
+            ("light", words("calibrate.percent", share=round(100 * quality.light)), _cause(quality) == "finds_dim"),
             ("exposure", exposure_text(words, state), warning_of(state) is not None),
         ]
         if robot:
@@ -201,7 +206,9 @@ class ResultPage(Page):
         finding = self.finding
         if name == "leave":
             return self.leave()
-        if name == "again":
+        if name == "flip":
+            self._turn_over()
+        if name in ("again", "flip"):
             self.context.sounds.play("accept")
             return Swap(self.retry())
         if finding.ground is None:
@@ -219,6 +226,13 @@ class ResultPage(Page):
             return None
         self.context.sounds.play("accept")
         return Pop()
+
+    def _turn_over(self) -> None:
+        """Turn the picture over, for a projector that shines by a mirror."""
+        canvas, settings = self.context.canvas, self.context.settings
+        canvas.pin(pin_of(turned_over(canvas.corners)))
+        settings.corners = [round(value) for value in canvas.corners]
+        self.save()
 
 
 def _cause(quality: CameraQuality) -> str:

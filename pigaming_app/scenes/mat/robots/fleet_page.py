@@ -31,7 +31,7 @@ from pigaming_app.ui.widgets.labels import blit_sprite, frame, heading
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 BAUDS = (9600, 19200, 38400, 57600, 111111, 115200, 230400)
-ACTIONS = ("pair", "latency")
+ACTIONS = ("pair", "latency", "drive")
 ROWS = ("mat", "camera", "port", "baud", "radio", *ACTIONS)
 REMEDIES = {"foreign": "elsewhere", "key": "copy"}  # text of the remedy by the reason of a misfit; else "flash"
 WEAK = 0.7  # share of reports below which a robot is marked
@@ -39,6 +39,7 @@ REOPEN_DELAY = 0.8  # s after a change until all devices are reopened
 EVERY = 0.4  # s between two readings
 EVERYBODY = set(range(ROBOTS))
 ROBOTS_H = 486  # px, height of the robots' frame
+ABOVE = 7  # rows for which there is room above the message
 MESSAGE = pygame.Rect(150, 858, 1620, 80)  # px, between description and prompts
 LINE_Y, LINE_PITCH = dials.PANEL.y + 530, 48  # px: description of the focused row
 
@@ -58,7 +59,9 @@ class FleetPage(SettingsPage):
         self.aside, self.sheet = BlockLayout(), pygame.Surface((1920, 1080))
         self.lines: list[tuple[str, Color, str, Color]] = []  # per robot: radio and vision status
         real = session.radio and not session.emulated
-        super().__init__(context, ROWS if real else ("radio", *ACTIONS) if context.robots_problem else ACTIONS, "pair")
+        rows = ROWS if real else ("radio", *ACTIONS) if context.robots_problem else ACTIONS
+        super().__init__(context, rows, "pair")
+        self.focus.set_spots(dials.spots(rows, ABOVE))
 
     def on_enter(self) -> None:
         """Open camera and radio."""
@@ -86,11 +89,13 @@ class FleetPage(SettingsPage):
             if self.reopen_in <= 0.0:
                 self.check.end()
                 self.on_enter()
-        pairing = self.check.pairing is not None
+        pairing, driving = self.check.pairing is not None, self.check.drive is not None
         self.flood.update(seconds, self.check.looking)
         if self.check.update(seconds):
             if pairing:
                 self._report_pairing()
+            elif driving:
+                self._report_drive()
             else:
                 self.show_message(words("fleet.measured" if self.check.latencies else "fleet.nobody"))
             self.context.sounds.play("accept")
@@ -264,8 +269,8 @@ class FleetPage(SettingsPage):
             self.reopen_in = REOPEN_DELAY
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
-        """Begin to pair, or to measure the latency."""
-        begun = self.check.pair() if name == "pair" else self.check.measure()
+        """Begin to pair, to measure the latency, or to drive."""
+        begun = {"pair": self.check.pair, "latency": self.check.measure, "drive": self.check.try_speeds}[name]()
         self.context.sounds.play("accept" if begun else "error")
         if not begun:
             self.show_message(self.context.words("fleet.nobody"))
@@ -273,6 +278,22 @@ class FleetPage(SettingsPage):
 
     def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
         """The readings of the robots take the place of pictures."""
+
+    def _report_drive(self) -> None:
+        """Report the result of the test drive, and save it."""
+        words, drive = self.context.words, self.check.driven
+        if drive is None or drive.held_up:
+            self.show_message(words("fleet.held_up" if drive else "fleet.nobody"))
+            return
+        tops = {robot: top for robot, top in drive.tops_mm.items() if top}
+        if drive.late:
+            self.show_message(words("fleet.too_late", robot=min(drive.late) + 1))
+        elif tops:
+            robot = min(tops, key=lambda robot: tops[robot])
+            self.show_message(words("fleet.slower", robot=robot + 1, mm=tops[robot]))
+        else:
+            self.show_message(words("fleet.full_speed"))
+        self.save()
 
     def _report_pairing(self) -> None:
         """Report the result of the pairing, and save it."""

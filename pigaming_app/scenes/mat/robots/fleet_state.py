@@ -7,11 +7,13 @@ from typing import Any
 
 from pigaming_app.hardware.commissioning.latency import LatencyTest
 from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase, PairingFinding
+from pigaming_app.hardware.commissioning.speed_trial import SpeedTrial
 from pigaming_app.hardware.control.rig import Rig
 from pigaming_app.hardware.radio.packets import DEADMAN, EMPTY, PARKED, RESTARTED
 from pigaming_app.hardware.radio.protocol import Misfit
 from pigaming_app.hardware.robot_kinds import RobotKind, robot_kind
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable
+from pigaming_app.hardware.session.store import tops_by_radio
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
@@ -59,6 +61,8 @@ class FleetState:
     latencies: dict[int, float | None] = field(default_factory=dict)  # latency in s, by robot; None: not measurable
     pairing: Pairing | None = None
     shake: LatencyTest | None = None
+    drive: SpeedTrial | None = None
+    driven: SpeedTrial | None = None  # the one that has ended
 
     def __post_init__(self) -> None:
         self._timestep = FixedTimestep()
@@ -87,7 +91,7 @@ class FleetState:
     @property
     def busy(self) -> bool:
         """True while robots are being moved."""
-        return self.pairing is not None or self.shake is not None or self._next_job is not None
+        return any((self.pairing, self.shake, self.drive, self._next_job))
 
     @property
     def looking(self) -> bool:
@@ -104,7 +108,7 @@ class FleetState:
 
     def stop(self) -> None:
         """Stop all motion."""
-        self.pairing, self.shake, self._todo, self._next_job = None, None, [], None
+        self.pairing, self.shake, self.drive, self._todo, self._next_job = None, None, None, [], None
         if self.rig is not None:
             self.rig.recorder = None
             self.rig.send([None] * ROBOTS)
@@ -116,6 +120,10 @@ class FleetState:
     def measure(self) -> bool:
         """Search for all robots, then measure the latency of each one seen; False if none reports."""
         return self._search(self._measure)
+
+    def try_speeds(self) -> bool:
+        """Search for all robots, then drive them all; False if none reports."""
+        return self._search(self._start_drive)
 
     def update(self, seconds: float) -> bool:
         """Advance; True at the moment a job finishes."""
@@ -133,6 +141,8 @@ class FleetState:
                 done = self._pair_on(self.rig, self.pairing) or done
             elif self.shake is not None:
                 done = self._shake_on(self.shake) or done
+            elif self.drive is not None:
+                done = self._drive_on(self.drive) or done
             else:
                 self.rig.send([None] * ROBOTS)
         return done
@@ -208,6 +218,20 @@ class FleetState:
         result = shake.result()
         self.latencies[shake.robot] = result.total if result else None
         return not self._next()
+
+    def _start_drive(self) -> bool:
+        robots = [robot for robot in range(ROBOTS) if self.heard(robot) and self._seen(robot)]
+        self.driven = None
+        self.drive = SpeedTrial(self.rig, robots) if robots and self.rig is not None else None
+        return self.drive is not None
+
+    def _drive_on(self, drive: SpeedTrial) -> bool:
+        if not drive.tick():
+            return False
+        self.drive, self.driven = None, drive
+        if not drive.held_up:
+            self.settings.tops = tops_by_radio(drive.tops_mm, drive.rig.channels, self.settings.tops)
+        return True
 
     def _next(self) -> bool:
         """Measure the next robot; False if none is left."""

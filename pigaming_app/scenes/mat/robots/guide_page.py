@@ -21,8 +21,12 @@ from pigaming_app.ui.widgets.labels import heading, sign
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 EVERY = 0.5  # s between two checks
-PAGES = {"robots": "board", "pair": "robots"}  # rows of the menu that a step opens under another name
-PICTURES = {**PAGES, "mat": "things", "pair": "radio", "match": "robots"}
+PAGES = {
+    "robots": "board",
+    "pair": "robots",
+    "drive": "robots",
+}  # rows of the menu that a step opens under another name
+PICTURES = {**PAGES, "mat": "things", "pair": "radio", "drive": "check", "match": "robots"}
 
 
 class GuidePage(SettingsPage):

@@ -250,6 +250,34 @@ def test_check_calibration_sets_the_exposure_again_and_shows_exposure_and_blur(c
     assert checking.quality.blur_px > 1.8
 
 
+def test_a_mirrored_picture_is_turned_over_at_a_press_and_calibrated_again(
+    arcade: Operated, made: CalibrationResult
+) -> None:
+    result = concluded(arcade, replace(made, trouble=OperatorMessage("mirrored"), ground=None))
+    assert [spot.name for spot in result.focus.spots] == ["flip", "again", "leave"]
+    arcade.picture()
+    arcade.press(Button.FIRE)
+    arcade.shown(BoardsPage)
+    over = [1920, 0, 0, 0, 0, 1080, 1920, 1080]
+    assert list(arcade.context.canvas.corners) == arcade.context.settings.corners == over
+    concluded(arcade, replace(made, trouble=OperatorMessage("mirrored"), ground=None))
+    arcade.press(Button.FIRE)
+    assert arcade.context.canvas.corners == ()
+    assert arcade.context.settings.corners == []
+
+
+def test_a_weak_place_is_ringed(arcade: Operated, made: CalibrationResult) -> None:
+    pictures = []
+    for weak in (None, (1300.0, 200.0)):
+        result = concluded(arcade, replace(made, weak=weak))
+        arcade.picture()
+        pictures.append(pixels_of(arcade.context.canvas.screen).astype(int))
+        assert result.arrows is not None
+    rows, columns = np.nonzero(np.abs(pictures[0] - pictures[1]).max(axis=2) > 60)
+    assert len(rows) > 100
+    assert np.ptp(rows) == pytest.approx(np.ptp(columns), abs=3)
+
+
 def test_a_failed_save_is_reported_and_nothing_is_lost(
     arcade: Operated, made: CalibrationResult, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -94,6 +94,15 @@ def test_leaving_without_saving_restores_the_pin(arcade: Arcade) -> None:
     assert arcade.context.canvas.corners == tuple(ASKEW)
 
 
+def test_in_a_mirror_corners_move_as_they_are_seen(arcade: Arcade) -> None:
+    arcade.context.canvas.pin(CornerPin((1920, 0, 0, 0, 0, 1080, 1920, 1080)))
+    arcade.open(CornerPinPage(arcade.context))
+    arcade.press(Button.RIGHT, Button.DOWN)
+    assert list(arcade.context.canvas.corners) == [1910, 10, 0, 0, 0, 1080, 1920, 1080]
+    arcade.press(Button.Y)
+    assert arcade.context.canvas.corners == ()
+
+
 def test_reset_is_straight_and_costs_nothing(arcade: Arcade, home: Path) -> None:
     arcade.context.canvas.pin(CornerPin(ASKEW))
     arcade.press(Button.Y)

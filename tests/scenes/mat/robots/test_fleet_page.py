@@ -13,11 +13,12 @@ from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.mat.robots.avoid_discs import hit
-from pigaming_app.scenes.mat.robots.fleet_page import FleetPage
+from pigaming_app.scenes.mat.robots.fleet_page import ABOVE, MESSAGE, ROWS, FleetPage
 from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent
+from pigaming_app.ui.widgets import setting_row as dials
 from tests.scenes.arcade import Arcade
 
 pytest.importorskip("cv2")
@@ -137,6 +138,11 @@ def test_discs_hide_neither_rows_nor_figures(arcade: Arcade, mat: EmulatedSessio
     at = [rows.at[i] + (box.center[i] - rows.home.topleft[i]) * rows.scale for i in (0, 1)]
     page.handle(InputEvent(Button.POINT, Device("mouse"), at=(at[0], at[1])))
     assert page.focus.name == "pair", "clicks follow the moved block"
+
+
+def test_all_rows_of_a_real_mat_have_room_above_the_message():
+    assert dials.spots(ROWS, ABOVE)[-1].rect.bottom + 20 < MESSAGE.top
+    assert [spot.rect.y for spot in dials.spots(ROWS[:7], ABOVE)] == [spot.rect.y for spot in dials.spots(ROWS[:7])]
 
 
 @pytest.mark.long

@@ -124,6 +124,9 @@ def test_whoever_stopped_goes_on_the_next_day(
     today.context.settings.camera_delay = 20  # as pairing leaves it
     today.context.settings.save(folders().config)
     today, page = another_day()
+    today.context.settings.tops = [0, 0, 250, 0]  # as the test drive leaves it
+    today.context.settings.save(folders().config)
+    today, page = another_day()
     today.context.settings.real = [1]  # as the lobby leaves it
     today.context.settings.save(folders().config)
     today, page = another_day()
@@ -152,6 +155,7 @@ def test_the_command_prints_the_same_steps(
     assert "[ ]" in lines[0]
     assert lines[-1].startswith("Next: Robots (")
     settings.camera_delay, settings.mat, settings.real, settings.corners = 0, True, [1], [0, 0, 9, 0, 9, 9, 0, 9]
+    settings.tops = [0] * 4
     settings.save(folders().config)
     assert run(GuideOptions(json=True)) == 0
     found = json.loads(capsys.readouterr().out)

@@ -3,7 +3,7 @@ import { randomBytes } from "node:crypto";
 import { parentPort, receiveMessageOnPort, workerData } from "node:worker_threads";
 
 const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6, BUTTON = 7, FAULT = 8, OFFLINE = 9,
-  PULSES = 10, REFERENCE = 12; // as in boards.mjs
+  PULSES = 10, REFERENCE = 12, CUT = 13; // as in boards.mjs
 const { numbers, inbox, robot, interpreter, paced } = workerData;
 const monotonic = () => Number(process.hrtime.bigint() / 1000n) / 1000;
 const pins = {};
@@ -31,6 +31,23 @@ globalThis.bridge = {
   reset() {
     parentPort.postMessage(["reset"]);
     Atomics.wait(numbers, HANG, numbers[HANG]); // until this thread is ended
+  },
+  written() { // the disk has changed: it survives a restart, and the power is cut where that was ordered
+    const files = {};
+    for (const folder of ["/robot", "/robot/a", "/robot/b"]) {
+      if (!micropython.FS.analyzePath(folder).exists) continue;
+      for (const name of micropython.FS.readdir(folder)) {
+        const path = `${folder}/${name}`;
+        if (micropython.FS.isFile(micropython.FS.stat(path).mode)) {
+          files[path.slice(7)] = Buffer.from(micropython.FS.readFile(path)).toString("base64");
+        }
+      }
+    }
+    parentPort.postMessage(["files", files]);
+    if (Atomics.load(numbers, CUT) && Atomics.sub(numbers, CUT, 1) === 1) {
+      parentPort.postMessage(["cut"]);
+      Atomics.wait(numbers, HANG, numbers[HANG]); // until this thread is ended
+    }
   },
   pin(name, value) {
     changed ||= pins[name] !== value;
@@ -63,8 +80,11 @@ const micropython = await loadMicroPython({
   stderr: (line) => parentPort.postMessage(["print", line]),
 });
 micropython.FS.mkdir("/robot");
-for (const [name, data] of Object.entries(robot.files)) micropython.FS.writeFile(`/robot/${name}`, Buffer.from(data, "base64"));
-micropython.runPython("import sys\nsys.path.insert(0, '/robot')\nimport standins");
+for (const [name, data] of Object.entries(robot.files)) {
+  if (name.includes("/") && !micropython.FS.analyzePath(`/robot/${name.split("/")[0]}`).exists) micropython.FS.mkdir(`/robot/${name.split("/")[0]}`);
+  micropython.FS.writeFile(`/robot/${name}`, Buffer.from(data, "base64"));
+}
+micropython.runPython("import os, sys\nos.chdir('/robot')\nsys.path.insert(0, '/robot')\nimport standins");
 try {
   micropython.runPython("exec(compile(open('/robot/main.py').read(), 'main.py', 'exec'))");
 } catch (error) {

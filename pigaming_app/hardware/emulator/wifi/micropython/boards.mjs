@@ -4,7 +4,7 @@
 // voltage, "files": {name: base64}}, ...], "interpreter": path, "paced": bool}. Then {"now": ms, "received": [number, ...]}
 // advances the clock of paced boards once each has received so many datagrams, and {"robot": index, "do": "reboot" | "off" |
 // "hang loop" | "hang board" | "error" | "interrupt", "battery": mV, "reference": mV, "button": 0 | 1, "offline": 0 | 1,
-// "pulses": [left, right]} disturbs one.
+// "pulses": [left, right], "cut": number} disturbs one.
 // Standard output: {"ports"}, {"robot", "at", "pins"}, {"robot", "reset"}, {"robot", "printed"}, {"now"}. Times are ms: of
 // the clock if paced, else of the system's monotonic clock.
 import dgram from "node:dgram";
@@ -12,7 +12,7 @@ import { createInterface } from "node:readline";
 import { MessageChannel, Worker } from "node:worker_threads";
 
 export const WAKE = 0, NOW = 1, FED = 2, TIMEOUT = 3, HANG = 4, CAUSE = 5, BATTERY = 6, BUTTON = 7, FAULT = 8, OFFLINE = 9,
-  PULSES = 10, REFERENCE = 12, SIZE = 13;
+  PULSES = 10, REFERENCE = 12, CUT = 13, SIZE = 14;
 const lines = createInterface({ input: process.stdin })[Symbol.asyncIterator]();
 const first = JSON.parse((await lines.next()).value);
 const monotonic = () => Number(process.hrtime.bigint() / 1000n) / 1000;
@@ -60,6 +60,8 @@ class Robot {
     if (kind === "pins") say({ robot: this.index, at: values[0], pins: values[1] });
     if (kind === "idle") { this.idle = values[0]; settle(); }
     if (kind === "reset") this.reset(2);
+    if (kind === "files") this.robot.files = values[0];
+    if (kind === "cut") this.off().then(settle);
     if (kind === "print") say({ robot: this.index, printed: values[0] });
     if (kind === "send") {
       sending++;
@@ -121,6 +123,7 @@ function disturb(robot, order) {
   if (order.button !== undefined) robot.numbers[BUTTON] = order.button;
   if (order.offline !== undefined) robot.numbers[OFFLINE] = order.offline;
   order.pulses?.forEach((total, encoder) => { robot.numbers[PULSES + encoder] = total; });
+  if (order.cut !== undefined) robot.numbers[CUT] = order.cut;
   if (order.do === "error" || order.do === "interrupt") robot.numbers[FAULT] = order.do === "error" ? 1 : 2;
   if (order.do === "reboot") robot.reset(1);
   if (order.do === "off") robot.off();

@@ -3,6 +3,7 @@
 A sleep also runs timers and interrupts, and raises the errors that the emulator's owner orders.
 """
 
+import builtins
 import os
 import sys
 import time
@@ -33,6 +34,38 @@ def sleep_ms(ms):
 
 time.ticks_ms, time.sleep_ms = ticks_ms, sleep_ms
 os.urandom = lambda size: bytes.fromhex(js.bridge.random(size))
+
+
+class Written:
+    """A file open for writing: the disk has changed when it is closed."""
+
+    def __init__(self, file):
+        self.file, self.write = file, file.write
+
+    def close(self):
+        self.file.close()
+        js.bridge.written()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+def noting(change):
+    """A function of `os`, after which the disk has changed."""
+
+    def noted(*arguments):
+        change(*arguments)
+        js.bridge.written()
+
+    return noted
+
+
+read = open
+builtins.open = lambda name, mode="r": Written(read(name, mode)) if "w" in mode else read(name, mode)
+os.rename, os.remove, os.mkdir = noting(os.rename), noting(os.remove), noting(os.mkdir)
 
 
 def prompt():
