@@ -31,7 +31,7 @@ HANDS = (
     Strength(0.90, 6, 0.05, turbo=True, passes=True),
 )
 STRENGTHS = (
-    Strength(0.82, 30, 0.30, turbo=False, passes=False, haste=0.8),
+    Strength(0.86, 33, 0.32, turbo=False, passes=False, haste=0.85),
     Strength(0.88, 24, 0.20, turbo=False, passes=False, haste=0.7),
     Strength(0.88, 22, 0.20, turbo=False, passes=False, haste=0.25),
     Strength(0.86, 22, 0.19, turbo=False, passes=True, haste=0.2),

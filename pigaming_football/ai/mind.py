@@ -68,8 +68,17 @@ def notice(mind: Mind) -> None:
     if mind.bias_left <= 0:
         mind.bias_left = NEW_ERROR
         mind.bias = 2.0 * mind.error * (uniform(mind) + uniform(mind) + uniform(mind) - 1.5)
-        mind.hasty = 1 if mind.haste > 0.0 and uniform(mind) < mind.haste else 0
+        mind.hasty = 1 if mind.haste > 0.0 and uniform(mind) < mind.haste and is_opposed(obs) else 0
     mind.held = mind.held + PERIOD if obs.held == 1 else 0
+
+
+@kernel
+def is_opposed(obs: Observation) -> bool:
+    """True with an opponent on the pitch: without one nobody is in a hurry."""
+    opponents = 0
+    for i in range(3):
+        opponents += 1 if obs.others[i].present and not obs.others[i].mate else 0
+    return opponents > 0
 
 
 @kernel

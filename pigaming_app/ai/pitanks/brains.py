@@ -1,10 +1,10 @@
-"""The AIs of PiTanks by name: by hand, from tables, from a network. The five levels: one network with handicaps.
+"""The AIs of PiTanks by name: by hand, from tables, from networks. The five levels: one network with handicaps.
 
 The levels are set against models of people (`ai/people`). All see others late and beside where they are, and go for one
 opponent after the other, so that they hunt nobody; weaker ones save more shots, and the weakest drive more slowly than
 people. Shooting less rather than driving slowly is what makes a level easy without making it prey for whoever stands
-and holds FIRE. No level skips decisions, which would look like a machine that hangs. The network alone is `net`: no
-person beats it.
+and holds FIRE. No level skips decisions, which would look like a machine that hangs. `net` is another network, which
+continued that one against itself: no person beats it, and a network that has studied it hardly does.
 """
 
 from pigaming_app.ai.game_ai import LEVELS as NAMES
@@ -13,7 +13,7 @@ from pigaming_app.ai.networks.files import shipped_brain
 from pigaming_app.ai.pitanks import classic, fsm, gunner
 from pigaming_app.ai.qlearning import table_files
 
-NETWORK = "pitanks"  # file in assets/brains
+NETWORK, CHAMPION = "pitanks", "champion"  # files in assets/brains: of the levels, and of `net`
 TURNS = 6.0  # s
 HANDICAPS = tuple(
     {"delay": 0.4, "error": 0.3, "thrift": thrift, "speed": speed, "reluctance": reluctance, "turns": TURNS}
@@ -36,7 +36,7 @@ LEVELS = tuple(
     shipped_brain(f"level{number}", "pitanks", NETWORK, handicap=handicap)
     for number, handicap in enumerate(HANDICAPS, start=1)
 )
-NET = shipped_brain("net", "pitanks", NETWORK)
+NET = shipped_brain("net", "pitanks", CHAMPION, handicap={"sharpness": 3.0})
 
 AI = GameAI(
     {

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from pigaming_app.ai.networks.encoding import Encoding
 from pigaming_app.ai.networks.policy import HIDDEN
 from pigaming_app.ai.ppo.learner import STANDARD, Hyper
+from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.arenas import shipped_arenas
 from pigaming_app.games.registry import games
 from pigaming_app.games.simple import MatchState
@@ -99,9 +100,11 @@ class Task:
     def against(self, rival: str, variant: str) -> "Task":
         """The same task against one brain only, by one set of rules: what it takes to beat that one.
 
-        Two against two where there are two teams, else duels, on the arenas of the game.
+        Two against two where there are two teams, else duels, on the arenas of the game. Measured as sharp as a network
+        that is the rival. Raises ChoiceError.
         """
-        line_up, game = versus(self.game, rival, variant), self.game
+        line_up, game, kind = versus(self.game, rival, variant), self.game, find_brain(self.game, rival)
+        kind.begin(mind := kind.mind(), 0)
         return replace(
             self,
             arenas=tuple(shipped_arenas(game)),
@@ -110,6 +113,7 @@ class Task:
             rivals=(rival,),
             habits=no_habits,
             pairs=OFF not in line_up.seats,
+            sharpness=getattr(mind, "sharpness", self.sharpness),
         )
 
     def populated(self) -> "Task":

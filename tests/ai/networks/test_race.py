@@ -100,7 +100,7 @@ def test_a_bad_day_is_slower_by_no_more_than_the_form():
 @pytest.mark.parametrize(
     ("game", "file"),
     [
-        ("pitanks", "assets/brains/pitanks.npz"),
+        ("pitanks", "assets/brains/champion.npz"),
         ("race", "assets/brains/race.npz"),
         ("football", "pigaming_football/brains/football.npz"),
     ],

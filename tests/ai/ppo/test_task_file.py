@@ -76,6 +76,14 @@ def test_a_shipped_file_says_what_its_network_says_of_its_training(game):
     check_names(TASKS[game])
 
 
+def test_the_champion_learned_by_its_file_from_the_network_of_the_levels():
+    task = read_task(BRAINS / "champion.task.toml", TASKS["pitanks"])
+    assert recorded_task(BRAINS / "champion.npz") == text_of(file_of(task))
+    with np.load(BRAINS / "champion.npz") as parts:
+        head = json.loads(str(parts["head"]))
+    assert (head["recipe"]["start"], head["updates"]) == ("pitanks", task.length.updates)
+
+
 def told(line_up):
     """A line-up as those recipes have it."""
     teams = ["teams", *map(str, line_up.teams)] if line_up.teams else []

@@ -125,7 +125,7 @@ def begun(monkeypatch, module):
 
 
 def test_what_continues_a_network_begins_with_its_weights_and_values_them_before_it_changes_them():
-    shipped = decode((BRAINS / "pitanks.npz").read_bytes(), "pitanks.npz")
+    shipped = decode((BRAINS / "champion.npz").read_bytes(), "champion.npz")
     training = Training(TASK, 5, 4, replace(TINY, held=2), start=start_of("pitanks", "net"))
     values = training.learner.value.weights[0].copy()
     trained(2, training=training)

@@ -140,7 +140,6 @@ def _task(options: PpoOptions) -> Task:
         task = read_task(options.task, task)
     if options.against is None:
         return task.populated() if options.population else task
-    find_brain(options.game, options.against)
     variant = options.variant or games()[options.game].default.name
     require_one_of("variant", variant, list(games()[options.game].variants))
     return task.against(options.against, variant)
