@@ -82,10 +82,10 @@ def test_a_pallet_makes_three_steps_from_its_entry_to_its_exit():
 @pytest.mark.skipif(not can_compile(), reason="numba is not installed")
 def test_a_minute_of_training_beats_the_third_level():
     with ThreadPoolExecutor(2) as threads:
-        training = Training(replace(TASKS["factory"], rivals=("level3",)), 1, 60)
-        (before,) = training.measure(20, threads).values()
+        training = Training(replace(TASKS["factory"], rivals=("level3",)), 1, 300)
+        (before,) = training.measure(10, threads).values()
         for _ in range(60):
             training.update(in_threads(training, threads), threads)
-        (after,) = training.measure(40, threads).values()
+        (after,) = training.measure(20, threads).values()
     assert before.share < 0.1
     assert after.interval[0] > 0.5
