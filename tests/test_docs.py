@@ -309,8 +309,9 @@ def test_models_on_the_page_have_the_shapes_of_the_games():
 
 
 def test_the_page_on_networks_has_the_hyper_parameters():
-    (body,) = [body for head, body in tables(NETWORKS_PAGE) if head[:3] == ["name", "PiTanks", "Robot Race"]]
-    for place, game in enumerate(("pitanks", "race"), start=1):
+    wanted = ["name", "PiTanks", "Robot Race", "Robot Factory"]
+    (body,) = [body for head, body in tables(NETWORKS_PAGE) if head[:4] == wanted]
+    for place, game in enumerate(("pitanks", "race", "factory"), start=1):
         for row in body:
             shown = row[1] if row[place] == "the same" else row[place]
             for name, number in zip(re.split(", | to ", row[0]), re.split(", | to ", shown), strict=True):

@@ -3,21 +3,12 @@
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.ai.tallies import Tallies, sign
-from pigaming_app.games.factory.state import (
-    DAMAGED,
-    DELIVERED,
-    IN_MACHINE,
-    IN_SLOT,
-    INPUT,
-    ON_ROBOT,
-    PALLETS,
-    RAW,
-)
+from pigaming_app.ai.networks.factory_progress import lead_of_team, progress_of_pallets, success
+from pigaming_app.ai.tallies import Tallies
 from pigaming_app.gym.buttons import has_turbo
 from pigaming_app.sim.grid import node_at
 from pigaming_app.sim.kernel import kernel
-from pigaming_app.sim.world import CELL, ROBOTS
+from pigaming_app.sim.world import CELL
 
 
 @kernel
@@ -29,34 +20,8 @@ def tally_factory(match: Any, seat: int, senses: Any, totals: Any) -> None:
     """
     load, team = match.loads[seat], match.robots[seat].team
     totals[0], totals[1], totals[2], totals[3] = load.steps, load.delivered, load.spoiled, load.hits
-    ahead = match.delivered[team] - match.delivered[1 - team]
-    if match.rules.party:
-        ahead = match.points[team] - match.points[1 - team]
-    totals[4], totals[5] = ahead, 0.0
+    totals[4], totals[5] = lead_of_team(match, team), success(match, team) if match.over else 0.0
     totals[6], totals[7] = progress_of_pallets(match, team), -length_of_errand(match, seat, senses) / 1000.0
-    if match.over and match.rules.allies:
-        totals[5] = match.stars / 3.0 if match.stars else -1.0
-    elif match.over:
-        totals[5] = sign(ahead if ahead or match.rules.party else more_work(match, team))
-
-
-@kernel
-def progress_of_pallets(match: Any, team: int) -> float:
-    """Steps of a team's pallets, with fractions for those lifted and those put into a machine that fits."""
-    total: float = 3.0 * match.delivered[team]
-    for p in range(PALLETS):
-        pallet = match.pallets[p]
-        if not pallet.exists or pallet.team != team or pallet.state == DELIVERED:
-            continue
-        if pallet.state == DAMAGED:
-            total -= 0.5
-            continue
-        total += pallet.state - RAW
-        if pallet.place == ON_ROBOT:
-            total += 0.25
-        elif pallet.place == IN_MACHINE or (pallet.place == IN_SLOT and match.slots[pallet.at].kind == INPUT):
-            total += 0.5
-    return total
 
 
 @kernel
@@ -70,18 +35,6 @@ def length_of_errand(match: Any, seat: int, senses: Any) -> float:
         return CELL * float(steps)
     dx, dy = route.goal_x - me.x, route.goal_y - me.y
     return sqrt(dx * dx + dy * dy)
-
-
-@kernel
-def more_work(match: Any, team: int) -> int:
-    """Steps of work of a team less those of the other; 0 if either has delivered everything."""
-    if match.winner or match.delivered[team] == match.rules.pallets:
-        return 0
-    more = 0
-    for j in range(ROBOTS):
-        if match.robots[j].present:
-            more += match.loads[j].steps if match.robots[j].team == team else -match.loads[j].steps
-    return more
 
 
 @kernel

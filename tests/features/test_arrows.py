@@ -20,6 +20,7 @@ ALLOWED = {
     ("editor", "race"): "its tools for this game",
     ("brain", "race"): "its explanations of this game",
     ("learning", "race"): "its task in this game",
+    ("learning", "factory"): "its task in this game",
     ("balance", "race"): "tricks in this game",
     ("balance", "learning"): "its compiled loops",
     ("balance", "factory"): "tricks in this game",

@@ -79,6 +79,7 @@ LIMITS: dict[str, dict[str, object]] = {  # of parsed arguments, by the end of t
         "variants": "party",
     },
     "tests.bench.network_football": {"matches": 1},
+    "tests.bench.ppo_profile": {"updates": 1},
 }
 MAY_MISS = r".*tests\.bench\..*"  # commands that end with 1 if a limit is missed, as few short matches may
 
@@ -128,6 +129,7 @@ ELSEWHERE = (
     Elsewhere(r".*tests\.pages\.lessons .*", "it writes into the project", "tests/pages/test_lessons.py"),
     Elsewhere(r".*tests\.constraints", "it needs uv, and writes into the project", "tests/boot/test_main.py"),
     Elsewhere(r"python3 examples/ppo_torch\.py .*", "it needs PyTorch", "examples/ppo_torch.py"),
+    Elsewhere(r"python3 examples/torchrl_ppo\.py .*", "it needs TorchRL", "tests/gym/test_torchrl.py"),
     Elsewhere(r"(pip|pipx|uvx|uv|.*-m pip) .*", "packages are fetched", "tests/test_package.py"),
     Elsewhere(r".*-m venv .*|.*jupyter .*", "Jupyter is fetched, and opens a browser", "tests/pages/test_lessons.py"),
     Elsewhere(r"sudo .*", "packages of the system", ".ci/run"),

@@ -119,8 +119,9 @@ def test_the_file_in_a_network_makes_the_same_bits_again(kind, tmp_path, monkeyp
         assert not all(changed)
 
 
-@pytest.mark.parametrize("game", WEIGHTS)
+@pytest.mark.parametrize("game", ["factory", *WEIGHTS])
 def test_a_file_is_written_as_it_is_read(game):
+    check_names(TASKS[game])
     file = file_of(TASKS[game])
     assert parse_task_file(text_of(file)) == file
     assert vars(with_file(TASKS[game], file)) == vars(TASKS[game])

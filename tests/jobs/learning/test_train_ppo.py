@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.networks.files import BRAINS, decode
+from pigaming_app.ai.ppo.registry import TASKS
 from pigaming_app.ai.ppo.task_file import parse_task_file
 from pigaming_app.ai.ppo.training import Training
 from pigaming_app.jobs.cli import main
@@ -88,7 +89,6 @@ def test_a_best_response_begins_with_the_weights_of_the_network_and_its_curve_is
     [
         (["nobody"], "no brain 'nobody'"),
         (["net", "--variant", "chess"], "no variant 'chess'"),
-        (["net", "--game", "factory"], "learns pitanks, race, football only"),
         (["net", "--game", "chess"], "no game 'chess'"),
         (["none.npz"], "none.npz: cannot be read"),
         (["FILE.npz"], "FILE.npz: neither a network nor"),
@@ -171,7 +171,6 @@ def test_a_full_disk_leaves_the_network_and_the_checkpoint_before(tmp_path, caps
         (["--decisions", "1000"], "--decisions"),
         (["--out", "nowhere/a.npz"], "no such folder"),
         (["nonsense"], "no game 'nonsense'"),
-        (["factory"], "learns pitanks, race, football only"),
         (["--resume"], "a.checkpoint.npz: cannot be read"),
         ([*SET, "--resume", "--out", "foreign.npz"], "foreign.checkpoint.npz: not a checkpoint"),
     ],
@@ -183,6 +182,12 @@ def test_a_wrong_option_is_one_line_and_exit_code_2(tmp_path, refused, monkeypat
     length = [] if "--minutes" in more and "nan" in more else ["--updates", "1"]
     assert word in refused("train", "ppo", *length, "--out", "a.npz", *more)
     assert not (tmp_path / "a.npz").exists()
+
+
+def test_a_game_that_has_no_encoding_is_refused_with_those_that_learn(tmp_path, refused, monkeypatch):
+    monkeypatch.delitem(TASKS, "race")
+    for job in (["train", "ppo", "race"], ["exploit", "hand3", "--game", "race"]):
+        assert "learns pitanks, factory, football only, not race" in refused(*job, "--out", str(tmp_path / "a.npz"))
 
 
 def test_without_numba_it_names_the_extra(tmp_path, refused, monkeypatch):
