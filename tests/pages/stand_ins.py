@@ -124,7 +124,7 @@ ELSEWHERE = (
     Elsewhere(r".*tests\.pages\.pictures", "it writes into the project", "tests/pages/test_pictures.py"),
     Elsewhere(r".*tests\.pages\.lessons .*", "it writes into the project", "tests/pages/test_lessons.py"),
     Elsewhere(r".*tests\.constraints", "it needs uv, and writes into the project", "tests/boot/test_main.py"),
-    Elsewhere(r"python3 examples/ppo_torch\.py .*", "it needs PyTorch", "examples/ppo_torch.py"),
+    Elsewhere(r"python3 examples/\w+\.py .*", "most need PyTorch", "examples/benchmark_baselines.py"),
     Elsewhere(r"(pip|pipx|uvx|uv|.*-m pip) .*", "packages are fetched", "tests/test_package.py"),
     Elsewhere(r".*-m venv .*|.*jupyter .*", "Jupyter is fetched, and opens a browser", "tests/pages/test_lessons.py"),
     Elsewhere(r"sudo .*", "packages of the system", ".ci/run"),

@@ -181,19 +181,22 @@ def _evaluated(task: str, folder: Path, agent: str, note: Note) -> dict[str, Any
 
 
 def by_budget(results: BenchmarkResults) -> dict[int | None, tuple[float, float, float, int]]:
-    """Mean score, its interval and the number of runs, by the budget that each fits; None: by none, or not known.
+    """Mean score, its 95 % interval and the number of runs, by the budget that each fits; None: by none, or not known.
 
-    The interval is that of Student's t over the runs, 95 %: how much trainings with other seeds would differ. A
-    single run has none, so its own score is both ends.
+    The interval is that of Student's t over the runs: how much trainings with other seeds would differ. Of a single run
+    it is Wilson's over its matches.
     """
-    groups: dict[int | None, list[float]] = {}
+    groups: dict[int | None, list[BenchmarkRun]] = {}
     for run in results.runs:
         fits = [budget for budget in BUDGETS if run.decisions is not None and run.decisions <= budget]
-        groups.setdefault(fits[0] if fits else None, []).append(run.score)
-    return {budget: (*_interval(scores), len(scores)) for budget, scores in groups.items()}
+        groups.setdefault(fits[0] if fits else None, []).append(run)
+    return {budget: (*_interval(results.task, runs), len(runs)) for budget, runs in groups.items()}
 
 
-def _interval(scores: Sequence[float]) -> tuple[float, float, float]:
-    middle, count = mean(scores), len(scores)
-    width = STUDENT[min(count - 1, len(STUDENT)) - 1] * stdev(scores) / count**0.5 if count > 1 else 0.0
+def _interval(task: str, runs: Sequence[BenchmarkRun]) -> tuple[float, float, float]:
+    scores = [run.score for run in runs]
+    if len(runs) == 1:
+        return scores[0], *wilson(*score_of(TASKS[task], runs[0].conditions))
+    middle, freedom = mean(scores), len(runs) - 1
+    width = STUDENT[min(freedom, len(STUDENT)) - 1] * stdev(scores) / len(runs) ** 0.5
     return middle, max(0.0, middle - width), min(1.0, middle + width)

@@ -66,9 +66,8 @@ def _summary(results: BenchmarkResults) -> Iterator[str]:
     """A line for each budget."""
     for budget, (score, low, high, count) in by_budget(results).items():
         within = f"{budget:,} decisions" if budget else "any number of decisions"
-        spread = f" (95 % by seed: {low:.1%} to {high:.1%})" if count > 1 else ""
-        noun = "runs" if count > 1 else "run"
-        yield f"{results.task}, {results.method}, {within}: {score:.1%}{spread}, {count} {noun}"
+        count_of = f"{count} {'runs' if count > 1 else 'run'}"
+        yield f"{results.task}, {results.method}, {within}: {score:.1%} (95 %: {low:.1%} to {high:.1%}), {count_of}"
 
 
 def _note(line: str) -> None:

@@ -61,6 +61,7 @@ def test_its_matches_are_those_of_the_arcade(robot, tmp_path, monkeypatch):
 
 
 @pytest.mark.long
+@pytest.mark.again  # both bodies: test_every_game.py
 @pytest.mark.parametrize("name", ["pitanks-partner", "pitanks-robots", "race-duel"])
 def test_both_bodies_play_the_same(name, monkeypatch):
     task = replace(TASKS[name], minutes=0.2)
