@@ -51,10 +51,7 @@ def score_of(task: BenchmarkTask, ends: Mapping[str, MatchCounts]) -> tuple[floa
 
 
 def evaluate(task: BenchmarkTask, agent: str, rival: str = "", matches: int = MATCHES) -> dict[str, MatchCounts]:
-    """Play the matches of a task, by condition. `agent`, `rival`: names or paths of brains.
-
-    Raises ChoiceError for unknown brains, ArenaError for arenas of the user in place of ours.
-    """
+    """Play the matches of a task, by condition. `agent`, `rival`: names or paths of brains. Raises ChoiceError."""
     chosen = {AGENT: agent, RIVAL: rival}
     names = {name: chosen.get(name, name) for one in task.conditions.values() for name in one.seats}
     kinds = {name: find_brain(task.game, brain) for name, brain in names.items()}

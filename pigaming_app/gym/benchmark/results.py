@@ -25,7 +25,6 @@ from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.gym.benchmark.protocol import Digest, MatchCounts, evaluate, score_of
 from pigaming_app.gym.benchmark.tasks import BUDGETS, FORMAT, PARTNERS, RIVAL, RIVAL_DECISIONS, RIVAL_SEED, TASKS
-from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage.parsing import ParseError, describe_error, quote, read_text
 from pigaming_app.storage.schema import Count, Line, Share, from_json, to_plain
 
@@ -172,7 +171,7 @@ def _evaluated(task: str, folder: Path, agent: str, note: Note) -> dict[str, Any
     """Play the matches of an agent: the last fields of its run. Raises ResultsError."""
     try:
         ends = evaluate(TASKS[task], _brain(folder, agent), _rival(task, folder, agent))
-    except (ChoiceError, ArenaError) as error:
+    except ChoiceError as error:
         raise ResultsError(str(error)) from None
     points, matches = score_of(TASKS[task], ends)
     low, high = wilson(points, matches)
