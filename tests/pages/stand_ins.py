@@ -124,6 +124,11 @@ ELSEWHERE = (
     Elsewhere(r".*tests\.pages\.pictures", "it writes into the project", "tests/pages/test_pictures.py"),
     Elsewhere(r".*tests\.pages\.lessons .*", "it writes into the project", "tests/pages/test_lessons.py"),
     Elsewhere(r".*tests\.constraints", "it needs uv, and writes into the project", "tests/boot/test_main.py"),
+    Elsewhere(
+        r".*(exploit ppo-1|docs/benchmark/ppo\.task).*",
+        "a training to compile",
+        "tests/gym/benchmark/test_baselines.py",
+    ),
     Elsewhere(r"python3 examples/\w+\.py .*", "most need PyTorch", "examples/benchmark_baselines.py"),
     Elsewhere(r"(pip|pipx|uvx|uv|.*-m pip) .*", "packages are fetched", "tests/test_package.py"),
     Elsewhere(r".*-m venv .*|.*jupyter .*", "Jupyter is fetched, and opens a browser", "tests/pages/test_lessons.py"),

@@ -12,9 +12,11 @@ from statistics import mean
 
 import pytest
 
+from pigaming_app.ai.ppo.registry import TASKS as TRAININGS
+from pigaming_app.ai.ppo.task_file import read_task
 from pigaming_app.gym.benchmark import results as room
 from pigaming_app.gym.benchmark.results import BenchmarkResults, by_budget, verify
-from pigaming_app.gym.benchmark.tasks import FORMAT, TASKS
+from pigaming_app.gym.benchmark.tasks import FORMAT, PARTNERS, SHIPPED, TASKS
 from pigaming_app.storage.schema import from_json
 
 DOCS = Path(__file__).resolve().parents[3] / "docs"
@@ -53,6 +55,12 @@ def test_agents_lie_beside_their_results_and_are_small() -> None:
             raw = (path.parent / run.agent).read_bytes()
             assert hashlib.sha256(raw).hexdigest() == run.sha256
             assert len(raw) <= 25_000
+
+
+def test_the_baseline_learns_by_what_the_protocol_permits() -> None:
+    task = read_task(DOCS / "benchmark" / "ppo.task.toml", TRAININGS["pitanks"])
+    assert {*task.arenas} == {*SHIPPED["pitanks"]}
+    assert not {*PARTNERS} & {name for one in task.line_ups for name in one.seats}
 
 
 @pytest.mark.long

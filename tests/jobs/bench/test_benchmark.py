@@ -27,7 +27,7 @@ def test_results_are_written_and_verified(tmp_path, capsys):
     out = tmp_path / "mine.json"
     assert main(["bench", "pitanks-duel", "level3", "--method", "by hand", "--out", str(out)]) == 0
     printed = capsys.readouterr()
-    assert "pitanks-duel, by hand, any number of decisions: 65.0% (95 %: 60.7% to 69.0%), 1 run" in printed.out
+    assert "pitanks-duel, by hand, any number of decisions: 65.0% (95 %: 60.7% to 69.1%), 1 run" in printed.out
     assert main(["bench", "verify", str(out)]) == 0
     assert "mine.json: every number is as it was" in capsys.readouterr().out
     out.write_text(out.read_text().replace("0.65", "0.75"))
