@@ -1,7 +1,7 @@
 """Proximal policy optimisation in PyTorch, in one file in the style of CleanRL, on thousands of matches at once.
 
     pip install '.[gym,train]' torch
-    python3 examples/ppo_torch.py --env PiTanks-v0 --minutes 5 --opponents level3
+    python3 examples/ppo_torch.py --env PiTanks-v0 --decisions 10000000 --opponents level3
 
 It prints the share of matches won lately. RobotRace-v0 and RobotFactory-v0 learn likewise. With `pip install onnx`,
 --out agent.onnx writes a player for the arcade: python3 main.py play pitanks --seats human,agent.onnx
@@ -59,20 +59,22 @@ def advantages(rewards: Any, values: Any, ends: Any) -> Any:
     return found
 
 
-def train(env: str, opponents: list[str], minutes: float, num_envs: int, seed: int) -> Agent:
-    """Train an agent; prints its progress."""
+def train(
+    env: str, opponents: list[str], decisions: int, num_envs: int, seed: int, **options: Any
+) -> tuple[Agent, int]:
+    """An agent and the decisions that it learned from, at most `decisions`; prints its progress."""
     torch.manual_seed(seed)
     torch.set_num_threads(1)  # the layers are too small to be shared out
-    envs = gymnasium.make_vec(env, num_envs=num_envs, opponents=opponents)
+    envs = gymnasium.make_vec(env, num_envs=num_envs, opponents=opponents, **options)
     (size,), choices = envs.single_observation_space.shape, envs.single_action_space.nvec.tolist()
     agent = Agent(size, choices)
     adam = torch.optim.Adam(agent.parameters(), RATE, eps=1e-5)
     seen, actions = torch.zeros(STEPS + 1, num_envs, size), torch.zeros(STEPS, num_envs, len(choices), dtype=torch.long)
     odds, rewards, ends, played = (torch.zeros(STEPS, num_envs) for _ in range(4))
     seen[STEPS] = torch.from_numpy(envs.reset(seed=seed)[0])
-    ended, results, began, decisions = np.zeros(num_envs, bool), deque(maxlen=1000), time.time(), 0
-    while (share := (time.time() - began) / (60.0 * minutes)) < 1.0:
-        adam.param_groups[0]["lr"] = RATE * (1.0 - 0.9 * share)
+    ended, results, began, used = np.zeros(num_envs, bool), deque(maxlen=1000), time.time(), 0
+    while used + STEPS * num_envs <= decisions:
+        adam.param_groups[0]["lr"] = RATE * (1.0 - 0.9 * used / decisions)
         seen[0] = seen[STEPS]
         for t in range(STEPS):
             with torch.no_grad():
@@ -88,7 +90,7 @@ def train(env: str, opponents: list[str], minutes: float, num_envs: int, seed: i
         gains = advantages(rewards, values, ends)
         scaled, returns = (gains - gains.mean()) / (gains.std() + 1e-8), gains + values[:-1]
         chosen = played.flatten().nonzero().squeeze(-1)
-        decisions += len(chosen)
+        used += len(chosen)
         flat = [x.flatten(0, 1) for x in (seen[:-1], actions, odds, scaled, returns)]
         for _ in range(EPOCHS):
             for rows in chosen[torch.randperm(len(chosen))].split(MINIBATCH):
@@ -103,17 +105,17 @@ def train(env: str, opponents: list[str], minutes: float, num_envs: int, seed: i
                 nn.utils.clip_grad_norm_(agent.parameters(), STEEPEST)
                 adam.step()
         won = np.mean(np.array(results or [np.nan]) > 0.0)
-        print(f"{time.time() - began:5.0f} s, {decisions:>10,} decisions, reward {rewards.mean():.4f}, won {won:.0%}")
-    return agent
+        print(f"{time.time() - began:5.0f} s, {used:>10,} decisions, reward {rewards.mean():.4f}, won {won:.0%}")
+    return agent, used
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    for name, default in {"env": "PiTanks-v0", "minutes": 5.0, "num-envs": 256, "seed": 1, "out": ""}.items():
+    for name, default in {"env": "PiTanks-v0", "decisions": 10_000_000, "num-envs": 256, "seed": 1, "out": ""}.items():
         parser.add_argument(f"--{name}", default=default, type=type(default))
     parser.add_argument("--opponents", default=["level3"], nargs="*")
     words = vars(parser.parse_args())
     out = words.pop("out")
-    agent = train(**words)
+    agent, _ = train(**words)
     if out:
         torch.onnx.export(agent.policy, (torch.zeros(1, agent.policy[0].in_features),), out, dynamo=False)

@@ -13,6 +13,7 @@ from gymnasium.spaces import Box, MultiDiscrete
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.networks.encoding import PERIOD
 from pigaming_app.ai.networks.registry import ENCODINGS
+from pigaming_app.ai.ppo.task_file import require_trainable
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import ALLIES, Setup
@@ -147,8 +148,9 @@ def arenas_of(game: str, arena: str | Sequence[str] | None) -> tuple[str, ...]:
         raise OptionError("arena: none is named")
     try:
         for name in names:
+            require_trainable(name)
             load(game, name)
-    except ArenaError as error:
+    except (ArenaError, ChoiceError) as error:
         raise OptionError(str(error)) from None
     return names
 

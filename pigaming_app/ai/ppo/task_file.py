@@ -36,6 +36,7 @@ from pigaming_app.storage.schema import Line, Share, between, one_of, typed
 SUFFIX = ".task.toml"
 UNIFORM, PRIORITISED = "uniform", "pfsp"  # how members of the pool are drawn
 MOST_SURPRISES, MOST_RIVALS = 1_000, 5  # each rival has columns in the curve of a network's file
+HELD_BACK = 900_000_000  # arenas from this seed on are for measurements only
 
 Names = Annotated[tuple[Line, ...], Meta(min_length=1, max_length=1_000)]
 Minutes = Annotated[float, between(0.05, 60.0)]
@@ -226,12 +227,21 @@ def check_names(task: Task) -> None:
             try:
                 if noun == "arena" and not (rules.surprise and SURPRISE.fullmatch(name)):
                     require_one_of(noun, name, own)
+                elif noun == "arena":
+                    require_trainable(name)
                 elif noun == "variant":
                     require_one_of(noun, name, [*rules.variants])
                 elif noun == "brain":
                     find_brain(task.game, name)
             except ChoiceError as error:
                 raise ChoiceError(f"{key}: {error}") from None
+
+
+def require_trainable(arena: str) -> None:
+    """Raises ChoiceError for the name of a made arena that is held back, so that networks can be measured on it."""
+    made = SURPRISE.fullmatch(arena)
+    if made and int(made[1]) >= HELD_BACK:
+        raise ChoiceError(f"{arena} is held back for measurements; trainings have those below {HELD_BACK}")
 
 
 def _named(task: Task) -> Iterator[tuple[str, str, tuple[str, ...]]]:

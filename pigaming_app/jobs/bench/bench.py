@@ -1,16 +1,18 @@
-"""Performance on this machine: the simulator, frames, start and memory; `phones` as pads; or `robots`, the proof of
-the robot loop.
+"""Performance on this machine: the simulator, frames, start and memory; `phones` as pads; `robots`, the proof of the
+robot loop. Or that of agents: `tasks` lists those of PiGaming-Bench, TASK AGENT … evaluates, `verify FILE` replays.
 """
 
 import json
 import sys
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-from pigaming_app.jobs.terminal.options import DEFAULT_GAME, JsonOption, argument, flag, games_and, option
-from pigaming_app.jobs.terminal.refusal import Refusal, missing, refused, require
+from pigaming_app.jobs.terminal.options import DEFAULT_GAME, JsonOption, argument, flag, games_and, option, path
+from pigaming_app.jobs.terminal.refusal import Refusal, missing, module_of, refused, require
 
 ROBOTS, PHONES = "robots", "phones"
+TASKS, VERIFY = "tasks", "verify"  # of PiGaming-Bench; names of its tasks have a hyphen
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,16 +20,26 @@ class BenchOptions(JsonOption):
     """What to measure."""
 
     game: str = argument(
-        games_and(ROBOTS, PHONES, default=DEFAULT_GAME), default=DEFAULT_GAME, nargs="?", metavar="GAME"
+        games_and(ROBOTS, PHONES, TASKS, VERIFY, "TASK", default=DEFAULT_GAME),
+        default=DEFAULT_GAME,
+        nargs="?",
+        metavar="GAME",
+    )
+    agents: tuple[str, ...] = argument(
+        "TASK: the agents; verify: the file of results", default=(), nargs="*", metavar="AGENT"
     )
     arcade: bool = flag("robots: only the failures of a whole arcade")
     variant: str | None = option("set of rules; default: the game's first")
+    method: str = option("TASK: how the agents learned, in a few words", default="", metavar="TEXT")
+    out: Path | None = option("TASK: the file of results (JSON), beside the agents", path, metavar="FILE")
 
 
 def run(options: BenchOptions) -> int:
     """Measure and print the figures. Raises Refusal."""
     if options.arcade and options.game != ROBOTS:
         raise Refusal("--arcade: only for robots")
+    if options.game in (TASKS, VERIFY) or "-" in options.game or options.agents:
+        return _benchmark(options)
     special = {ROBOTS: lambda: _robots(options.arcade), PHONES: _phones}
     figures = special.get(options.game, lambda: _game(options.game, options.variant))()
     if options.json:
@@ -37,6 +49,17 @@ def run(options: BenchOptions) -> int:
         if options.game != PHONES and (lacks := missing("bench")):
             print(lacks)
     return 0
+
+
+def _benchmark(options: BenchOptions) -> int:
+    """PiGaming-Bench. Raises Refusal."""
+    with refused(ImportError):
+        benchmark = module_of("bench.benchmark", "PiGaming-Bench")
+    if options.game == TASKS:
+        return int(benchmark.list_tasks(options.json))
+    if options.game == VERIFY:
+        return int(benchmark.check(options.agents, options.json))
+    return int(benchmark.evaluate(options.game, options.agents, options.method, options.out, options.json))
 
 
 def _game(game: str, variant: str | None) -> dict[str, Any]:

@@ -1,0 +1,191 @@
+"""Results that were changed by a single number, a network, a rival or another engine are refused in one line."""
+
+import json
+import random
+from dataclasses import replace
+
+import pytest
+
+from pigaming_app.ai.learning.league import wilson
+from pigaming_app.ai.networks.files import encode
+from pigaming_app.gym.benchmark import results
+from pigaming_app.gym.benchmark.protocol import MatchCounts
+from pigaming_app.gym.benchmark.results import ResultsError, by_budget, measured, text_of, verify
+from pigaming_app.gym.benchmark.tasks import RIVAL_DECISIONS
+from tests.ai.networks.random_network import random_network
+
+FREE = {"method", "version"}  # texts that no match decides
+
+
+@pytest.fixture
+def played(tmp_path, monkeypatch):
+    """A folder with results of two networks, whose matches are made up, but follow from agent, task and condition."""
+
+    def made_up(task, agent, rival=""):
+        ends = {}
+        for name in task.conditions:
+            dice = random.Random(f"{agent} {task.text} {name} {rival}")
+            wins, ties = dice.randrange(80), dice.randrange(20)
+            ends[name] = MatchCounts(wins, ties, 100 - wins - ties, f"{dice.getrandbits(256):064x}")
+        return ends
+
+    monkeypatch.setattr(results, "evaluate", made_up)
+    for name, seed in (("one", 1), ("two", 2)):
+        write(tmp_path, name, random_network(seed, name=name))
+    return tmp_path
+
+
+def write(folder, name, network):
+    (folder / f"{name}.npz").write_bytes(encode(network))
+
+
+def filed(folder, task="pitanks-duel", agents=("one.npz", "two.npz")):
+    """The file of results, and its content."""
+    path = folder / "results.json"
+    path.write_text(text_of(measured(task, folder, agents, "a method", print)))
+    return path, json.loads(path.read_text())
+
+
+def leaves(node, place=()):
+    """All places of numbers, texts and nothings."""
+    if isinstance(node, dict | list):
+        for key, value in node.items() if isinstance(node, dict) else enumerate(node):
+            yield from leaves(value, (*place, key))
+    else:
+        yield place, node
+
+
+def another(dice, value):
+    """A value of the same kind, mostly near by."""
+    match value:
+        case str() if len(value) == 64:
+            k = dice.randrange(64)
+            return f"{value[:k]}{'0' if value[k] != '0' else '1'}{value[k + 1 :]}"
+        case str():
+            return dice.choice(["net", "two.npz", "pitanks-arenas", "level5", value + "x", "", "../one.npz"])
+        case int():
+            return value + dice.choice([1, -1, 100, -value, 10**9])
+        case float():
+            return round(dice.choice([value + 1e-6, 1.0, 0.0, value * 1.1]), 6)
+        case _:
+            return dice.choice([0, 1, "a", "0" * 64])
+
+
+def test_results_verify_as_they_were_written(played):
+    path, content = filed(played)
+    assert verify(path, print) == measured("pitanks-duel", played, ["one.npz", "two.npz"], "a method", print)
+    assert [(run["seed"], run["decisions"]) for run in content["runs"]] == [(1, 1000), (2, 1000)]
+    ends = content["runs"][0]["conditions"]
+    assert content["runs"][0]["score"] == sum(one["wins"] + one["ties"] / 2 for one in ends.values()) / 500
+
+
+@pytest.mark.parametrize("tries", [40, pytest.param(3000, marks=[pytest.mark.long, pytest.mark.again])])
+def test_no_random_change_passes(played, tries):
+    """Whatever is changed, left out or doubled, but for the free texts, is refused in one line with its file."""
+    dice, tried = random.Random(3), 0
+    path, original = filed(played)
+    places = [place for place, _ in leaves(original) if place[-1] not in FREE]
+    while tried < tries:
+        content = json.loads(json.dumps(original))
+        *way, last = dice.choice(places)
+        node = content
+        for key in way:
+            node = node[key]
+        what = dice.random()
+        if what < 0.8:
+            node[last] = another(dice, node[last])
+        elif what < 0.9:
+            del node[last]
+        else:
+            content["runs"].append(dice.choice(content["runs"]))
+        if content == original or (last == "rival" and "rival" not in node):
+            continue
+        path.write_text(json.dumps(content))
+        with pytest.raises(ResultsError, match=r"^results.json: [^\n]+\Z"):
+            verify(path, print)
+        tried += 1
+
+
+def test_a_refusal_names_the_place(played):
+    path, content = filed(played)
+    ends = content["runs"][1]["conditions"]["level3"]
+    wins = ends["wins"]
+    ends["wins"] += 1
+    path.write_text(json.dumps(content))
+    with pytest.raises(ResultsError, match=rf"json: runs\[1\].conditions.level3.wins: {wins + 1}, but it is {wins}\Z"):
+        verify(path, print)
+    content["runs"][1]["conditions"]["level9"] = ends
+    path.write_text(json.dumps(content))
+    with pytest.raises(ResultsError, match=r"conditions.level9: nothing of that name is played"):
+        verify(path, print)
+
+
+def test_another_engine_is_refused_before_anything_is_played(played, monkeypatch):
+    path, _ = filed(played)
+    monkeypatch.setattr(results, "engine_hash", lambda *_: "f" * 64)
+    monkeypatch.delattr(results, "evaluate")
+    with pytest.raises(ResultsError, match=r"^results.json: engine: '.+', but it is 'ffff.+'\Z"):
+        verify(path, print)
+
+
+def test_another_network_is_refused(played):
+    path, _ = filed(played)
+    write(played, "two", replace(random_network(2, name="two"), decisions=999))
+    with pytest.raises(ResultsError, match=r"runs\[1\].sha256"):
+        verify(path, print)
+    (played / "two.npz").unlink()
+    with pytest.raises(ResultsError, match=r"results.json: two.npz: "):
+        verify(path, print)
+
+
+def test_a_rival_is_the_one_that_the_protocol_asks_for(played):
+    with pytest.raises(ResultsError, match=r"rival_one.npz: No such file"):
+        filed(played, "pitanks-exploit", ["one.npz"])
+    write(played, "rival_one", random_network(1, name="rival_one"))
+    with pytest.raises(ResultsError, match=r"train it by exploit one\.npz --decisions 1000000"):
+        filed(played, "pitanks-exploit", ["one.npz"])
+    write(played, "rival_one", replace(random_network(1, name="rival_one"), decisions=RIVAL_DECISIONS))
+    path, content = filed(played, "pitanks-exploit", ["one.npz"])
+    verify(path, print)
+    content["runs"][0]["rival"] = content["runs"][0]["sha256"]
+    path.write_text(json.dumps(content))
+    with pytest.raises(ResultsError, match=r"runs\[0\].rival"):
+        verify(path, print)
+
+
+def test_whom_a_network_trained_with_is_no_unknown_partner(played):
+    from pigaming_app.ai.ppo.registry import TASKS as TRAININGS
+    from pigaming_app.ai.ppo.task_file import file_of
+    from pigaming_app.ai.ppo.task_file import text_of as text_of_task
+
+    network = random_network(1, name="one")
+    by = text_of_task(file_of(TRAININGS["pitanks"]))
+    write(played, "one", replace(network, recipe={**network.recipe, "task": by}))
+    filed(played, "pitanks-duel", ["one.npz"])
+    with pytest.raises(ResultsError, match=r"one.npz: it was trained with classic, whom this task holds back"):
+        filed(played, "pitanks-partner", ["one.npz"])
+
+
+def test_an_ai_of_the_program_needs_no_file(played):
+    path, content = filed(played, agents=["level3"])
+    assert content["runs"][0]["sha256"] is content["runs"][0]["decisions"] is None
+    verify(path, print)
+    with pytest.raises(ResultsError, match="no brain 'level9'"):
+        filed(played, agents=["level9"])
+
+
+def test_scores_are_grouped_by_budget_with_an_interval_over_trainings(played):
+    """Student's t with two degrees of freedom: 4.303 standard errors."""
+    found = measured("pitanks-duel", played, ["one.npz", "two.npz", "level3"], "a method", print)
+    one, two, ai = found.runs
+    runs = (
+        replace(one, score=0.4),
+        replace(two, score=0.5),
+        replace(one, score=0.6),
+        replace(two, decisions=10**7 + 1),
+    )
+    spread = by_budget(replace(found, runs=(*runs, ai)))
+    assert spread[10**6][:3] == pytest.approx((0.5, 0.5 - 0.2484, 0.5 + 0.2484), abs=1e-4)
+    assert spread[10**6][3] == 3
+    assert spread[10**8] == (two.score, *wilson(500 * two.score, 500), 1)
+    assert spread[None][3] == 1
