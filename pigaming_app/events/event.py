@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from pigaming_app.events import standings
 from pigaming_app.events.formats.registry import KINDS
 from pigaming_app.events.journal import (
     Added,
@@ -85,17 +84,17 @@ class Event:
     @cached_property
     def standings(self) -> tuple[Standing, ...]:
         """The table, best first."""
-        return standings.standings(self.progress)
+        return standings(self.progress)
 
     @cached_property
     def part_standings(self) -> Mapping[str, tuple[Standing, ...]]:
         """The tables of the groups by their names, best first; none in most formats."""
-        return standings.part_standings(self.progress)
+        return part_standings(self.progress)
 
     @cached_property
     def team_standings(self) -> tuple[Standing, ...]:
         """The table of teams, best first; empty without teams. `entrant` is the team."""
-        return standings.team_standings(self.progress)
+        return team_standings(self.progress)
 
     @property
     def calls(self) -> dict[int, str]:
@@ -195,3 +194,37 @@ def check_event(spec: EventSpec) -> None:
     if spec.fill and not kind.fills:
         raise ValueError(f"AIs fill seats in {', '.join(form for form in Format if KINDS[form].fills)} only")
     kind.check(spec)
+
+
+def standings(progress: Progress) -> tuple[Standing, ...]:
+    """All entrants, best first; equal ones share a place and stand in the order of their seeding."""
+    return KINDS[progress.spec.format].table(progress.as_field())
+
+
+def part_standings(progress: Progress) -> Mapping[str, tuple[Standing, ...]]:
+    """The tables of groups, by their names; none in most formats."""
+    return KINDS[progress.spec.format].parts(progress.as_field())
+
+
+def team_standings(progress: Progress) -> tuple[Standing, ...]:
+    """All teams, best first, by the sum of the points, then of the wins, of their entrants; none without teams."""
+    rows = {row.entrant: row for row in standings(progress)}
+    members: dict[str, list[Standing]] = {}
+    for entrant in progress.entrants:
+        if entrant.team:
+            members.setdefault(entrant.team, []).append(rows[entrant.name])
+    points = {team: sum(row.points for row in team_rows) for team, team_rows in members.items()}
+    won = {team: sum(row.wins for row in team_rows) for team, team_rows in members.items()}
+    order = sorted(members, key=lambda team: (-points[team], -won[team]))
+    ranks = [(points[team], won[team]) for team in order]
+    return tuple(
+        Standing(
+            place=1 + ranks.index((points[team], won[team])),
+            entrant=team,
+            points=points[team],
+            wins=won[team],
+            played=sum(row.played for row in members[team]),
+            tie_breaks={"wins": float(won[team])},
+        )
+        for team in order
+    )
