@@ -84,17 +84,38 @@ class Event:
     @cached_property
     def standings(self) -> tuple[Standing, ...]:
         """The table, best first."""
-        return standings(self.progress)
+        return self.progress.kind.table(self.progress.as_field())
 
     @cached_property
     def part_standings(self) -> Mapping[str, tuple[Standing, ...]]:
         """The tables of the groups by their names, best first; none in most formats."""
-        return part_standings(self.progress)
+        return self.progress.kind.parts(self.progress.as_field())
 
     @cached_property
     def team_standings(self) -> tuple[Standing, ...]:
-        """The table of teams, best first; empty without teams. `entrant` is the team."""
-        return team_standings(self.progress)
+        """The table of teams, best first, by the sum of the points, then of the wins, of their entrants; empty without
+        teams. `entrant` is the team.
+        """
+        rows = {row.entrant: row for row in self.standings}
+        members: dict[str, list[Standing]] = {}
+        for entrant in self.entrants:
+            if entrant.team:
+                members.setdefault(entrant.team, []).append(rows[entrant.name])
+        points = {team: sum(row.points for row in team_rows) for team, team_rows in members.items()}
+        won = {team: sum(row.wins for row in team_rows) for team, team_rows in members.items()}
+        order = sorted(members, key=lambda team: (-points[team], -won[team]))
+        ranks = [(points[team], won[team]) for team in order]
+        return tuple(
+            Standing(
+                place=1 + ranks.index((points[team], won[team])),
+                entrant=team,
+                points=points[team],
+                wins=won[team],
+                played=sum(row.played for row in members[team]),
+                tie_breaks={"wins": float(won[team])},
+            )
+            for team in order
+        )
 
     @property
     def calls(self) -> dict[int, str]:
@@ -194,37 +215,3 @@ def check_event(spec: EventSpec) -> None:
     if spec.fill and not kind.fills:
         raise ValueError(f"AIs fill seats in {', '.join(form for form in Format if KINDS[form].fills)} only")
     kind.check(spec)
-
-
-def standings(progress: Progress) -> tuple[Standing, ...]:
-    """All entrants, best first; equal ones share a place and stand in the order of their seeding."""
-    return KINDS[progress.spec.format].table(progress.as_field())
-
-
-def part_standings(progress: Progress) -> Mapping[str, tuple[Standing, ...]]:
-    """The tables of groups, by their names; none in most formats."""
-    return KINDS[progress.spec.format].parts(progress.as_field())
-
-
-def team_standings(progress: Progress) -> tuple[Standing, ...]:
-    """All teams, best first, by the sum of the points, then of the wins, of their entrants; none without teams."""
-    rows = {row.entrant: row for row in standings(progress)}
-    members: dict[str, list[Standing]] = {}
-    for entrant in progress.entrants:
-        if entrant.team:
-            members.setdefault(entrant.team, []).append(rows[entrant.name])
-    points = {team: sum(row.points for row in team_rows) for team, team_rows in members.items()}
-    won = {team: sum(row.wins for row in team_rows) for team, team_rows in members.items()}
-    order = sorted(members, key=lambda team: (-points[team], -won[team]))
-    ranks = [(points[team], won[team]) for team in order]
-    return tuple(
-        Standing(
-            place=1 + ranks.index((points[team], won[team])),
-            entrant=team,
-            points=points[team],
-            wins=won[team],
-            played=sum(row.played for row in members[team]),
-            tie_breaks={"wins": float(won[team])},
-        )
-        for team in order
-    )
