@@ -21,7 +21,7 @@ from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.recordings import store
-from pigaming_app.scenes.recordings.highlights import KEPT, Highlights, highlights
+from pigaming_app.scenes.recordings.store import KEPT, Highlights, highlights
 from pigaming_app.scenes.results.high_scores import HighScores, high_score_tables
 from pigaming_app.scenes.start import run
 from pigaming_app.storage.scores import ScoreTable
