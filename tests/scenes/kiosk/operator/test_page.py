@@ -7,9 +7,16 @@ import pytest
 
 from pigaming_app.scenes.flow.access import HOLD, HOLD_WITHOUT_PIN
 from pigaming_app.scenes.kiosk import safe_start
-from pigaming_app.scenes.kiosk.operator.chart import OTHERS, bars_of, games_of, step_of
 from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
-from pigaming_app.scenes.kiosk.operator.figures_page import FOLDER, FiguresPage, _short
+from pigaming_app.scenes.kiosk.operator.figures_page import (
+    FOLDER,
+    OTHERS,
+    FiguresPage,
+    _short,
+    bars_of,
+    games_of,
+    step_of,
+)
 from pigaming_app.scenes.kiosk.operator.page import LIMITS, PIN, QUIET, ROWS, SAFE_START, OperatorPage
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.play.scene import MatchScene
