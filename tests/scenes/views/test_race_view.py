@@ -19,8 +19,8 @@ from pigaming_app.scenes.views.particles import MAX_PARTICLES
 from pigaming_app.scenes.views.race import ghost as ghosts
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import SETTLE, SHOWN_FROM
-from pigaming_app.scenes.views.race.gaps import figure
 from pigaming_app.scenes.views.race.ghost import Ghost, file_of, ghost_of, load_ghost
+from pigaming_app.scenes.views.race.hud import figure
 from pigaming_app.scenes.views.race.hud_cards import RaceCard, card_bits
 from pigaming_app.scenes.views.race.lines import sign_post
 from pigaming_app.scenes.views.race.track import edges
