@@ -156,8 +156,8 @@ class Highlights:
 
     def _saved(self) -> list[Replay]:
         """One saved replay, if there is any that plays out as recorded."""
-        paths = store.paths()
-        replay = store.load(secrets.choice(paths)) if paths else None
+        saved = paths()
+        replay = load(secrets.choice(saved)) if saved else None
         return [replay] if replay and not replay.other_engine else []
 
 

@@ -11,7 +11,7 @@ from pigaming_app.scenes.events.paper.sheet import PaperSheet, W
 def font_of_pygame(monkeypatch):
     """The one that is on every machine."""
     pygame.font.init()
-    monkeypatch.setattr(letters, "FACES", ("freesansbold",))
+    monkeypatch.setattr(sheet, "FACES", ("freesansbold",))
 
 
 def written(name: str) -> bytes:
