@@ -5,7 +5,7 @@ import numpy.typing as npt
 import pygame
 import pytest
 
-from pigaming_app.ui.music import AHEAD, SWELL, add
+from pigaming_app.ui.finale import AHEAD, SWELL, add
 
 RATE, SIZE = 1000, 6000  # of a small theme
 BEGINS, FULL = round(AHEAD * RATE), round((AHEAD + SWELL) * RATE)

@@ -7,7 +7,8 @@ import numpy as np
 import pygame
 import pytest
 
-from pigaming_app.ui.music import AHEAD, CHANNELS, RATE, Playing
+from pigaming_app.ui.finale import AHEAD
+from pigaming_app.ui.music import CHANNELS, RATE, Playing
 from pigaming_app.ui.sounds import FOLDER, Sounds
 
 
