@@ -42,6 +42,12 @@ from pigaming_app.storage.safe_files import require_writable
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.web import PORT
 
+if TYPE_CHECKING:
+    from pigaming_app.ai.learning.line_ups import LineUps
+
+WORTH_COMPILING = 600_000  # ticks: half a minute of plain matches, which compiling takes the first time
+BATCH = 32  # matches of one compiled batch: the most that a kill can cost
+
 
 def _speed(text: str) -> float:
     """Times real time; infinity for "max"."""
@@ -152,13 +158,6 @@ def _progress(event: Event) -> None:
         print(
             end=f"\r\x1b[Kround {event.round}: {len(event.outcomes)} matches, {left} open", file=sys.stderr, flush=True
         )
-
-
-if TYPE_CHECKING:
-    from pigaming_app.ai.learning.line_ups import LineUps
-
-WORTH_COMPILING = 600_000  # ticks: half a minute of plain matches, which compiling takes the first time
-BATCH = 32  # matches of one compiled batch: the most that a kill can cost
 
 
 class HeadlessRun:
