@@ -280,8 +280,7 @@ def _on_screen(
 ) -> int:
     """Play in a window; with --headless and emulated robots without one, as fast as possible."""
     from pigaming_app.ai.registry import new_match
-    from pigaming_app.scenes.flow.context import Context
-    from pigaming_app.scenes.flow.stack import Scene
+    from pigaming_app.scenes.flow.scene import Context, Scene
     from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.lobby.scene import game_choice
     from pigaming_app.scenes.play.scene import MatchScene, match_of

@@ -6,7 +6,7 @@ import pytest
 
 from pigaming_app.scenes.controls import pictures as gadgets
 from pigaming_app.scenes.controls.controls_test import ControlsTest
-from pigaming_app.scenes.flow.stack import Scene, Stack
+from pigaming_app.scenes.flow.scene import Scene, Stack
 from pigaming_app.scenes.howto import scene as howto
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.lobby import match_setup_view as choice

@@ -7,8 +7,7 @@ from pigaming_app.ai.bots.book import LONGEST_NAME, PREFIX
 from pigaming_app.scenes.bots.host import bot_host
 from pigaming_app.scenes.bots.pictures import picture
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.storage.safe_files import NotSaved

@@ -28,8 +28,7 @@ from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.toolbar import Tile, ToolBar
 from pigaming_app.scenes.editor.workbench import Workbench
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, Color

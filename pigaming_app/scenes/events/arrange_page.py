@@ -18,8 +18,7 @@ from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.events.setup.entrants_page import cell, spots_of
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.table_page import TablePage
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation, Swap
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.ui.draw import FOCUS, LINE, cut_box
 from pigaming_app.ui.draw.layers import Layer, LitImage

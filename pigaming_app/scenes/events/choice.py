@@ -18,8 +18,7 @@ from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.page import SetupPage
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Home, Pop, Push, Scene, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders

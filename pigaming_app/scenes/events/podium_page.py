@@ -11,8 +11,7 @@ from pigaming_app.scenes.events.paper.certificates import print_certificates
 from pigaming_app.scenes.events.paper.sheet import PrintJob, can_pdf
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.podium import APART, FIRST, HEIGHTS, ORDER, REVEALS, RISE, STEP_W, Podium, Stand

@@ -4,7 +4,7 @@ import re
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.sim.world import Action
 from pigaming_app.ui.draw import BODY, FOCUS, MIST, button, button_width, cut_box, dim
 from pigaming_app.ui.draw.layers import Layer, LitImage

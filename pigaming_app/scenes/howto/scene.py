@@ -5,9 +5,8 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_minutes, last_variant, limits_line
-from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Home, Pop, StackOperation
 from pigaming_app.scenes.howto.clip import Cutout, LessonClip
 from pigaming_app.scenes.howto.keys import draw_keys
 from pigaming_app.scenes.views.game_screens import LESSONS_PER_PAGE

@@ -7,7 +7,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.scenes.brain.rose import LEVELS, PETALS, draw_petals, draw_signs, tone
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.lab.arena_view import ArenaView
 from pigaming_app.scenes.lab.knob import dial
 from pigaming_app.scenes.lab.layout import (

@@ -4,8 +4,7 @@ import pygame
 
 from pigaming_app.events.ladder import ALL, climbed_games, stars_and_losses, table_of
 from pigaming_app.scenes.flow.brain_names import LIT
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.ladder.climber import Climber, begun, device_of, resumable_climbs
 from pigaming_app.scenes.ladder.climbers import Climbers, game_name
 from pigaming_app.scenes.ladder.rungs import LadderPage

@@ -12,8 +12,7 @@ import pygame
 from pigaming_app.events.ladder import LEVELS, Climb
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.brain_names import LIT
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation, Swap
 from pigaming_app.scenes.ladder import rungs_view as view
 from pigaming_app.scenes.ladder.climber import Climber, begun, device_of
 from pigaming_app.scenes.ladder.climbers import game_name

@@ -9,8 +9,7 @@ from pigaming_app import ASSETS
 from pigaming_app.ai.registry import level_of
 from pigaming_app.events.league_files import Ratings, Strength, ratings_of
 from pigaming_app.scenes.flow.brain_names import brain_name
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.plugins.parts import data_folders

@@ -8,8 +8,7 @@ import pygame
 
 from pigaming_app.events.ladder import LEVELS, table_of, worth
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Scene, StackOperation, Swap
 from pigaming_app.scenes.ladder.climber import Climber
 from pigaming_app.scenes.ladder.climbers import Climbers, format_climb
 from pigaming_app.scenes.pages.page import Page

@@ -9,9 +9,8 @@ from pathlib import Path
 import pygame
 
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import game_title
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.pages.page import Hints
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.pages.sheet import Sheet

@@ -2,8 +2,7 @@
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.layers import LEFT, RIGHT

@@ -9,8 +9,7 @@ from collections.abc import Callable, Sequence
 import pygame
 
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Home, Pop, StackOperation
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS

@@ -8,8 +8,7 @@ import math
 import pygame
 
 from pigaming_app.scenes.flow.access import Right, Roles
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.storage.pin import LONGEST, SHORTEST, is_easy
 from pigaming_app.storage.safe_files import NotSaved

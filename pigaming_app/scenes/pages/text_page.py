@@ -4,8 +4,7 @@ from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.ui.draw import ALARM, BODY, BOLD, FOCUS, HERO, ICE, LINE, MIST, TITLE, cut_box
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage

@@ -15,10 +15,9 @@ from pigaming_app.games.arenas import shipped_arenas
 from pigaming_app.games.game import FREE
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.arena_cache import load_cached
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, change_arena, last_choice
 from pigaming_app.scenes.flow.match_words import game_title
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.scenes.phones.cheers import COLORS, Cheers, votes_line
 from pigaming_app.scenes.phones.seating import Driven, Ended, Seating
 from pigaming_app.scenes.views.registry import shown_games

@@ -8,8 +8,7 @@ from collections.abc import Callable, Sequence
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.list_page import shown_name

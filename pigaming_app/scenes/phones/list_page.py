@@ -3,8 +3,7 @@
 import pygame
 
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.phones.cheers import COLORS
 from pigaming_app.scenes.phones.host import phone_host

@@ -5,8 +5,7 @@ from importlib.util import find_spec
 import pygame
 
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.pages.wifi import WIFI, wifi_typing, wifi_value
 from pigaming_app.scenes.phones.host import phone_host

@@ -6,9 +6,8 @@ from itertools import chain
 import pygame
 
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, budget
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop

@@ -11,7 +11,7 @@ import pygame
 from pigaming_app.ai.game_ai import ONE_BUTTON
 from pigaming_app.ai.registry import AIS
 from pigaming_app.games.match import Match
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.flow.used_keys import FIRE, STEER, TURBO, UsedKeys
 from pigaming_app.scenes.play.side_hints import ROOM, X, draw_key, key_size
 from pigaming_app.scenes.views.background import LEFT, TOP

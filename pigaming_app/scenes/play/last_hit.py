@@ -10,7 +10,7 @@ import pygame
 
 from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.views.film import to_bytes
 from pigaming_app.scenes.views.hud.parts import CLOCK

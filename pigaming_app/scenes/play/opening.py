@@ -10,8 +10,8 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.games.game import Setup
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import sudden_death_key, tagline
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, signs
 from pigaming_app.scenes.play.ending import PREWARM_MS
 from pigaming_app.scenes.play.runner import MatchRunner

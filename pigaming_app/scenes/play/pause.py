@@ -13,8 +13,7 @@ import pygame
 
 from pigaming_app.scenes.features.registry import has_overlay, join_offer
 from pigaming_app.scenes.flow.access import OWNER_SECONDS, Access, PauseAccess
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, Scene, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, Scene, StackOperation
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.drivers import Drivers
 from pigaming_app.scenes.play.runner import MatchRunner

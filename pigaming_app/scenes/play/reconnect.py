@@ -7,7 +7,7 @@ import math
 
 import pygame
 
-from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Home, Pop, StackOperation, Swap
 from pigaming_app.scenes.play.pause import Pause, PausedMatch, player_line, sheet_title
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import BODY, FOCUS, GREEN, ICE, LABEL, LINE, MIST, PLAYERS, Color, icon

@@ -20,7 +20,7 @@ from pigaming_app.games.moments import CLOSE, KINDS, Moment
 from pigaming_app.games.replay import Replay, ReplayError
 from pigaming_app.scenes.features.replays import pack
 from pigaming_app.scenes.files import load_replay
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.storage.safe_files import NotSaved, write_atomic
 from pigaming_app.storage.settings import folders
 from pigaming_app.storage.trash import discard

@@ -4,8 +4,7 @@ import pygame
 
 from pigaming_app.games.replay import Replay
 from pigaming_app.scenes.features.replays import to_match
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.recordings import store

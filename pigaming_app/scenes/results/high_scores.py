@@ -14,10 +14,9 @@ from pigaming_app.games.arenas import score_name
 from pigaming_app.games.game import ALLIES, RecordKind, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.arena_cache import load_cached
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_of_table, arena_title
 from pigaming_app.scenes.flow.match_words import match_length
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.storage.scores import Score, Scores, ScoreTable
 from pigaming_app.ui.draw import BODY, ICE, LABEL, MIST, text_width

@@ -8,8 +8,8 @@ import pygame
 
 from pigaming_app.games.arenas import load
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.results.headline import EndedMatch, headline, is_allied, stars, winning_color
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, budget, finished_within

@@ -6,7 +6,7 @@ import pygame
 
 from pigaming_app.games.game import Row
 from pigaming_app.games.rounds import Rounds
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
 from pigaming_app.scenes.results.page_head import line
 from pigaming_app.scenes.results.podium import FIRST, Podium, stands

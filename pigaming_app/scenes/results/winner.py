@@ -13,8 +13,7 @@ import pygame
 
 from pigaming_app.games.game import Outcome
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Scene, StackOperation, Swap
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
 from pigaming_app.scenes.views.registry import SCREENS

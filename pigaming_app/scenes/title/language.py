@@ -2,7 +2,7 @@
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.ui.draw import FOCUS, LABEL, TITLE
 from pigaming_app.ui.draw.text import word
 from pigaming_app.ui.i18n import NAMES

@@ -15,7 +15,7 @@ from pigaming_app.games.replay import Replay, recorded
 from pigaming_app.games.setup import make_setup
 from pigaming_app.scenes.attract.clip import Clip
 from pigaming_app.scenes.attract.scene import Attract, DemoMatch, TimedPage
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.howto.scene import HowTo, taught
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.runner import MatchRunner

@@ -17,7 +17,7 @@ from pigaming_app.scenes.attract.scene import Attract, DemoMatch
 from pigaming_app.scenes.brain import floor_marks as marks
 from pigaming_app.scenes.brain import panels as cards
 from pigaming_app.scenes.brain.overlay import BrainOverlay
-from pigaming_app.scenes.flow.stack import Home
+from pigaming_app.scenes.flow.scene import Home
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene

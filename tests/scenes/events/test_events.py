@@ -30,7 +30,7 @@ from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.events.table_page import TablePage
-from pigaming_app.scenes.flow.stack import Pop
+from pigaming_app.scenes.flow.scene import Pop
 from pigaming_app.scenes.pages.page import MESSAGE_ROOM
 from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.scenes.phones.link import PhoneLink

@@ -13,7 +13,7 @@ import pytest
 from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.ai.reward_quantities import QUANTITIES
 from pigaming_app.scenes.brain.rose import PETALS
-from pigaming_app.scenes.flow.stack import Home, Pop, Stack, StackOperation
+from pigaming_app.scenes.flow.scene import Home, Pop, Stack, StackOperation
 from pigaming_app.scenes.lab import progress, scene
 from pigaming_app.scenes.lab import trainer as trainer
 from pigaming_app.scenes.lab import view as page

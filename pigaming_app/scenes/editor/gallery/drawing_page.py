@@ -11,8 +11,7 @@ from pigaming_app.scenes.editor.naming import ArenaNamePage
 from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage.safe_files import NotSaved

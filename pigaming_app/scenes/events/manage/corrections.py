@@ -15,8 +15,7 @@ from pigaming_app.scenes.events.names import places_line, places_of, shortened
 from pigaming_app.scenes.events.overview import worth
 from pigaming_app.scenes.events.running import RunningEvent, decided_by, round_name
 from pigaming_app.scenes.flow.access import HOLD, HOLD_WITHOUT_PIN, Right, Roles
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.pages.text_page import TextPage

@@ -4,9 +4,8 @@ import pygame
 
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.flow.arena_cache import load_cached
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, playable_arenas
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, text_width
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage

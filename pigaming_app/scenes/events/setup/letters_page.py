@@ -5,8 +5,7 @@ from collections.abc import Callable
 import pygame
 
 from pigaming_app.scenes.events.names import shortened
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.results.spelling import Spelling
 from pigaming_app.ui.draw import ALARM, BODY, BOLD, HERO, ICE, LABEL, MIST

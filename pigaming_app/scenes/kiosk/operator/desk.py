@@ -10,8 +10,7 @@ import pygame
 
 from pigaming_app.scenes.features.feature import Service
 from pigaming_app.scenes.flow.access import Right, Roles
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, Scene, Stack
+from pigaming_app.scenes.flow.scene import Context, Push, Scene, Stack
 from pigaming_app.scenes.guard import Guard
 from pigaming_app.scenes.kiosk.operator.group_limit import GroupLimit
 from pigaming_app.scenes.kiosk.scoreboard.pages import Pages

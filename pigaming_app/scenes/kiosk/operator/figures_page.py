@@ -7,9 +7,8 @@ from itertools import cycle
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import game_title
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.kiosk.day_report import DayReport, report_of, to_csv
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.registry import shown_games

@@ -6,8 +6,7 @@ from datetime import datetime
 import pygame
 
 from pigaming_app.scenes.flow.access import Right, Roles
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.storage import trash
 from pigaming_app.storage.safe_files import NotSaved

@@ -9,8 +9,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.features import board_text as text
 from pigaming_app.scenes.features.board_page import BoardPart, Box
 from pigaming_app.scenes.features.registry import next_line
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.scenes.results.high_scores import format_score
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.day_log import now

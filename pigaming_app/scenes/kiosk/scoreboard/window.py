@@ -8,7 +8,7 @@ from collections.abc import Hashable, Sequence
 import pygame
 
 from pigaming_app.scenes.features.board_page import BoardPage, BoardPart, Box
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.ui.draw.frame_budget import Unfinished, budget, clock
 
 PERIOD = 0.25  # s between two looks for changes

@@ -4,8 +4,7 @@ from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.lab.background import BUILT, DONE, FETCHING, FOREIGN, RESTART, LabBackground
 from pigaming_app.scenes.pages.page import Hints
 from pigaming_app.scenes.pages.sheet import Sheet

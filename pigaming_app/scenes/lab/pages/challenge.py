@@ -6,8 +6,7 @@ from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.learning.training import ARENA, GAME, VARIANT
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation, Swap
 from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.drivers import new_seed
 from pigaming_app.scenes.play.pause import sheet_title

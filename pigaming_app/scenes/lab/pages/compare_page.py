@@ -13,7 +13,7 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.learning.evaluation import HANDMADE, Evaluation
 from pigaming_app.ai.learning.training import GAME
 from pigaming_app.ai.registry import BRAINS
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Pop, StackOperation
 from pigaming_app.scenes.lab.host import IDLE, LabHost
 from pigaming_app.scenes.lab.layout import GOOD, NOTHING
 from pigaming_app.scenes.pages.page import Page

@@ -6,7 +6,7 @@ import pygame
 
 from pigaming_app.ai.reward_line import LONGEST
 from pigaming_app.ai.reward_quantities import QUANTITIES
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.pages.text_page import LINE_BOX, TextPage
 from pigaming_app.ui.draw import BODY, FOCUS, MIST, text_width
 from pigaming_app.ui.draw.text import text

@@ -2,7 +2,7 @@
 
 import pygame
 
-from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Pop, StackOperation, Swap
 from pigaming_app.scenes.lab.host import IDLE, LabHost, dimmed_background
 from pigaming_app.scenes.lab.pages.compare_page import ComparePage
 from pigaming_app.scenes.lab.pages.open_page import OpenPage

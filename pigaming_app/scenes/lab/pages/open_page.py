@@ -5,7 +5,7 @@ from datetime import datetime
 import pygame
 
 from pigaming_app.scenes.files import is_network
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Pop, StackOperation
 from pigaming_app.scenes.lab.host import IDLE, LabHost
 from pigaming_app.scenes.lab.network.kind_switch import SIGN, network_sign, table_sign
 from pigaming_app.scenes.lab.saved_robots import RobotFileError, delete_robot, file_of, load_robot, names

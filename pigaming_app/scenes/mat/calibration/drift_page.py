@@ -12,8 +12,7 @@ from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.vision.exposure import warning_of
 from pigaming_app.hardware.vision.markers import OpenCVMissing
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.calibration.height_page import DISC, GREY
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text

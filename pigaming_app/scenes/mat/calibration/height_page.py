@@ -7,8 +7,7 @@ from dataclasses import replace
 import pygame
 
 from pigaming_app.hardware.calibration.height_procedure import PLACES, STILL, HeightProcedure
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Scene, StackOperation, Swap
 from pigaming_app.scenes.mat.calibration.result_page import CalibrationResult, ResultPage
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.background import LEFT, TOP

@@ -17,8 +17,7 @@ from pigaming_app.hardware.session import store
 from pigaming_app.hardware.signals import ExposureState, Image
 from pigaming_app.hardware.vision.discovery import CameraId
 from pigaming_app.hardware.vision.exposure import warning_of
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, Scene, StackOperation, Swap
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.mat.calibration.residual_plot import AREA, SIDE, arrows, fact, figure
 from pigaming_app.scenes.pages.page import Page

@@ -18,8 +18,7 @@ from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.hardware.vision.camera import shown
 from pigaming_app.hardware.vision.discovery import CameraId
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.mat.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.mat.calibration.printed_page import PrintedPage

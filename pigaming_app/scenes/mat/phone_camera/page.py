@@ -3,8 +3,7 @@
 import pygame
 
 from pigaming_app.hardware.vision.phone import size_of
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.mat.phone_camera.host import phone_camera_host
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.ui import draw as kit

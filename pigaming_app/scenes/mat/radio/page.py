@@ -12,8 +12,7 @@ from pigaming_app.hardware.radio.xbee_protocol import XBeeMode
 from pigaming_app.hardware.radio.xbee_setup import RadioNetwork, Steps, XBeeSetup, network_of, parameters
 from pigaming_app.hardware.robot_kinds import KINDS, set_up_command
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.mat.radio.sketches import sketch
 from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.pages.settings_page import SettingsPage

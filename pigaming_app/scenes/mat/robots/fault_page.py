@@ -10,7 +10,7 @@ import pygame
 
 from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.robot_session import cause_of
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Home, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.fault_icons import sign
 from pigaming_app.scenes.mat.robots.flood_light import FloodLight, hint_line

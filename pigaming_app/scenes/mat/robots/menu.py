@@ -8,8 +8,7 @@ import pygame
 from pigaming_app.hardware.session.guide import SHEET
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, Scene, StackOperation
 from pigaming_app.scenes.mat.robots.sketches import sketch
 from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.scenes.pages.settings_page import SettingsPage

@@ -9,7 +9,7 @@ import math
 import pygame
 
 from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Pop, StackOperation
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.robots.fleet_state import worst_finding

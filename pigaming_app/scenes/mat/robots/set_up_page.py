@@ -8,8 +8,7 @@ from pigaming_app.hardware.commissioning import board_setup
 from pigaming_app.hardware.commissioning.board_setup import KINDS, SetupFailed
 from pigaming_app.hardware.session.store import arena_id, wifi_key
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.mat.robots.sketches import sketch
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.pages.wifi import WIFI, wifi_typing, wifi_value

@@ -5,7 +5,7 @@ import math
 import pygame
 
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import StackOperation
 from pigaming_app.scenes.mat.things.moved_page import InterruptedMatch
 from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import menu_spots, sheet_title

@@ -12,7 +12,7 @@ from pigaming_app.hardware.control.homing import HomingProgress
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.robot_session import cause_of
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.mat.robots.fault_page import fault_caption, fault_sentence
 from pigaming_app.scenes.mat.robots.flood_light import UNSEEN as UNSEEN_AFTER
 from pigaming_app.scenes.mat.robots.flood_light import FloodLight, hint_line, looking

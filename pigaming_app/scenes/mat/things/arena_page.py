@@ -15,9 +15,8 @@ from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.hardware.session.things_on_mat import load_layout, save_layout
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.arena_cache import load_cached
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.mat.things.outlines import COLORS, HALO, draw_thing, frame
 from pigaming_app.scenes.mat.things.playable import PlayableArenas

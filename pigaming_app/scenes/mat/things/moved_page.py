@@ -13,7 +13,7 @@ from pigaming_app.hardware.scan.things import LayoutError, ThingLayout
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.hardware.session.things_on_mat import load_layout
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Home, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.mat.things.match_watch import MatchWatch
 from pigaming_app.scenes.mat.things.sweep_page import SweepPage
 from pigaming_app.scenes.play.pause import Pause, PausedMatch, Robots

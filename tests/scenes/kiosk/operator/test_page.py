@@ -164,7 +164,7 @@ def test_title_music_stops_in_the_quiet_hours(arcade: Arcade, monkeypatch: pytes
     title = Title(arcade.context)
     title.on_enter()
     settings.quiet_from, settings.quiet_until = "00:00", "23:59"
-    monkeypatch.setattr("pigaming_app.scenes.flow.context.now", lambda: now().replace(hour=12))
+    monkeypatch.setattr("pigaming_app.scenes.flow.scene.now", lambda: now().replace(hour=12))
     title.update(0.1)
     title.update(0.1)
     settings.quiet_until = "11:00"

@@ -9,7 +9,7 @@ import pytest
 
 from pigaming_app.scenes.features import board_text as text
 from pigaming_app.scenes.features.board_page import BoardPart
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
 from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
 from pigaming_app.scenes.kiosk.scoreboard.score_page import ScorePage, match_parts
