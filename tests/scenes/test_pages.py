@@ -19,7 +19,7 @@ from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.replays.page import ReplaysPage
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views import game_tile
-from pigaming_app.ui.draw import text as texts
+from pigaming_app.ui.draw import layers as texts
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets import labels as page

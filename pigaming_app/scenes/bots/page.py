@@ -12,8 +12,7 @@ from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, ICE, MIST
-from pigaming_app.ui.draw.layers import LEFT, RIGHT
-from pigaming_app.ui.draw.text import SMALLEST, fit_text, text
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, SMALLEST, fit_text, text
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.setting_row import SettingValue

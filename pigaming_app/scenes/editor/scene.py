@@ -32,8 +32,7 @@ from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, Color
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop, text
 from pigaming_app.ui.input.events import Button, InputEvent
 
 HEAD_Y = 82  # px

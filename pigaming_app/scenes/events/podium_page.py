@@ -17,9 +17,8 @@ from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration,
 from pigaming_app.scenes.results.podium import APART, FIRST, HEIGHTS, ORDER, REVEALS, RISE, STEP_W, Podium, Stand
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, MIST, PLAYERS, SUB, THIN, TITLE, GlowCanvas, icon, text_width
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, run_to_end
-from pigaming_app.ui.draw.layers import RIGHT, LitImage, backdrop
+from pigaming_app.ui.draw.layers import RIGHT, LitImage, backdrop, fit_text, text, word, wrap
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_text, text, word, wrap
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 

@@ -38,10 +38,9 @@ from pigaming_app.scenes.lab.network.kind_switch import TABLE, kind_rect, kind_s
 from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, fit_size, fit_text, wrap_balanced
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, fit_text, wrap_balanced
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.widgets.labels import black_out, blit_sprite
 

@@ -14,9 +14,8 @@ from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.game_tile import TILE_H, TileStrip, tile
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, dim, panel
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out

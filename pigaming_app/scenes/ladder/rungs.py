@@ -24,8 +24,7 @@ from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.views.sprites.robot import seat_robot
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, SUB
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
-from pigaming_app.ui.draw.layers import backdrop, span
-from pigaming_app.ui.draw.text import paragraph, text
+from pigaming_app.ui.draw.layers import backdrop, paragraph, span, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, chip

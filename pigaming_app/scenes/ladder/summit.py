@@ -19,9 +19,8 @@ from pigaming_app.scenes.views.sprites.stars import star
 from pigaming_app.storage.scores import Score
 from pigaming_app.ui.draw import FOCUS, HERO, ICE, LABEL, LINE, MIST, PLAYERS, STEEL
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, Steps, resumable
-from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, fit_size, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.labels import blit_sprite
 

@@ -14,8 +14,7 @@ from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.draw import ALARM, ICE, MIST
-from pigaming_app.ui.draw.layers import Layer
-from pigaming_app.ui.draw.text import write_lines
+from pigaming_app.ui.draw.layers import Layer, write_lines
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.dialog import HEAD, ICON, ROOM, TEXT_X
 

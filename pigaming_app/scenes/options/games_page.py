@@ -22,9 +22,8 @@ from pigaming_app.storage.plugins.found import Plugin, found, user_folder
 from pigaming_app.storage.plugins.parts import failure, plugins
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, STEEL, THIN, icon, text_width
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, SMALLEST, Layer, LitImage, fit_size, fit_text, text, write_lines
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import SMALLEST, fit_size, fit_text, text, write_lines
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row as dials

@@ -5,8 +5,7 @@ import pygame
 from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.layers import LEFT, RIGHT
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters, letter_box
 

@@ -15,9 +15,19 @@ from pigaming_app.scenes.phones.list_page import shown_name
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import (
+    LEFT,
+    RIGHT,
+    Layer,
+    LitImage,
+    fit_lines,
+    fit_size,
+    fit_text,
+    paragraph,
+    text,
+    wrap,
+)
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_lines, fit_size, fit_text, paragraph, text, wrap
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phones.host import PhoneHost

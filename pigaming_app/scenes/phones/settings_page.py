@@ -13,8 +13,7 @@ from pigaming_app.scenes.phones.join import JoinByPhone, draw_code, draw_wifi, p
 from pigaming_app.scenes.phones.list_page import PhoneList
 from pigaming_app.storage.settings import MAX_NAME
 from pigaming_app.ui.draw import ALARM, FOCUS, MIST, STEEL, THIN, text_width
-from pigaming_app.ui.draw.layers import LEFT, RIGHT
-from pigaming_app.ui.draw.text import SMALLEST, fit_text, text
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, SMALLEST, fit_text, text
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.web.network import NetworkInterface, ServerUnavailable, networks
 from pigaming_app.ui.widgets import setting_row as dials

@@ -10,8 +10,7 @@ from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, budget
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, fit_size
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 
 TOP, PITCH, HIGH = 236, 164, 140

@@ -26,8 +26,8 @@ from pigaming_app.scenes.views.view import ShownEffects, SoundCue
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 from pigaming_app.ui.draw import BODY, PLAYERS
+from pigaming_app.ui.draw.layers import fit_text
 from pigaming_app.ui.draw.surface_cache import surfaces
-from pigaming_app.ui.draw.text import fit_text
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.input.keyboard import NUM
 from pigaming_app.ui.widgets.caption import Caption, Notice, caption

@@ -17,8 +17,7 @@ from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.playtest import pictures
 from pigaming_app.scenes.playtest.replays import AGES
 from pigaming_app.ui.draw import ICE, LABEL, PLAYERS
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, span
-from pigaming_app.ui.draw.text import paragraph
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, paragraph, span
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.labels import black_out, blit_sprite, call_to_action, pulse
 from pigaming_app.ui.widgets.player_card import MIDDLE, H, W, ask_bar, ready_bar

@@ -13,7 +13,7 @@ from pigaming_app.scenes.replays import view
 from pigaming_app.scenes.replays.view import ROWS, ReplayEntry
 from pigaming_app.scenes.replays.watch import ReplayScene
 from pigaming_app.ui.draw import ICE, LABEL, MIST
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.layers import text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out

@@ -20,8 +20,7 @@ from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.storage.scores import Score, Scores, ScoreTable
 from pigaming_app.ui.draw import BODY, ICE, LABEL, MIST, text_width
-from pigaming_app.ui.draw.layers import RIGHT, span
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.layers import RIGHT, span, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.numbers import numeral

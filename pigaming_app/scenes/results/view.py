@@ -22,8 +22,7 @@ from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.scenes.views.sprites.stars import HIGH, star_row
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps
-from pigaming_app.ui.draw.layers import Layer, LitImage, span
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_size, span
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.numbers import numeral
 

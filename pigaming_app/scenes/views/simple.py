@@ -23,9 +23,8 @@ from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import HERO, ICE, PLAYERS, SUB, Color
 from pigaming_app.ui.draw.frame_budget import Job
-from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.layers import LitImage, fit_size, text
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
-from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.numbers import signed
 

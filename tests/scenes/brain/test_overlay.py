@@ -24,7 +24,7 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.draw import BODY, ICONS, LABEL, text_width
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import fit_size
 from pigaming_app.ui.i18n import LANGUAGES, texts
 from pigaming_app.ui.input.events import Button, InputEvent
 from tests.ai.networks.random_network import random_network

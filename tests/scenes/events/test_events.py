@@ -40,7 +40,7 @@ from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import BODY
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import fit_size
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phone_messages import SeatView

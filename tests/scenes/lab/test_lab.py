@@ -30,7 +30,7 @@ from pigaming_app.scenes.lab.view import notice
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.sim.record import digest
-from pigaming_app.ui.draw.text import wrap_balanced
+from pigaming_app.ui.draw.layers import wrap_balanced
 from pigaming_app.ui.draw.theme import BODY, text_width
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls

@@ -18,7 +18,7 @@ from pigaming_app.scenes.lobby.match_setup_view import APART, CHIP, PAD, W, shor
 from pigaming_app.scenes.lobby.seats import LobbySeats
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.settings import Choice
-from pigaming_app.ui.draw.text import SMALLEST, fit_lines
+from pigaming_app.ui.draw.layers import SMALLEST, fit_lines
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import KEYS, Arcade

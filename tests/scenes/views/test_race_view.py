@@ -29,7 +29,7 @@ from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import write_with_backup
 from pigaming_app.ui.draw.frame_budget import run_to_end
-from pigaming_app.ui.draw.text import glyph
+from pigaming_app.ui.draw.layers import glyph
 from pigaming_app.ui.draw.theme import read_large
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.numbers import signed

@@ -16,9 +16,8 @@ from pigaming_app.scenes.pages.page import Page
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box
-from pigaming_app.ui.draw.layers import LEFT, Layer, LitImage, span
+from pigaming_app.ui.draw.layers import LEFT, Layer, LitImage, fit_size, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, frame, heading

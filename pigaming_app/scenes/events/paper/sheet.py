@@ -19,7 +19,7 @@ import pygame
 
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic
 from pigaming_app.ui.draw import Color, font
-from pigaming_app.ui.draw.text import fit_text
+from pigaming_app.ui.draw.layers import fit_text
 from pigaming_app.ui.draw.theme import baseline, line_image
 from pigaming_app.ui.pdf import PdfFile, WrittenLine
 from pigaming_app.ui.png import png_of

@@ -15,7 +15,7 @@ from pigaming_app.scenes.guard import Guard
 from pigaming_app.scenes.kiosk.operator.group_limit import GroupLimit
 from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
 from pigaming_app.ui.draw import FOCUS, ICE
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import fit_size
 from pigaming_app.ui.input.events import Device
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.notices import MAX_WIDTH

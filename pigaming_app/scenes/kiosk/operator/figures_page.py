@@ -19,9 +19,8 @@ from pigaming_app.storage.settings import folders
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw import ALARM, BODY, ICE, LABEL, MIST, Color
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import RIGHT, Layer, LitImage, span
+from pigaming_app.ui.draw.layers import RIGHT, Layer, LitImage, fit_text, span, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_text, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.arrows import as_direction, draw_arrows

@@ -15,7 +15,7 @@ from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.day_log import now
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, STEEL, SUB
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import fit_size
 from pigaming_app.ui.i18n import Words
 
 ROWS = 4

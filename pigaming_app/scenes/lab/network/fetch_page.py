@@ -10,8 +10,7 @@ from pigaming_app.scenes.pages.page import Hints
 from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, STEEL, THIN, Color, cut_box
-from pigaming_app.ui.draw.layers import Layer
-from pigaming_app.ui.draw.text import paragraph
+from pigaming_app.ui.draw.layers import Layer, paragraph
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.dialog import HEAD, W, X
 

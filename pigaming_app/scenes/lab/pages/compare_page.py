@@ -18,9 +18,8 @@ from pigaming_app.scenes.lab.host import IDLE, LabHost
 from pigaming_app.scenes.lab.layout import GOOD, NOTHING
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box, icon
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button
 
 MATCHES = {True: 10, False: 2}  # matches per pair, compiled and interpreted

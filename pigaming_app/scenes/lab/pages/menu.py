@@ -11,8 +11,7 @@ from pigaming_app.scenes.pages import name_page
 from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import menu_spots, sheet_title
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST
-from pigaming_app.ui.draw.layers import Layer
-from pigaming_app.ui.draw.text import word
+from pigaming_app.ui.draw.layers import Layer, word
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus
 

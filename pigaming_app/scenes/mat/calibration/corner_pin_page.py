@@ -31,9 +31,8 @@ from pigaming_app.ui.draw import (
     panel,
 )
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import Layer, LitImage, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.numbers import signed

@@ -21,9 +21,8 @@ from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut_box
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import Layer, LitImage, paragraph, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Button
 
 BAR = pygame.Rect(560, 560, 800, 40)

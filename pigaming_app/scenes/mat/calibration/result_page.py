@@ -24,9 +24,8 @@ from pigaming_app.scenes.pages.page import Page
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, MIST, STEEL, Color
-from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.layers import LitImage, paragraph, text
 from pigaming_app.ui.draw.pixels import grey_surface
-from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot

@@ -29,9 +29,8 @@ from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import PHONE
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST
-from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.layers import LitImage, fit_size, paragraph, text
 from pigaming_app.ui.draw.pixels import grey_surface
-from pigaming_app.ui.draw.text import fit_size, paragraph, text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets import setting_row as dials

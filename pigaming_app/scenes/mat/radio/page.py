@@ -19,8 +19,7 @@ from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL
-from pigaming_app.ui.draw.layers import LitImage
-from pigaming_app.ui.draw.text import paragraph, text
+from pigaming_app.ui.draw.layers import LitImage, paragraph, text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets import setting_row as dials

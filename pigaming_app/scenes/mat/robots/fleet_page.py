@@ -21,8 +21,7 @@ from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.settings import PHONE
 from pigaming_app.ui.draw import ALARM, FOCUS, GREEN, ICE, MIST, Color
-from pigaming_app.ui.draw.layers import LitImage
-from pigaming_app.ui.draw.text import paragraph, text
+from pigaming_app.ui.draw.layers import LitImage, paragraph, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.button_prompts import places

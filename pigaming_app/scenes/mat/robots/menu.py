@@ -15,8 +15,7 @@ from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS
-from pigaming_app.ui.draw.layers import LitImage
-from pigaming_app.ui.draw.text import paragraph
+from pigaming_app.ui.draw.layers import LitImage, paragraph
 from pigaming_app.ui.i18n import english, with_english
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.setting_row import SettingValue

@@ -18,7 +18,7 @@ from pigaming_app.scenes.mat.things.moved_page import InterruptedMatch
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import ALARM, BODY, ICE
-from pigaming_app.ui.draw.text import paragraph, text
+from pigaming_app.ui.draw.layers import paragraph, text
 from pigaming_app.ui.input.events import Button, InputEvent
 
 LOOKS = 3.0  # s, timeout of the search before the first spin

@@ -15,8 +15,7 @@ from pigaming_app.scenes.pages.wifi import WIFI, wifi_typing, wifi_value
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.draw import BODY, GREEN, MIST
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage
-from pigaming_app.ui.draw.text import paragraph, text
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage, paragraph, text
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets.setting_row import SettingValue
 

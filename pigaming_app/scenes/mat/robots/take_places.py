@@ -32,10 +32,9 @@ from pigaming_app.ui.draw import (
     GlowCanvas,
     dim,
 )
-from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.layers import LitImage, text
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, turned
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.labels import blit_sprite

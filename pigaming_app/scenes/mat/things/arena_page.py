@@ -29,7 +29,7 @@ from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST
-from pigaming_app.ui.draw.text import text, wrap
+from pigaming_app.ui.draw.layers import text, wrap
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import FocusSpot

@@ -19,9 +19,9 @@ from pigaming_app.scenes.mat.things.sweep_page import SweepPage
 from pigaming_app.scenes.play.pause import Pause, PausedMatch, Robots
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import ALARM, BODY, ICE, LABEL, LINE, MIST, GlowCanvas
+from pigaming_app.ui.draw.layers import text
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.labels import blit_sprite

@@ -15,8 +15,8 @@ from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE
+from pigaming_app.ui.draw.layers import text
 from pigaming_app.ui.draw.pixels import grey_surface
-from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button
 
 CENTRE = 960, 540

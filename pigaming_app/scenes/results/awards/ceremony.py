@@ -18,8 +18,7 @@ from pigaming_app.scenes.views.sprites.stars import STARS, draw_star
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps
 from pigaming_app.ui.draw.icons import ICONS
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size
 from pigaming_app.ui.i18n import Words
 
 TOP, HEIGHT, GAP, MOST = 204, 624, 16, 190  # px: of all rows, the gap between two, the height of one at most

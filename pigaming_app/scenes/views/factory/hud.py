@@ -19,7 +19,7 @@ from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, Color, readable
 from pigaming_app.ui.draw import ICE as WHITE
 from pigaming_app.ui.draw.frame_budget import Job
-from pigaming_app.ui.draw.text import wrap_balanced
+from pigaming_app.ui.draw.layers import wrap_balanced
 from pigaming_app.ui.i18n import Words
 
 ROBOT, CRATES = 268, 330  # px from a panel's outer edge, at least

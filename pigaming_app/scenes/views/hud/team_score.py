@@ -7,8 +7,8 @@ from pigaming_app.scenes.views.hud import parts
 from pigaming_app.scenes.views.hud.score import ScoreHud, TeamPanel
 from pigaming_app.scenes.views.sprites.teams import TEAMS, emblem
 from pigaming_app.ui import draw as kit
+from pigaming_app.ui.draw.layers import number_width
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import number_width
 from pigaming_app.ui.numbers import numeral
 
 W, TOP, BOTTOM = 228, 20, 128  # px: width, upper and lower edge of a total

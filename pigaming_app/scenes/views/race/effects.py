@@ -17,8 +17,8 @@ from pigaming_app.scenes.views.race.recovery import BEAM_LASTS, beam
 from pigaming_app.scenes.views.view import Pose, SoundCue, ViewOptions, decimal
 from pigaming_app.sim.world import DT, WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, WHITE, Color
+from pigaming_app.ui.draw.layers import glyph, number_width
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put
-from pigaming_app.ui.draw.text import glyph, number_width
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.numbers import signed
 

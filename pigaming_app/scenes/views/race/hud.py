@@ -23,8 +23,8 @@ from pigaming_app.scenes.views.view import decimal
 from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.draw import ALARM, ICE, LABEL, PLAYERS, WHITE, GlowCanvas, readable
 from pigaming_app.ui.draw.frame_budget import Job
+from pigaming_app.ui.draw.layers import wrap, wrap_balanced
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import wrap, wrap_balanced
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.numbers import signed
 

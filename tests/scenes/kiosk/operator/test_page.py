@@ -24,7 +24,7 @@ from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.day_log import DayLog, PlayedMatch, now
 from pigaming_app.storage.safe_mode import DEFAULTS, VARIABLE
 from pigaming_app.storage.settings import Settings, folders
-from pigaming_app.ui.draw.text import fit_lines
+from pigaming_app.ui.draw.layers import fit_lines
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
