@@ -3,7 +3,7 @@
 import pygame
 
 from pigaming_app.events.ladder import ALL, climbed_games, stars_and_losses, table_of
-from pigaming_app.scenes.flow.brain_names import LIT
+from pigaming_app.scenes.flow.match_words import LIT
 from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.ladder.climber import Climber, begun, device_of, resumable_climbs
 from pigaming_app.scenes.ladder.climbers import Climbers, game_name

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.events.ladder import ALL, climbed_games, stars_and_losses, table_of
-from pigaming_app.scenes.flow.brain_names import LIT
+from pigaming_app.scenes.flow.match_words import LIT
 from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.storage.scores import Score, ScoreTable

@@ -11,7 +11,7 @@ import pygame
 
 from pigaming_app.events.ladder import LEVELS, Climb
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.brain_names import LIT
+from pigaming_app.scenes.flow.match_words import LIT
 from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation, Swap
 from pigaming_app.scenes.ladder import rungs_view as view
 from pigaming_app.scenes.ladder.climber import Climber, begun, device_of

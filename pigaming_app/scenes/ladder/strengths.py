@@ -8,7 +8,7 @@ import pygame
 from pigaming_app import ASSETS
 from pigaming_app.ai.registry import level_of
 from pigaming_app.events.league_files import Ratings, Strength, ratings_of
-from pigaming_app.scenes.flow.brain_names import brain_name
+from pigaming_app.scenes.flow.match_words import brain_name
 from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.registry import shown_games

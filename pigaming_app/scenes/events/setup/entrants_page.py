@@ -20,7 +20,7 @@ from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.format_pictures import row_picture
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.features.registry import saved_brains
-from pigaming_app.scenes.flow.brain_names import brain_name
+from pigaming_app.scenes.flow.match_words import brain_name
 from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.storage.parsing import one_line

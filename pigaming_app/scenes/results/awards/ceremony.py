@@ -5,7 +5,7 @@ from math import isfinite
 
 from pigaming_app.games.game import Row
 from pigaming_app.games.rounds import Rounds
-from pigaming_app.scenes.flow.brain_names import brain_name
+from pigaming_app.scenes.flow.match_words import brain_name
 from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.results.awards.award import Award, Player, awarded, own_awards
 from pigaming_app.scenes.results.awards.feats import Feats
