@@ -13,6 +13,8 @@ from pigaming_app.storage.optional import optional
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.draw.theme import STARS
 from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Device
 
 LIT, UNLIT = STARS[0], STARS[1]
 
@@ -104,3 +106,11 @@ def brain_name(words: Words, game: str, brain: str) -> str:
     if brain in AUTO:
         return words("match.auto")
     return words(f"match.{brain}") if game in AIS and brain in AIS[game].rivals else display_name(brain).upper()
+
+
+def steering(words: Words, controls: Controls, device: Device) -> str:
+    """The signs on the steering keys; of a number pad or a pad its name; of a phone that of its owner, if known."""
+    if own := controls.owner(device):
+        return own
+    name = controls.name(device)
+    return controls.moves(device) if name == "Keyboard" else words(f"devices.{name}")

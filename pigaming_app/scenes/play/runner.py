@@ -11,9 +11,8 @@ import pygame
 from pigaming_app.ai.game_ai import TURN
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.features.registry import match_overlay
-from pigaming_app.scenes.flow.device_words import steering
 from pigaming_app.scenes.flow.driving import PICTURES
-from pigaming_app.scenes.flow.match_words import brain_name
+from pigaming_app.scenes.flow.match_words import brain_name, steering
 from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.play.last_hit import LastHit

@@ -7,7 +7,7 @@ of all of them there is no play test.
 import pygame
 
 from pigaming_app.scenes.flow.access import Access, Right
-from pigaming_app.scenes.flow.device_words import steering
+from pigaming_app.scenes.flow.match_words import steering
 from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
