@@ -18,8 +18,8 @@ from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size, text
 from pigaming_app.ui.draw.surface_cache import cached
+from pigaming_app.ui.i18n import signed
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.numbers import signed
 from pigaming_app.ui.widgets.labels import sign
 
 ROWS = 12  # at most

@@ -21,9 +21,8 @@ from pigaming_app.scenes.pages.page import Page
 from pigaming_app.storage.scores import Score, Scores, ScoreTable
 from pigaming_app.ui.draw import BODY, ICE, LABEL, MIST, text_width
 from pigaming_app.ui.draw.layers import RIGHT, span, text
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.i18n import Words, numeral
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.numbers import numeral
 from pigaming_app.ui.widgets.arrows import as_direction, draw_arrows
 from pigaming_app.ui.widgets.score_board import BoardRow, ScoreBoard
 

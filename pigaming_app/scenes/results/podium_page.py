@@ -15,7 +15,7 @@ from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import budget, finished_within
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, fit_size, span
-from pigaming_app.ui.numbers import numeral
+from pigaming_app.ui.i18n import numeral
 from pigaming_app.ui.widgets.labels import black_out
 from pigaming_app.ui.widgets.pips import pips
 

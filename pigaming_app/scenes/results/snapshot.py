@@ -11,9 +11,8 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.match_choice import arena_title
 from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.results.headline import is_allied, team_name
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.i18n import Words, numeral
 from pigaming_app.ui.input.events import Device
-from pigaming_app.ui.numbers import numeral
 
 
 class Runner(Protocol):

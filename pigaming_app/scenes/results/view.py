@@ -23,8 +23,7 @@ from pigaming_app.scenes.views.sprites.stars import HIGH, star_row
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps
 from pigaming_app.ui.draw.layers import Layer, LitImage, fit_size, span
-from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.numbers import numeral
+from pigaming_app.ui.i18n import Words, numeral
 
 TOP, ROW, PITCH = 280, 120, 136
 TIMES = ("best", "total")  # columns in s

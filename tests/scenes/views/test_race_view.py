@@ -31,8 +31,7 @@ from pigaming_app.storage.safe_files import write_with_backup
 from pigaming_app.ui.draw.frame_budget import run_to_end
 from pigaming_app.ui.draw.layers import glyph
 from pigaming_app.ui.draw.theme import read_large
-from pigaming_app.ui.i18n import LANGUAGES, Words
-from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.i18n import LANGUAGES, Words, signed
 from tests import tags
 from tests.cases import one_in
 

@@ -14,9 +14,9 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import LATE, LEAVE, hold_bar
 from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, Color, badge
 from pigaming_app.ui.draw.layers import Layer
+from pigaming_app.ui.i18n import numeral
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
-from pigaming_app.ui.numbers import numeral
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD
 
 MINUTES = 1.0

@@ -33,9 +33,8 @@ from pigaming_app.ui.draw import (
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
 from pigaming_app.ui.draw.layers import Layer, LitImage, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.i18n import english
+from pigaming_app.ui.i18n import english, signed
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.numbers import signed
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import DIRECTIONS

@@ -21,7 +21,7 @@ from pigaming_app.scenes.views.sprites.factory import STATES
 from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.scenes.views.view import SoundCue, ViewOptions
 from pigaming_app.ui.draw import ALARM, FOCUS
-from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.i18n import signed
 
 POP = 0.12  # s, pop animation of a moved crate
 JINGLES = {ICE: "delivered_ice", FIRE: "delivered_fire"}

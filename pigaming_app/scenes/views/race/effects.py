@@ -19,8 +19,7 @@ from pigaming_app.sim.world import DT, WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, WHITE, Color
 from pigaming_app.ui.draw.layers import glyph, number_width
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put
-from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.i18n import Words, signed
 
 SOUNDS = {  # by event, the most important first
     "close": "photo_finish",

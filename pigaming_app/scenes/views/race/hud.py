@@ -25,8 +25,7 @@ from pigaming_app.ui.draw import ALARM, ICE, LABEL, PLAYERS, WHITE, GlowCanvas, 
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.layers import wrap, wrap_balanced
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.i18n import Words, signed
 
 MOVED = int(1.2 * HZ)  # ticks for which an arrow marks a change of place
 ANNOUNCED = int(2.5 * HZ)  # ticks for which words stand in place of the clock
