@@ -10,8 +10,7 @@ from functools import cache
 from math import exp
 from typing import Any
 
-from pigaming_app.ai.brain.kind import BrainKind, NoWeights
-from pigaming_app.ai.brain.traits import Traits
+from pigaming_app.ai.brain.kind import BrainKind, NoWeights, Traits
 from pigaming_app.ai.game_ai import POINT, TURN, GameAI
 from pigaming_app.ai.people.hands import Hands, move
 from pigaming_app.games.simple import MatchState

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pigaming_app.ai.brain.traits import Traits
+from pigaming_app.ai.brain.kind import Traits
 from pigaming_app.ai.game_ai import POINT, TURN
 from pigaming_app.ai.people.fit.calibration import (
     FitCalibration,
