@@ -7,7 +7,7 @@ import pygame
 from pigaming_app.games.game import Row, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.scene import Context
-from pigaming_app.scenes.results.awards.praise import places
+from pigaming_app.scenes.results.awards.award import places
 from pigaming_app.scenes.results.headline import EndedMatch, is_allied
 from pigaming_app.scenes.results.high_scores import clock, contest, format_score, high_score_tables
 from pigaming_app.scenes.results.page_head import (

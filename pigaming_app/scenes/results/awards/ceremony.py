@@ -7,9 +7,8 @@ from pigaming_app.games.game import Row
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.match_words import brain_name
 from pigaming_app.scenes.flow.scene import Context
-from pigaming_app.scenes.results.awards.award import Award, Player, awarded, own_awards
+from pigaming_app.scenes.results.awards.award import Award, Player, awarded, own_awards, places, praises
 from pigaming_app.scenes.results.awards.feats import Feats
-from pigaming_app.scenes.results.awards.praise import places, praises
 from pigaming_app.scenes.results.headline import EndedMatch, is_allied
 from pigaming_app.scenes.results.page_head import RevealedPage, RevealedPart, row_starts
 from pigaming_app.scenes.views.hud.ai_sign import name_of
