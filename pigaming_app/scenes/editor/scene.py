@@ -94,8 +94,6 @@ class Editor(Page):
                 self.bar.open = not self.bar.open and bench.hand is None
             case Button.START:
                 return self._ask(event, False)
-            case _:
-                pass
         return None
 
     def advance(self, seconds: float) -> StackOperation:

@@ -138,8 +138,6 @@ class NextMatch:
                 self._take(device)
             case Button.FIRE | Button.START:
                 return self._start()
-            case _:
-                pass
         return None
 
     def update(self, seconds: float) -> StackOperation:

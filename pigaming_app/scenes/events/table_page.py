@@ -70,8 +70,6 @@ class TablePage(Page):
                 self.context.sounds.play("accept")
                 self.wrong = False
                 self.poster = print_poster(self.running.event, self.running.path, self.context.words)
-            case _:
-                pass
         return None
 
     def advance(self, seconds: float) -> StackOperation:

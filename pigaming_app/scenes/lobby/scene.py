@@ -124,8 +124,6 @@ class Lobby:
             case Button.POINT | Button.CLICK:
                 if self._mouse(event):
                     return self._open_code()
-            case _:
-                pass
         self._update_countdown()
         return None
 

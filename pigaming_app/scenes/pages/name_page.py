@@ -70,8 +70,6 @@ class NamePage(Page):
                 return self._save()
             case Button.CLICK if event.at:
                 self._click(event.at)
-            case _:
-                pass
         return None
 
     def leave(self) -> StackOperation:

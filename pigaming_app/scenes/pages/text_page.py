@@ -81,8 +81,6 @@ class TextPage(Page):
                 return self._save()
             case Button.CLICK if event.at and abs(event.at[0] - 960) <= W / 2:
                 self._click(event.at[1] - MIDDLE)
-            case _:
-                pass
         return None
 
     def advance(self, seconds: float) -> StackOperation:

@@ -74,8 +74,6 @@ class ConsentPage(Page):
                 self._change_age(admitted.device, 1 if admitted.button is Button.RIGHT else -1)
             case Button.BACK | Button.LEAVE_SEAT | Button.LOST:
                 return self._back(admitted)
-            case _:
-                pass
         return None
 
     def _fire(self, device: Device) -> StackOperation:

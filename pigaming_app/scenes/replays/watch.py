@@ -62,8 +62,6 @@ class ReplayScene:
                 self._begin()
             case Button.BACK:
                 return Pop()
-            case _:
-                pass
         return None
 
     def update(self, seconds: float) -> StackOperation:

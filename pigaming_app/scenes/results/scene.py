@@ -156,8 +156,6 @@ class Results:
                 return self._leave()
             case Button.BACK if self.age >= LATE:
                 self.leaving.begin(admitted)
-            case _:
-                pass
         return None
 
     def update(self, seconds: float) -> StackOperation:

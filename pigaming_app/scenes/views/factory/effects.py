@@ -91,8 +91,6 @@ def react(
                 particles.burst(x, y, STATES[state.pallets[event.what].state], 10, 26, 50)
             case "freeze":
                 particles.burst(x, y, ALARM, 16, 50, 70)
-            case _:
-                pass
         if event.kind not in (THAWED, STARTED):
             cues.append((sound, event.player, event.x))
     return cues
