@@ -92,7 +92,7 @@ def run(options: PlayEventOptions) -> int:
     require_for_brains([*(entrant.brain for entrant in event.entrants), event.spec.fill or ""])
     began, before = perf_counter(), len(event.outcomes)
     with refused(ChoiceError, ArenaError, ValueError):
-        check_playable(event.spec.with_entrants(event.entrants), find_brain)
+        check_playable(replace(event.spec, entrants=event.entrants), find_brain)
         headless = HeadlessRun(event)
         while not event.over:
             if not event.open:

@@ -51,7 +51,7 @@ class PhonesPage(SettingsPage):
 
     def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
         host, settings, (x, y) = self.host, self.context.settings, dials.CENTRE
-        if name in WIFI and settings.phones_wifi and importable():
+        if name in WIFI and settings.phones_wifi and find_spec("segno"):
             draw_wifi(screen, settings, pygame.Rect(x - 165, y - 165, 330, 330))
         elif host.url and name not in (*WIFI, "list"):
             draw_code(screen, host.url, pygame.Rect(x - 165, y - 165, 330, 330))
@@ -110,11 +110,6 @@ class PhonesPage(SettingsPage):
         self.show_message(self.context.words("phones.renewed"))
         self.context.sounds.play("ready")
         return None
-
-
-def importable() -> bool:
-    """True if codes can be drawn."""
-    return bool(find_spec("segno"))
 
 
 def shown(network: NetworkInterface) -> str:

@@ -15,12 +15,6 @@ from pigaming_app.ui.i18n import Words, numeral
 from pigaming_app.ui.input.events import Device
 
 
-class Runner(Protocol):
-    """Names the driver of a seat, with an icon."""
-
-    def driver(self, seat: int, device: Device | None) -> tuple[str, str]: ...
-
-
 @runtime_checkable
 class ShownMatch(Protocol):
     """A scene that plays a match."""

@@ -164,7 +164,7 @@ class RaceEffects:
             case "item":
                 particles.burst(x, y, FOCUS, 12, 44, 60)
             case "close":
-                self._photo(x, y)
+                self.particles.burst(x, y, FOCUS, 30, 46, 150)  # of a close finish
 
     def celebrate(self, x: float, y: float, color: Color) -> None:
         """A cloud of chequered confetti."""
@@ -183,10 +183,6 @@ class RaceEffects:
         self.back_at[seat] = self.particles.clock
         if self.options.flashes != "off":
             self.particles.bloom(x, y, BEAM_LASTS, reel(beam, seat))
-
-    def _photo(self, x: float, y: float) -> None:
-        """Sparks of a close finish."""
-        self.particles.burst(x, y, FOCUS, 30, 46, 150)
 
     def record(self, x: float, y: float) -> None:
         """Effects of a new best lap ever on this track."""
