@@ -197,11 +197,7 @@ def _speed(text: str) -> float:
 
 
 def _headless(
-    options: PlayOptions,
-    setup: Setup,
-    speed: float,
-    plant: Callable[[Any], Plant],
-    rounds: Rounds | None,
+    options: PlayOptions, setup: Setup, speed: float, plant: Callable[[Any], Plant], rounds: Rounds | None
 ) -> int:
     match = new_match(setup, plant)
     if any(seat.brain == "human" for seat in setup.seats):

@@ -328,13 +328,7 @@ def arranged(arcade: Arcade, form: Format, count: int, called: int | None = None
 
 
 def event_table(
-    arcade: Arcade,
-    form: Format,
-    count: int,
-    page: int = 0,
-    seats: int = 2,
-    wide: bool = False,
-    matches: int = 0,
+    arcade: Arcade, form: Format, count: int, page: int = 0, seats: int = 2, wide: bool = False, matches: int = 0
 ) -> Scene:
     scene = TablePage(arcade.context, event(form, count, seats, matches or count, wide=wide))
     scene.page, scene.turned = page, 9.0

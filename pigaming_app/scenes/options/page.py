@@ -182,9 +182,7 @@ SECTIONS: dict[str, dict[str, Option]] = {
             apply=lambda page, chosen: _show_on(page, fullscreen=bool(chosen)),
         ),
     },
-    "controls": {
-        "rumble": switch("rumble", _rumble),
-    },
+    "controls": {"rumble": switch("rumble", _rumble)},
     "ease": {
         "calm": switch("calm"),
         "flashes": chosen_from("flashes", FLASHES, _flashes, for_children=True),

@@ -23,11 +23,7 @@ class DeviceTable:
     """
 
     def __init__(
-        self,
-        context: Context,
-        devices: Sequence[Device | None],
-        access: Access,
-        style_of: Callable[[Device], str],
+        self, context: Context, devices: Sequence[Device | None], access: Access, style_of: Callable[[Device], str]
     ) -> None:
         self.context, self.access, self.style_of = context, access, style_of
         self.rows = [(seat, device) for seat, device in enumerate(devices) if device]

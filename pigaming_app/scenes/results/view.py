@@ -10,13 +10,7 @@ from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.results.awards.award import places
 from pigaming_app.scenes.results.headline import EndedMatch, is_allied
 from pigaming_app.scenes.results.high_scores import clock, contest, format_score, high_score_tables
-from pigaming_app.scenes.results.page_head import (
-    FIRST,
-    RevealedPage,
-    RevealedPart,
-    row_starts,
-    share_of,
-)
+from pigaming_app.scenes.results.page_head import FIRST, RevealedPage, RevealedPart, row_starts, share_of
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.scenes.views.sprites.stars import HIGH, star_row

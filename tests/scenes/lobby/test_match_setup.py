@@ -206,11 +206,7 @@ def test_a_click_chooses_the_rounds(arcade: Arcade) -> None:
 
 
 def test_other_rules_bring_their_own_length_and_the_same_length_stays() -> None:
-    for game, before, after in (
-        ("race", (10, 4), (10, 5)),
-        ("factory", (5, 4), (3, 0)),
-        ("pitanks", (5, 0), (5, 0)),
-    ):
+    for game, before, after in (("race", (10, 4), (10, 5)), ("factory", (5, 4), (3, 0)), ("pitanks", (5, 0), (5, 0))):
         rules = games()[game]
         choice = Choice(minutes=before[0], variant=next(iter(rules.variants)), goal=before[1])
         change_rules(rules, choice, "party")

@@ -125,9 +125,7 @@ class Gallery(Page):
     def _read(self) -> None:
         """All cards of the game."""
         words = self.context.words
-        self.cards = [
-            Card(words("editor.new"), self._new, sign="plus"),
-        ]
+        self.cards = [Card(words("editor.new"), self._new, sign="plus")]
         if games()[self.game].surprise:
             self.cards.append(Card(words("editor.surprise"), self._surprise, sign="dice"))
         for name in store.own_names(self.game)[:MOST_OWN]:
