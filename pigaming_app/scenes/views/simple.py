@@ -9,9 +9,10 @@ import pygame
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.film import Film
 from pigaming_app.scenes.views.hud.ai_sign import name_of
-from pigaming_app.scenes.views.hud.parts import TeamHud, pulse
 from pigaming_app.scenes.views.hud.parts import Y as TOP_OF_PANELS
+from pigaming_app.scenes.views.hud.parts import pulse
 from pigaming_app.scenes.views.hud.score import ScoreHud
+from pigaming_app.scenes.views.hud.team_score import TeamHud
 from pigaming_app.scenes.views.particles import reel
 from pigaming_app.scenes.views.rumble import GIVEN
 from pigaming_app.scenes.views.sprites.effects import LIGHT_LEVELS, WAVE_STEPS, light, wave
