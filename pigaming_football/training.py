@@ -100,7 +100,5 @@ def tally(match: Football, seat: int, senses: Any, totals: Any) -> None:
 
 
 TALLIES = Tallies(
-    ("goals", "assists", "shots", "own_goals", "lead", "field", "win"),
-    {"lead": 2.0, "field": 1.0, "win": 5.0},
-    tally,
+    ("goals", "assists", "shots", "own_goals", "lead", "field", "win"), {"lead": 2.0, "field": 1.0, "win": 5.0}, tally
 )

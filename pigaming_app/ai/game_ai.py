@@ -6,8 +6,7 @@ from typing import Any
 
 from pigaming_app.ai.brain import kind
 from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_drive
-from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.brain.traits import Traits
+from pigaming_app.ai.brain.kind import BrainKind, Traits
 
 LEVELS = ("level1", "level2", "level3", "level4", "level5")  # in every game; one to five stars on the screen
 

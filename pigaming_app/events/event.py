@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from pigaming_app.events import standings
 from pigaming_app.events.formats.registry import KINDS
 from pigaming_app.events.journal import (
     Added,
@@ -85,17 +84,38 @@ class Event:
     @cached_property
     def standings(self) -> tuple[Standing, ...]:
         """The table, best first."""
-        return standings.standings(self.progress)
+        return self.progress.kind.table(self.progress.as_field())
 
     @cached_property
     def part_standings(self) -> Mapping[str, tuple[Standing, ...]]:
         """The tables of the groups by their names, best first; none in most formats."""
-        return standings.part_standings(self.progress)
+        return self.progress.kind.parts(self.progress.as_field())
 
     @cached_property
     def team_standings(self) -> tuple[Standing, ...]:
-        """The table of teams, best first; empty without teams. `entrant` is the team."""
-        return standings.team_standings(self.progress)
+        """The table of teams, best first, by the sum of the points, then of the wins, of their entrants; empty without
+        teams. `entrant` is the team.
+        """
+        rows = {row.entrant: row for row in self.standings}
+        members: dict[str, list[Standing]] = {}
+        for entrant in self.entrants:
+            if entrant.team:
+                members.setdefault(entrant.team, []).append(rows[entrant.name])
+        points = {team: sum(row.points for row in team_rows) for team, team_rows in members.items()}
+        won = {team: sum(row.wins for row in team_rows) for team, team_rows in members.items()}
+        order = sorted(members, key=lambda team: (-points[team], -won[team]))
+        ranks = [(points[team], won[team]) for team in order]
+        return tuple(
+            Standing(
+                place=1 + ranks.index((points[team], won[team])),
+                entrant=team,
+                points=points[team],
+                wins=won[team],
+                played=sum(row.played for row in members[team]),
+                tie_breaks={"wins": float(won[team])},
+            )
+            for team in order
+        )
 
     @property
     def calls(self) -> dict[int, str]:

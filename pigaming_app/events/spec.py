@@ -1,7 +1,7 @@
 """The data types of an event: its spec, which never changes, and the values derived from spec and journal."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from datetime import date
 from enum import StrEnum
 
@@ -87,10 +87,6 @@ class EventSpec:
         before = sum(self.game_of(number) == game for number in range(1, round_number))
         arenas = self.arenas.get(game) or ("",)
         return arenas[before % len(arenas)]
-
-    def with_entrants(self, entrants: tuple[Entrant, ...]) -> "EventSpec":
-        """The spec with other entrants."""
-        return replace(self, entrants=entrants)
 
 
 @dataclass(frozen=True)

@@ -197,11 +197,7 @@ def _speed(text: str) -> float:
 
 
 def _headless(
-    options: PlayOptions,
-    setup: Setup,
-    speed: float,
-    plant: Callable[[Any], Plant],
-    rounds: Rounds | None,
+    options: PlayOptions, setup: Setup, speed: float, plant: Callable[[Any], Plant], rounds: Rounds | None
 ) -> int:
     match = new_match(setup, plant)
     if any(seat.brain == "human" for seat in setup.seats):
@@ -280,8 +276,7 @@ def _on_screen(
 ) -> int:
     """Play in a window; with --headless and emulated robots without one, as fast as possible."""
     from pigaming_app.ai.registry import new_match
-    from pigaming_app.scenes.flow.context import Context
-    from pigaming_app.scenes.flow.stack import Scene
+    from pigaming_app.scenes.flow.scene import Context, Scene
     from pigaming_app.scenes.launch import Options
     from pigaming_app.scenes.lobby.scene import game_choice
     from pigaming_app.scenes.play.scene import MatchScene, match_of

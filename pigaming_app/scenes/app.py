@@ -17,8 +17,7 @@ from pigaming_app.ai.brain.archive import failed
 from pigaming_app.ai.brain_files import display_name
 from pigaming_app.ai.plugin_faults import blame, suspect
 from pigaming_app.scenes.features.registry import corner_pin, features
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, Scene, Stack
+from pigaming_app.scenes.flow.scene import Context, Push, Scene, Stack
 from pigaming_app.scenes.guard import Guard
 from pigaming_app.scenes.launch import Options
 from pigaming_app.storage.messages import OperatorError

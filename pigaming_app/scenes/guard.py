@@ -6,8 +6,7 @@ In a kiosk with a PIN it asks for the PIN first; phones are refused.
 from collections.abc import Sequence
 
 from pigaming_app.scenes.flow.access import LOWEST, Right, Role, Roles, right_of
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Push, Quit, Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Home, Push, Quit, Scene, StackOperation, Swap
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 
 HARMLESS = (Button.POINT, Button.FOUND, Button.LOST, Button.STOP, Button.BRAIN)

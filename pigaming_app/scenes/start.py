@@ -17,8 +17,8 @@ import pygame
 
 from pigaming_app.scenes.app import App
 from pigaming_app.scenes.features.registry import mat_of
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import choose_kiosk_rules
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.preloaded import modules
 from pigaming_app.storage import trash

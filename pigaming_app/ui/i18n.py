@@ -21,6 +21,7 @@ LANGUAGES = ("en", "pt", "es", "fr", "de")
 LONGEST = 500  # letters of a plug-in's text
 DECIMAL = re.compile(r"[+−-]?\d+\.\d+")
 NAMES = {"en": "English", "pt": "Português", "es": "Español", "fr": "Français", "de": "Deutsch"}
+MINUS = "−"
 
 
 class Message(Protocol):
@@ -172,3 +173,14 @@ def _flat(table: dict[str, Any], path: str) -> list[tuple[str, str]]:
     for name, value in table.items():
         flat += _flat(value, f"{path}{name}.") if isinstance(value, dict) else [(path + name, str(value))]
     return flat
+
+
+def numeral(value: float, digits: int = 0) -> str:
+    """A number rounded to `digits` decimals."""
+    return f"{value:z.{digits}f}".replace("-", MINUS)
+
+
+def signed(value: float, digits: int = 0) -> str:
+    """The same with its sign; none for what rounds to zero."""
+    text = numeral(value, digits)
+    return text if text[0] == MINUS or not any(digit in "123456789" for digit in text) else f"+{text}"

@@ -11,8 +11,8 @@ import json
 from collections.abc import Sequence
 
 from pigaming_app.ai.people.fit.calibration import FitCalibration, TraitCalibration, calibrated, file_of
-from pigaming_app.ai.people.fit.known import samples_of
 from pigaming_app.storage.schema import to_plain
+from tests.ai.people.fit.known import samples_of
 
 MATCHES, SEED, TEST_SEED = 8, 41, 51  # of each person of the regression; seeds
 

@@ -24,7 +24,7 @@ from pigaming_app.jobs.bench.memory import resident_mb
 from pigaming_app.scenes.attract.scene import Attract
 from pigaming_app.scenes.events.paper.poster import poster
 from pigaming_app.scenes.events.paper.sheet import encoded
-from pigaming_app.scenes.flow.stack import Home, Stack
+from pigaming_app.scenes.flow.scene import Home, Stack
 from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.scenes.phones.host import phone_host

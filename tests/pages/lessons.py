@@ -26,16 +26,7 @@ FOLDER = ROOT / "docs" / "lessons"
 PAGES = {language: sorted((FOLDER / language).glob("*.md")) for language in ("en", "pt")}
 CELL = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.MULTILINE | re.DOTALL)
 SHOWN = re.compile(r"^!\[.*\]\(.*\)\n\n?", re.MULTILINE)  # pictures: a notebook draws its own
-WORDS = {
-    "title",
-    "suptitle",
-    "label",
-    "labels",
-    "xlabel",
-    "ylabel",
-    "xticklabels",
-    "yticklabels",
-}  # of a picture
+WORDS = {"title", "suptitle", "label", "labels", "xlabel", "ylabel", "xticklabels", "yticklabels"}  # of a picture
 QUIET = ("-W", "error", "-W", "ignore:FigureCanvasAgg")  # a warning is an error, but that no window opens
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 

@@ -57,12 +57,7 @@ def refused(ended: Ended, folder: Path) -> str:
     ("words", "old", "new", "reason"),
     [
         (PLAY, TICK, TICK + LOOP, "rules.py, line {n}: it did not end."),
-        (
-            LEAGUE,
-            "    drop_coin(match)\n\n",
-            f"    drop_coin(match)\n{LOOP}\n",
-            "rules.py, line {n}: it did not end.",
-        ),
+        (LEAGUE, "    drop_coin(match)\n\n", f"    drop_coin(match)\n{LOOP}\n", "rules.py, line {n}: it did not end."),
         (BENCH, TICK, TICK + LOOP, "rules.py, line {n}: it did not end."),
         (TRAIN, TICK, TICK + LOOP, "rules.py, line {n}: it did not end."),
         (PLAY, TICK, TICK + "    __import__('time').sleep(99)\n", "rules.py, line {n}: it did not end."),

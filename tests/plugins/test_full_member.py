@@ -51,21 +51,14 @@ def seen() -> tuple[list[str], str]:
 
 def test_the_arenas_of_tag_are_drawn(tag: Path) -> None:
     lines, errors = seen()
-    assert lines == [
-        "pitanks factory race football tag | pitanks factory race football tag | Tag classic",
-        "2 False 4",
-    ]
+    assert lines == ["pitanks factory race football tag | pitanks factory race football tag | Tag classic", "2 False 4"]
     assert errors == ""
 
 
 @pytest.mark.parametrize(
     ("old", "new", "reason"),
     [
-        (
-            "TOOLS = TagTools()",
-            "TOOLS = tag_tools",
-            "editor.py, line {n}: NameError: name 'tag_tools' is not defined.",
-        ),
+        ("TOOLS = TagTools()", "TOOLS = tag_tools", "editor.py, line {n}: NameError: name 'tag_tools' is not defined."),
         ('game = "tag"', 'game = "tick"', "its tools are for tick, not for tag."),
         ("TOOLS = TagTools()", "TOOLS = TagTools", "TOOLS is no Tools."),
     ],

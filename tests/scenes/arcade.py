@@ -7,8 +7,7 @@ import pygame
 
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.app import App
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, Stack, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Scene, Stack, StackOperation
 from pigaming_app.scenes.guard import Guard
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.awards.moment import AwardsMoment

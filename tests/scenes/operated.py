@@ -7,7 +7,7 @@ import pytest
 pytest.importorskip("cv2")
 
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.mat.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
 from pigaming_app.storage.settings import Settings

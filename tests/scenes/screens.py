@@ -51,7 +51,7 @@ from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.kiosk.day_report import figures as day_figures
 from pigaming_app.scenes.kiosk.operator.figures_page import FiguresPage
@@ -328,13 +328,7 @@ def arranged(arcade: Arcade, form: Format, count: int, called: int | None = None
 
 
 def event_table(
-    arcade: Arcade,
-    form: Format,
-    count: int,
-    page: int = 0,
-    seats: int = 2,
-    wide: bool = False,
-    matches: int = 0,
+    arcade: Arcade, form: Format, count: int, page: int = 0, seats: int = 2, wide: bool = False, matches: int = 0
 ) -> Scene:
     scene = TablePage(arcade.context, event(form, count, seats, matches or count, wide=wide))
     scene.page, scene.turned = page, 9.0

@@ -22,8 +22,7 @@ from pigaming_app.hardware.calibration.corner_pin import CornerPin
 from pigaming_app.scenes import app as app_module
 from pigaming_app.scenes.app import MAX_FAILURES, App
 from pigaming_app.scenes.editor.scene import Editor
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, Scene, StackOperation
 from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.scene import MatchScene

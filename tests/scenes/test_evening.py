@@ -2,7 +2,7 @@
 
 import pytest
 
-from pigaming_app.scenes.flow.stack import Stack
+from pigaming_app.scenes.flow.scene import Stack
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.play.reconnect import Reconnect
 from pigaming_app.scenes.play.scene import MatchScene

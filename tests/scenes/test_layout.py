@@ -9,7 +9,7 @@ import pytest
 from pigaming_app.games.arenas import shipped_arenas
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.match_words import limits_line
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.play.scene import MatchScene

@@ -13,8 +13,7 @@ import pytest
 
 from pigaming_app import ROOT
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Stack, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Home, Pop, Push, Stack, StackOperation, Swap
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.start import run

@@ -6,7 +6,7 @@ import pytest
 
 from pigaming_app.scenes.controls import pictures as gadgets
 from pigaming_app.scenes.controls.controls_test import ControlsTest
-from pigaming_app.scenes.flow.stack import Scene, Stack
+from pigaming_app.scenes.flow.scene import Scene, Stack
 from pigaming_app.scenes.howto import scene as howto
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.lobby import match_setup_view as choice
@@ -19,7 +19,7 @@ from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.replays.page import ReplaysPage
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.scenes.views import game_tile
-from pigaming_app.ui.draw import text as texts
+from pigaming_app.ui.draw import layers as texts
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets import labels as page

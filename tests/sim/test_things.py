@@ -10,15 +10,7 @@ from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import Route, update_route
 from pigaming_app.sim.grid import BLOCKED
 from pigaming_app.sim.record import copy, digest
-from pigaming_app.sim.things.convex import (
-    contains,
-    distance,
-    inradius,
-    inset,
-    is_convex,
-    sides,
-    signed_area,
-)
+from pigaming_app.sim.things.convex import contains, distance, inradius, inset, is_convex, sides, signed_area
 from pigaming_app.sim.things.cover import CUT, around, capsules, excess, from_capsule
 from pigaming_app.sim.things.mud import in_mud
 from pigaming_app.sim.things.spec import ThingSpec, Use, mud_capsules, read_things, wall_capsules, written

@@ -9,8 +9,7 @@ from decimal import ROUND_HALF_EVEN, Decimal
 import pytest
 
 from pigaming_app import ASSETS
-from pigaming_app.ui.i18n import LANGUAGES, Words
-from pigaming_app.ui.numbers import MINUS, numeral, signed
+from pigaming_app.ui.i18n import LANGUAGES, MINUS, Words, numeral, signed
 from tests.scenes.measuring import SIGNED_ZERO
 
 ROOT = ASSETS.parent

@@ -43,7 +43,7 @@ def _behaviour(obs: PiTanksObservation, mind: GunnerMind) -> str:
         return "out"
     if mind.state == fsm.BREAK_FREE:
         return "free"
-    if _dodges(obs):
+    if obs.threat > obs.protected * DT and dodges(obs):
         return "dodge"
     if mind.target < 0:
         return "idle"
@@ -52,10 +52,6 @@ def _behaviour(obs: PiTanksObservation, mind: GunnerMind) -> str:
     if mind.state == gunner.FIGHT:
         return PARTS[gunner.rhythm(obs, mind, obs.others[mind.target])]
     return "hunt"
-
-
-def _dodges(obs: PiTanksObservation) -> bool:
-    return bool(obs.threat > obs.protected * DT and dodges(obs))
 
 
 def _reason(obs: PiTanksObservation, mind: GunnerMind, behaviour: str) -> str:

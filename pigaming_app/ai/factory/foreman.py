@@ -12,8 +12,7 @@ In party it prefers rush orders and the fast machine, and takes whatever pallet 
 
 from typing import Any
 
-from pigaming_app.ai.brain.kind import BrainKind, NoWeights
-from pigaming_app.ai.brain.traits import Traits
+from pigaming_app.ai.brain.kind import BrainKind, NoWeights, Traits
 from pigaming_app.ai.factory.driving import draw_back, drive_to, make_detour, update_patience
 from pigaming_app.ai.factory.mind import PERIOD, PLAN, back_out, detect_stuck, perhaps_slip
 from pigaming_app.ai.factory.task_allocation import ForemanMind, choose_job

@@ -3,8 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.brain.traits import NUMBERS
+from pigaming_app.ai.brain.kind import NUMBERS, BrainKind
 from pigaming_app.ai.game_ai import POINT, TURN
 from pigaming_app.ai.learning.league import wilson
 from pigaming_app.ai.learning.line_ups import LineUps

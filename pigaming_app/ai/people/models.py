@@ -10,15 +10,14 @@ from functools import cache
 from math import exp
 from typing import Any
 
-from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.brain.traits import Traits
+from pigaming_app.ai.brain.kind import BrainKind, NoWeights, Traits
 from pigaming_app.ai.game_ai import POINT, TURN, GameAI
 from pigaming_app.ai.people.hands import Hands, move
-from pigaming_app.ai.people.masher import MASHER
 from pigaming_app.games.simple import MatchState
+from pigaming_app.sim.action import set_action
 from pigaming_app.sim.kernel import kernel
 from pigaming_app.sim.record import record
-from pigaming_app.sim.rng import bell, seeded
+from pigaming_app.sim.rng import bell, seeded, uniform
 from pigaming_app.sim.world import HZ, Action
 
 BEGINNER = Traits(  # a child of 8 on a keyboard
@@ -33,6 +32,9 @@ EXPERT = Traits(  # an adult who plays often, on a pad
     reaction=0.34, spread=0.15, decisions=4.0, timing=0.055, aim=0.17, prediction=0.6, lapses=1.5, lapse=0.5,
     stick=0.17, tactics=0.7, turbo=True,
 )  # fmt: skip
+PRESSES = 3.5  # per second
+HELD = 0.8  # s, mean time for which a key is down
+KEYS = 5  # ahead, back, left, right, FIRE
 
 
 @dataclass(frozen=True)
@@ -133,3 +135,41 @@ def copy_action(source: Action, target: Action) -> None:
     """Make an action equal to another."""
     target.linear, target.angular = source.linear, source.angular
     target.fire, target.turbo, target.aim = source.fire, source.turbo, source.aim
+
+
+@record
+class MasherMind:
+    """Ticks for which each key is still down."""
+
+    random: int
+    ahead: int
+    back: int
+    left: int
+    right: int
+    fire: int
+
+
+@kernel
+def think(match: MatchState, seat: int, mind: MasherMind, weights: NoWeights) -> None:
+    """Press a key at random now and then, and hold what is down."""
+    if uniform(mind) < PRESSES / HZ:
+        key, ticks = int(KEYS * uniform(mind)), 1 + int(2.0 * HELD * HZ * uniform(mind))
+        if key == 0:
+            mind.ahead = ticks
+        elif key == 1:
+            mind.back = ticks
+        elif key == 2:
+            mind.left = ticks
+        elif key == 3:
+            mind.right = ticks
+        else:
+            mind.fire = ticks
+    mind.ahead, mind.back = max(0, mind.ahead - 1), max(0, mind.back - 1)
+    mind.left, mind.right = max(0, mind.left - 1), max(0, mind.right - 1)
+    mind.fire = max(0, mind.fire - 1)
+    linear = (1.0 if mind.ahead else 0.0) - (1.0 if mind.back else 0.0)
+    angular = (1.0 if mind.right else 0.0) - (1.0 if mind.left else 0.0)
+    set_action(match.actions[seat], linear, angular, mind.fire, 0)
+
+
+MASHER = BrainKind("masher", MasherMind, think)

@@ -12,9 +12,8 @@ dodges nothing.
 from math import cos, sin, sqrt
 from typing import Any
 
-from pigaming_app.ai.brain.kind import BrainKind, NoWeights
+from pigaming_app.ai.brain.kind import BrainKind, NoWeights, Traits
 from pigaming_app.ai.brain.steering import approach, turn_stick
-from pigaming_app.ai.brain.traits import Traits
 from pigaming_app.ai.brain.unstick import escape
 from pigaming_app.ai.pitanks.fsm import BREAK_FREE, TankMind, detect_stuck, dodge, draw_error, go_to
 from pigaming_app.games.pitanks.observation import (

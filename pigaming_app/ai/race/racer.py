@@ -15,8 +15,7 @@ In `party` it uses its item when that pays (see `wants_item`). FIRE also asks fo
 from dataclasses import dataclass
 from math import atan2, cos, pi, sin, sqrt
 
-from pigaming_app.ai.brain.kind import BrainKind, NoWeights
-from pigaming_app.ai.brain.traits import Traits
+from pigaming_app.ai.brain.kind import BrainKind, NoWeights, Traits
 from pigaming_app.ai.brain.unstick import STUCK_DISTANCE, choose_escape, escape, ticks_stuck
 from pigaming_app.ai.race.overtaking import CLEAR, EDGE, LEEWAY, choose_lane, leader_speed
 from pigaming_app.games.race.observation import OTHERS, RaceObservation, RaceSenses, observe

@@ -50,15 +50,7 @@ from pigaming_app.games.factory.state import (
     B,
 )
 from pigaming_app.games.starts import clear_starts, free_place
-from pigaming_app.sim.arena import (
-    Layout,
-    WallSpec,
-    raise_first,
-    read_radius,
-    read_starts,
-    read_walls,
-    start_faults,
-)
+from pigaming_app.sim.arena import Layout, WallSpec, raise_first, read_radius, read_starts, read_walls, start_faults
 from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.flow_field import Route, expand, free_node
 from pigaming_app.sim.things.cover import from_capsule

@@ -59,8 +59,4 @@ def set_rules(rules: PiTanksRules, setup: Setup) -> None:
 def stats(match: PiTanks, seat: int) -> Mapping[str, float]:
     """Statistics of a seat: hits made, hits taken, share of its bullets that scored."""
     tank = match.tanks[seat]
-    return {
-        "hits": tank.hits,
-        "taken": tank.taken,
-        "aim": tank.landed / tank.shots if tank.shots else 0.0,
-    }
+    return {"hits": tank.hits, "taken": tank.taken, "aim": tank.landed / tank.shots if tank.shots else 0.0}

@@ -8,15 +8,7 @@ from collections.abc import Sequence
 from itertools import accumulate
 from math import atan2, hypot, tau
 
-from pigaming_app.games.race.course import (
-    POINTS,
-    Course,
-    CoursePosition,
-    half_width_at,
-    locate,
-    point_at,
-    segment_at,
-)
+from pigaming_app.games.race.course import POINTS, Course, CoursePosition, half_width_at, locate, point_at, segment_at
 from pigaming_app.games.race.passages import Span
 from pigaming_app.games.race.state import BOXES, PADS
 from pigaming_app.sim.angles import turn_to

@@ -1,6 +1,3 @@
 """Measurements and checks of the program."""
 
-JOBS = {
-    "bench": "performance on this machine",
-    "test": "linter, types and tests",
-}
+JOBS = {"bench": "performance on this machine", "test": "linter, types and tests"}

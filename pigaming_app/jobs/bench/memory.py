@@ -19,8 +19,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.jobs.bench.processes import figures_of
 
 if TYPE_CHECKING:
-    from pigaming_app.scenes.flow.context import Context
-    from pigaming_app.scenes.flow.stack import Scene
+    from pigaming_app.scenes.flow.scene import Context, Scene
 
 STATES = ("title", "lobby", *games())
 STEP = 1 / 30  # s of a frame

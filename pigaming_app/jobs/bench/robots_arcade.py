@@ -166,10 +166,7 @@ def by_wifi(note: Callable[[str], None], seed: int = 1) -> dict[str, float]:
 
     Raises NoMicroPython, or RuntimeError if the robots do not drive.
     """
-    with (
-        TemporaryDirectory(dir=_memory()) as folder,
-        OutsideArena(seed, Path(folder, "camera"), KEY, PORT) as outside,
-    ):
+    with TemporaryDirectory(dir=_memory()) as folder, OutsideArena(seed, Path(folder, "camera"), KEY, PORT) as outside:
         trials = Trials(outside, Path(folder), ("--radio", "udp"), note)
         fault = trials.fault
         trials.run(

@@ -54,7 +54,7 @@ X-PiGaming-Version={__version__}
 @cache
 def png(size: int) -> bytes:
     """The icon of `size` x `size` px as a PNG file."""
-    from pigaming_app.scenes.title.icon import icon
+    from pigaming_app.scenes.title.logo import icon
     from pigaming_app.ui.png import png_of
 
     return png_of(icon(size))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pigaming_app.events import event_files
 from pigaming_app.events.event import Event
-from pigaming_app.jobs.terminal.options import argument, path
+from pigaming_app.jobs.terminal.options import JsonOption, argument, path
 from pigaming_app.jobs.terminal.refusal import Refusal
 
 
@@ -15,6 +15,11 @@ class FileOption:
     """The file of the event."""
 
     file: Path = argument("the event", path, metavar="FILE")
+
+
+@dataclass(frozen=True, kw_only=True)
+class EventOptions(FileOption, JsonOption):
+    """The event, and how it is printed."""
 
 
 def loaded(file: Path) -> Event:

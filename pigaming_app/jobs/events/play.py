@@ -7,31 +7,46 @@ kill or a power cut.
 
 import sys
 from argparse import ArgumentTypeError
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import groupby
 from math import inf
 from pathlib import Path
 from time import perf_counter, sleep
+from typing import TYPE_CHECKING, Any
 
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.events import event_files, resume
 from pigaming_app.events.event import Event
-from pigaming_app.events.match_setup import check_playable
+from pigaming_app.events.formats.registry import KINDS
+from pigaming_app.events.match_setup import check_playable, outcome_of, setup_of
 from pigaming_app.events.network.mirror import SCHEME, Host, host_at
-from pigaming_app.events.spec import Result, check_name
-from pigaming_app.games.setup import ChoiceError
+from pigaming_app.events.spec import DEFAULT_AI, Fixture, Result, check_name
+from pigaming_app.games.game import Row
+from pigaming_app.games.match import standings
+from pigaming_app.games.registry import games
+from pigaming_app.games.setup import ChoiceError, longest
 from pigaming_app.jobs import arcade
 from pigaming_app.jobs.events.files import loaded
-from pigaming_app.jobs.events.headless import HeadlessRun, seconds_of
 from pigaming_app.jobs.events.joining import joined
 from pigaming_app.jobs.events.show import print_event
 from pigaming_app.jobs.terminal.options import JsonOption, KioskOptions, argument, decimal, flag, option, path, word
 from pigaming_app.jobs.terminal.refusal import Refusal, module_of, refused, require_for_brains
+from pigaming_app.scenes.events.quick_match import play
 from pigaming_app.sim.arena import ArenaError
+from pigaming_app.sim.kernel import can_compile
+from pigaming_app.sim.world import DT
 from pigaming_app.storage.parsing import quote
 from pigaming_app.storage.safe_files import require_writable
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.web import PORT
+
+if TYPE_CHECKING:
+    from pigaming_app.ai.learning.line_ups import LineUps
+
+WORTH_COMPILING = 600_000  # ticks: half a minute of plain matches, which compiling takes the first time
+BATCH = 32  # matches of one compiled batch: the most that a kill can cost
 
 
 def _speed(text: str) -> float:
@@ -77,7 +92,7 @@ def run(options: PlayEventOptions) -> int:
     require_for_brains([*(entrant.brain for entrant in event.entrants), event.spec.fill or ""])
     began, before = perf_counter(), len(event.outcomes)
     with refused(ChoiceError, ArenaError, ValueError):
-        check_playable(event.spec.with_entrants(event.entrants), find_brain)
+        check_playable(replace(event.spec, entrants=event.entrants), find_brain)
         headless = HeadlessRun(event)
         while not event.over:
             if not event.open:
@@ -143,3 +158,73 @@ def _progress(event: Event) -> None:
         print(
             end=f"\r\x1b[Kround {event.round}: {len(event.outcomes)} matches, {left} open", file=sys.stderr, flush=True
         )
+
+
+class HeadlessRun:
+    """Plays fixtures of one event. `fast`: compiled; None: compiled if it repays compiling."""
+
+    def __init__(self, event: Event, fast: bool | None = None) -> None:
+        """Raises ChoiceError for brains, arenas or rules that do not exist."""
+        self._line_ups = {game: self._line_up(event, game, fast) for game in dict.fromkeys(event.spec.games)}
+
+    def play(self, event: Event) -> list[Result]:
+        """Play the next matches, at least one if any is open: those of one game, with one game's loop."""
+        for (game, extra), fixtures in groupby(event.open, lambda fixture: (fixture.game, fixture.extra > 0)):
+            if extra:
+                return [play(event, next(fixtures), DEFAULT_AI)]
+            return self.play_these(event, [*fixtures][: BATCH if self._line_ups[game].fast else 1])
+        return []
+
+    def play_these(self, event: Event, fixtures: Sequence[Fixture]) -> list[Result]:
+        """Play these fixtures, all of one game. Raises ChoiceError or ArenaError."""
+        game = fixtures[0].game
+        setups = [setup_of(event, fixture, DEFAULT_AI) for fixture in fixtures]
+        states = self._line_ups[game].played(setups)
+        return [
+            outcome_of(event.spec, fixture, _rows(game, state)) for fixture, state in zip(fixtures, states, strict=True)
+        ]
+
+    def _line_up(self, event: Event, game: str, fast: bool | None) -> "LineUps":
+        from pigaming_app.ai.learning.line_ups import LineUps  # of another feature
+
+        brains = [*dict.fromkeys(entrant.brain or DEFAULT_AI for entrant in event.entrants)]
+        brains += [event.spec.fill] if event.spec.fill else []
+        if fast is None:
+            matches = matches_left(event) // len({*event.spec.games})
+            names, arena = tuple(entrant.name for entrant in event.entrants), (event.spec.arenas.get(game) or ("",))[0]
+            example = Fixture(1, 1, "", game, arena, names[: event.spec.seats], 1)
+            fast = can_compile() and matches * _ticks(event, example) > WORTH_COMPILING
+        return LineUps(game, brains, fast and not any(find_brain(game, name).plain for name in brains))
+
+
+def seconds_of(event: Event, fixture: Fixture) -> float:
+    """Longest time of a match, s."""
+    return _ticks(event, fixture) * DT
+
+
+def matches_left(event: Event) -> int:
+    """Matches to come, estimated where they are not drawn yet."""
+    kind, count = KINDS[event.spec.format], len(event.entrants)
+    return max(len(event.open), kind.matches(event.spec, count) - len(event.outcomes))
+
+
+def _ticks(event: Event, fixture: Fixture) -> int:
+    return longest(setup_of(event, fixture, DEFAULT_AI))
+
+
+def _rows(game: str, state: Any) -> list[Row]:
+    """Place and score of every robot that played."""
+    rules, robots = games()[game], state.robots
+    keys, _ = standings(rules, state)
+    return [
+        Row(
+            seat,
+            robots[seat].team,
+            1 + sum(key > own for key in keys.values()),
+            robots[seat].score,
+            {},
+            rules.records(state, seat),
+            (),
+        )
+        for seat, own in keys.items()
+    ]

@@ -2,23 +2,16 @@
 
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from pigaming_app.events.event import Event
 from pigaming_app.events.exports import columns, plain
 from pigaming_app.events.spec import Standing
-from pigaming_app.jobs.events.files import FileOption, loaded
-from pigaming_app.jobs.terminal.options import JsonOption
+from pigaming_app.jobs.events.files import EventOptions, loaded
 
 NEXT = 8  # matches shown
 
 
-@dataclass(frozen=True, kw_only=True)
-class ShowOptions(FileOption, JsonOption):
-    """The event to show."""
-
-
-def run(options: ShowOptions) -> int:
+def run(options: EventOptions) -> int:
     """Print the event. Raises Refusal."""
     print_event(loaded(options.file), options.json)
     return 0

@@ -142,21 +142,22 @@ def options_of(kind: type[T], found: Namespace) -> T:
     return kind(**{name: tuple(v) if isinstance(v, list) else v for name, v in values.items() if v is not None})
 
 
-def declare_job(parser: ArgumentParser, job: ModuleType) -> None:
-    """Declare a job: its options, or a sub-command for each module in its `WORDS`, described by its docstring.
+def declare_job(parser: ArgumentParser, job: ModuleType | Callable[[Any], int]) -> None:
+    """Declare a job: its options, or a sub-command for each module or function in its `WORDS`, with its docstring.
 
     `start(found)` of the parsed arguments runs the chosen one.
     """
     if not hasattr(job, "WORDS"):
-        kind = get_type_hints(job.run)["options"]
+        run = getattr(job, "run", job)
+        kind = get_type_hints(run)["options"]
         declare(parser, kind)
-        parser.set_defaults(start=lambda found: job.run(options_of(kind, found)))
+        parser.set_defaults(start=lambda found: run(options_of(kind, found)))
         return
     parsers = parser.add_subparsers(metavar="WORD", required=True)
-    for word, module in job.WORDS.items():
-        about = (module.__doc__ or "").partition("\n\n")[0].replace("\n", " ")
+    for word, part in job.WORDS.items():
+        about = (part.__doc__ or "").partition("\n\n")[0].replace("\n", " ")
         short = about[0].lower() + about[1:].rstrip(".")
-        declare_job(parsers.add_parser(word, help=short, description=about, allow_abbrev=False), module)
+        declare_job(parsers.add_parser(word, help=short, description=about, allow_abbrev=False), part)
 
 
 def games_and(*more: str, default: str = "") -> Callable[[], str]:

@@ -4,10 +4,9 @@ import pygame
 
 from pigaming_app.games.moments import LAST
 from pigaming_app.scenes.features.replays import timeline_of
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Home, StackOperation
 from pigaming_app.scenes.play.runner import MatchRunner
-from pigaming_app.scenes.recordings.highlights import Highlight
+from pigaming_app.scenes.recordings.store import Highlight
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ICE, LABEL, PLAYERS
 from pigaming_app.ui.input.events import InputEvent

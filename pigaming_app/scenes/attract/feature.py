@@ -1,8 +1,7 @@
 """Attract mode as a feature: what the screen shows while nobody plays."""
 
 from pigaming_app.scenes.features.feature import Feature
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 
 
 def idle(context: Context) -> Scene:

@@ -18,11 +18,10 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.attract.clip import Clip
 from pigaming_app.scenes.features.feature import Show
 from pigaming_app.scenes.features.registry import features
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Home, Scene, StackOperation
 from pigaming_app.scenes.play.drivers import new_seed
 from pigaming_app.scenes.play.runner import MatchRunner
-from pigaming_app.scenes.recordings.highlights import highlights
+from pigaming_app.scenes.recordings.store import highlights
 from pigaming_app.scenes.results.high_scores import HighScores, contests
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, dim

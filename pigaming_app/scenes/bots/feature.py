@@ -3,10 +3,9 @@
 from pigaming_app.ai.bots import brains
 from pigaming_app.ai.bots.line import Serving
 from pigaming_app.scenes.bots.host import bot_host
-from pigaming_app.scenes.bots.pictures import sketch
+from pigaming_app.scenes.bots.page import sketch
 from pigaming_app.scenes.features.feature import Feature, OptionRow, Service
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, Stack
+from pigaming_app.scenes.flow.scene import Context, Scene, Stack
 from pigaming_app.scenes.launch import Options
 
 

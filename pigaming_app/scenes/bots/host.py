@@ -11,8 +11,7 @@ from pigaming_app.ai.bots.line import FIELD, next_match
 from pigaming_app.ai.bots.session import BotSession
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.bots.vision import VisionSender
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.ui.web.network import ServerUnavailable, chosen, networks
 
 if TYPE_CHECKING:

@@ -5,16 +5,14 @@ import pygame
 from pigaming_app.ai.bots import brains
 from pigaming_app.ai.bots.book import LONGEST_NAME, PREFIX
 from pigaming_app.scenes.bots.host import bot_host
-from pigaming_app.scenes.bots.pictures import picture
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.storage.safe_files import NotSaved
-from pigaming_app.ui.draw import ALARM, ICE, MIST
-from pigaming_app.ui.draw.layers import LEFT, RIGHT
-from pigaming_app.ui.draw.text import SMALLEST, fit_text, text
+from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LINE, MIST, GlowCanvas
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, SMALLEST, LitImage, fit_text, text
+from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.setting_row import SettingValue
@@ -108,3 +106,20 @@ class BotsPage(SettingsPage):
         for row, start in enumerate(range(0, len(key), KEY_ROW)):
             digits = f"{key[start : start + KEY_ROW // 2]} {key[start + KEY_ROW // 2 : start + KEY_ROW]}"
             text(digits, KEY_SIZE, ICE, "head", "c").draw(screen, x, y + KEY_PITCH * (row - 1.5))
+
+
+def sketch(ink: GlowCanvas, beat: int) -> None:
+    """Draw a program: two brackets, and a line of text between them that grows."""
+    for side in (-1, 1):
+        ink.line([(side * 80, -90), (side * 150, 0), (side * 80, 90)], FOCUS, LINE)
+    for row, width in enumerate((60, 90 if beat else 30)):
+        y = -24 + 48 * row
+        ink.line([(-45, y), (-45 + width, y)], ICE, LINE)
+
+
+@cached
+def picture(chosen: int) -> LitImage:
+    """A program, centred on (0, 0)."""
+    ink = GlowCanvas(480, 340).set_transform(240, 170)
+    sketch(ink, chosen)
+    return LitImage(ink.lit(), (-240, -170))

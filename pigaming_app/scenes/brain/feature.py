@@ -17,8 +17,5 @@ def overlay(match: "Match", view: "MatchView", words: Words) -> MatchOverlay:
 
 
 FEATURE = Feature(
-    "brain",
-    rooms=("scenes.brain", "ai.explanations"),
-    overlay=overlay,
-    preload=("pigaming_app.scenes.brain.overlay",),
+    "brain", rooms=("scenes.brain", "ai.explanations"), overlay=overlay, preload=("pigaming_app.scenes.brain.overlay",)
 )

@@ -13,9 +13,9 @@ from pigaming_app.ai.brain.thoughts import MoveKey
 from pigaming_app.games.registry import OURS
 from pigaming_app.scenes.brain.rose import tone
 from pigaming_app.ui import draw as kit
+from pigaming_app.ui.draw.layers import fit_size, word
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put, trim
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, word
 
 Y, H, EDGE = 24, 106, 24  # px: top and height of both boxes, margin of their sprites
 TEXT = 104  # px from the left edge of a box to its texts

@@ -12,9 +12,8 @@ import pygame
 from pigaming_app.ai.registry import AIS
 from pigaming_app.scenes.controls import pictures as gadgets
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.views.sprites import effects

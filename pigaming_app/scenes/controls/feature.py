@@ -1,8 +1,7 @@
 """Pages about keys and pads as a feature: a test of them, and other keys."""
 
 from pigaming_app.scenes.features.feature import Feature, OptionRow
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.ui.draw import FOCUS, ICE, LINE, STEEL, GlowCanvas, cut_box, icon
 
 

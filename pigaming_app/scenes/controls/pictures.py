@@ -7,9 +7,8 @@ import pygame
 
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import Layer, LitImage, span
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_size, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.input.events import Button
 
 W, H = span(0, 3)[1], 340

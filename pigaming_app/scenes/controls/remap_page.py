@@ -7,8 +7,7 @@ keeps one.
 import pygame
 
 from pigaming_app.scenes.controls import pictures
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.ui.input import gamepads, keyboard
 from pigaming_app.ui.input.events import Button, Device, InputEvent

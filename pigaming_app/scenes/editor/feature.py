@@ -4,8 +4,7 @@ from collections.abc import Callable
 from functools import partial
 
 from pigaming_app.scenes.features.feature import Feature, MenuItem
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 
 
 def page(context: Context, game: str) -> Scene:

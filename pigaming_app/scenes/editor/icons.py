@@ -184,9 +184,4 @@ PICTURES: dict[str, Icon] = {
         dot(-0.9, -0.9, 0.22),
     ),
 }
-VALUED: dict[str, Callable[[Pen, str], None]] = {
-    "thick": _thick,
-    "health": _health,
-    "grid": _grid,
-    "mirror": _mirror,
-}
+VALUED: dict[str, Callable[[Pen, str], None]] = {"thick": _thick, "health": _health, "grid": _grid, "mirror": _mirror}

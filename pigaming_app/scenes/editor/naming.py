@@ -6,8 +6,7 @@ from unicodedata import normalize
 
 from pigaming_app.games.arenas import is_own_name
 from pigaming_app.scenes.editor.store import NEW, file_name, own_names
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages import name_page
 
 LENGTH, IDLE = 9, 120.0  # letters, s

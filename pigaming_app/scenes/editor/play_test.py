@@ -5,8 +5,7 @@ from functools import partial
 from pigaming_app.ai.registry import new_match
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.play.drivers import new_seed
 from pigaming_app.scenes.play.runner import NOTICE_AT
 from pigaming_app.scenes.play.scene import MatchScene

@@ -28,13 +28,11 @@ from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.toolbar import Tile, ToolBar
 from pigaming_app.scenes.editor.workbench import Workbench
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, Color
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, backdrop, text
 from pigaming_app.ui.input.events import Button, InputEvent
 
 HEAD_Y = 82  # px
@@ -96,8 +94,6 @@ class Editor(Page):
                 self.bar.open = not self.bar.open and bench.hand is None
             case Button.START:
                 return self._ask(event, False)
-            case _:
-                pass
         return None
 
     def advance(self, seconds: float) -> StackOperation:

@@ -10,9 +10,8 @@ from pigaming_app.events.formats.knockout import FINAL
 from pigaming_app.scenes.events.names import shortened
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LINE, MIST, STEEL, THIN, Color, cut_box, dim, icon
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, Layer, LitImage, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import text
 
 COLUMNS = 4
 W, GAP = 396, 48  # px: width of a box, from box to box

@@ -5,7 +5,7 @@ from collections.abc import Collection, Mapping
 from pigaming_app.ai.registry import level_of
 from pigaming_app.events.spec import Fixture
 from pigaming_app.scenes.events.running import RunningEvent
-from pigaming_app.scenes.flow.device_words import steering
+from pigaming_app.scenes.flow.match_words import steering
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Device

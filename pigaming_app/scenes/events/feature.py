@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 from pigaming_app.scenes.features.board_page import BoardPage
 from pigaming_app.scenes.features.feature import Feature, MenuItem, Service
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, Stack
+from pigaming_app.scenes.flow.scene import Context, Scene, Stack
 from pigaming_app.scenes.launch import Options
 from pigaming_app.storage.settings import folders
 

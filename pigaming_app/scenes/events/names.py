@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from pigaming_app.events.spec import Result
 from pigaming_app.ui.draw import BODY, LABEL, text_width
-from pigaming_app.ui.draw.text import fit_text
+from pigaming_app.ui.draw.layers import fit_text
 
 ROOM = 300  # px, of a name in a sentence
 

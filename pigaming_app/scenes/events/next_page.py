@@ -26,8 +26,7 @@ from pigaming_app.scenes.events.seats import EventSeats
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.play.scene import MatchScene, match_of
 from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.sim.world import ROBOTS
@@ -139,8 +138,6 @@ class NextMatch:
                 self._take(device)
             case Button.FIRE | Button.START:
                 return self._start()
-            case _:
-                pass
         return None
 
     def update(self, seconds: float) -> StackOperation:

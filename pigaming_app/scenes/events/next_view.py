@@ -16,10 +16,9 @@ from pigaming_app.scenes.flow.match_words import game_title, match_length, sudde
 from pigaming_app.scenes.lobby import seat_card
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size, fit_text, text
 from pigaming_app.ui.draw.sprites import HEADINGS, step
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, fit_text, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.widgets.labels import blit_sprite
 from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W

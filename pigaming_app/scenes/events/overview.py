@@ -10,8 +10,7 @@ from pigaming_app.scenes.events import bracket_view, table_view
 from pigaming_app.scenes.events.bracket_view import LATER, NEXT, OPEN, PLAYED, BracketBox, Page
 from pigaming_app.scenes.events.running import stage_name
 from pigaming_app.scenes.events.table_view import GroupTable, TableRow
-from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.numbers import numeral
+from pigaming_app.ui.i18n import Words, numeral
 
 TABLE, TEAMS, GROUPS, BRACKET = "table", "teams", "groups", "bracket"  # kinds of pages
 TEAM_FIGURES = ("points", "wins", "played")

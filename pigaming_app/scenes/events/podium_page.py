@@ -11,16 +11,14 @@ from pigaming_app.scenes.events.paper.certificates import print_certificates
 from pigaming_app.scenes.events.paper.sheet import PrintJob, can_pdf
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.podium import APART, FIRST, HEIGHTS, ORDER, REVEALS, RISE, STEP_W, Podium, Stand
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, MIST, PLAYERS, SUB, THIN, TITLE, GlowCanvas, icon, text_width
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, run_to_end
-from pigaming_app.ui.draw.layers import RIGHT, LitImage, backdrop
+from pigaming_app.ui.draw.layers import RIGHT, LitImage, backdrop, fit_text, text, word, wrap
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_text, text, word, wrap
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import heading
 

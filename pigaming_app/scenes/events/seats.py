@@ -9,8 +9,8 @@ from pigaming_app.events.spec import Fixture
 from pigaming_app.scenes.events import next_view as view
 from pigaming_app.scenes.events.drivers import driver_label, people_of, phones_of, stood_in, suggested
 from pigaming_app.scenes.events.running import RunningEvent
-from pigaming_app.scenes.flow.brain_names import brain_name
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.match_words import brain_name
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.labels import black_out, pulse
 from pigaming_app.ui.widgets.player_card import ask_bar, ready_bar

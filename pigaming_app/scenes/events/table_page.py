@@ -11,8 +11,7 @@ from pigaming_app.scenes.events.overview import BRACKET, GROUPS, TEAM_FIGURES, h
 from pigaming_app.scenes.events.paper.poster import print_poster
 from pigaming_app.scenes.events.paper.sheet import PrintJob
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Home, Pop, Push, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.ui.draw.layers import LitImage
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -71,8 +70,6 @@ class TablePage(Page):
                 self.context.sounds.play("accept")
                 self.wrong = False
                 self.poster = print_poster(self.running.event, self.running.path, self.context.words)
-            case _:
-                pass
         return None
 
     def advance(self, seconds: float) -> StackOperation:

@@ -7,9 +7,8 @@ import pygame
 
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LINE, MIST, STEEL, THIN, TITLE, cut_box, icon, text_width
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size, fit_text, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, fit_text, text
 
 HEADS_Y, TOP, BOTTOM = 222, 254, 930  # px
 GAP = 24  # px between two columns

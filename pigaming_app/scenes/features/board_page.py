@@ -6,7 +6,7 @@ from typing import Protocol
 
 import pygame
 
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 
 Box = tuple[int, int, int, int]  # x, y, width, height, px on a canvas of 1920 x 1080
 

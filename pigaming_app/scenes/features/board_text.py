@@ -4,8 +4,8 @@ import pygame
 
 from pigaming_app.ui.draw import ICE, STEEL, THIN, Color, GlowCanvas, badge, cut_box, icon, text_width
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
+from pigaming_app.ui.draw.layers import fit_size
 from pigaming_app.ui.draw.surface_cache import SurfaceCache
-from pigaming_app.ui.draw.text import fit_size
 
 CACHE = SurfaceCache(24 << 20)  # bytes
 EDGE = 28  # px of glow

@@ -16,9 +16,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.replay import Replay
 from pigaming_app.games.timeline import Timeline
 from pigaming_app.scenes.features.board_page import BoardPage
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.robot_mat import RobotMat
-from pigaming_app.scenes.flow.stack import Scene, Stack, StackOperation
+from pigaming_app.scenes.flow.scene import Context, RobotMat, Scene, Stack, StackOperation
 from pigaming_app.scenes.launch import Options
 from pigaming_app.ui.draw import GlowCanvas
 from pigaming_app.ui.i18n import Words

@@ -7,9 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pigaming_app.scenes.features.feature import Feature, JoinOffer, MatchOverlay, MenuItem
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.robot_mat import RobotMat
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, RobotMat, Scene
 from pigaming_app.scenes.launch import Options
 from pigaming_app.storage.optional import is_there, optional
 from pigaming_app.ui.i18n import Words

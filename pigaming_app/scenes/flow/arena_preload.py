@@ -25,14 +25,6 @@ def prepare(game: str, name: str) -> None:
     """Seat AIs in an arena, which solves the racing line."""
     rules = games()[game].default
     one, two, three, four = (Seat("level5", team) for team in rules.teams)
-    setup = Setup(
-        game,
-        name,
-        (one, two, three, four),
-        rules.default_minutes,
-        1,
-        rules.name,
-        rules.default_goal,
-    )
+    setup = Setup(game, name, (one, two, three, four), rules.default_minutes, 1, rules.name, rules.default_goal)
     with suppress(ArenaError):
         new_match(setup)

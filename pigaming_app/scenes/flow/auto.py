@@ -8,7 +8,7 @@ from pigaming_app.ai.brain.effort import AUTO
 from pigaming_app.ai.brain.kind import BrainPlayer
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match, victory
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.ui.input.events import Device
 
 Person = tuple[Device, str]  # a device, as long as the same person holds it, and a game

@@ -8,8 +8,8 @@ from pigaming_app.games.arenas import arenas, default_goal, own_arenas, score_na
 from pigaming_app.games.game import Game
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.arena_cache import load_cached
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.storage.settings import Choice, Settings
 

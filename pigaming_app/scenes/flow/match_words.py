@@ -1,11 +1,22 @@
-"""Rule numbers that a player should know, as texts: match length, protection, turbo."""
+"""Rules, AIs and devices in words: length, protection, turbo; levels as stars; what people steer with."""
 
+from pigaming_app.ai.auto import NAME
+from pigaming_app.ai.brain.effort import AUTO
+from pigaming_app.ai.brain_files import display_name
+from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.registry import AIS, level_of
 from pigaming_app.games.arenas import default_goal
 from pigaming_app.games.game import Game, Seat, Setup, Variant
 from pigaming_app.games.registry import games
 from pigaming_app.sim.world import DT, HZ
+from pigaming_app.storage.optional import optional
 from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.draw.theme import STARS
 from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.input.controls import Controls
+from pigaming_app.ui.input.events import Device
+
+LIT, UNLIT = STARS[0], STARS[1]
 
 
 def limits_line(words: Words, game: str, minutes: float, variant: str) -> str:
@@ -69,3 +80,37 @@ def rule_numbers(game: str, minutes: float, variant: str) -> dict[str, str]:
         "refill": 1.0 / (rules.turbo_refill * HZ) if rules.turbo_refill else 0.0,
     }
     return {name: f"{round(20 * value) / 20:g}" for name, value in numbers.items()}  # rounded to 0.05
+
+
+def rivals(game: str) -> tuple[str, ...]:
+    """What the lobby of a game offers as AIs, in the order in which it steps through them; last what is connected."""
+    own = (NAME, *AIS[game].rivals) if AIS[game].auto else AIS[game].rivals
+    programs = optional("ai.bots.brains")
+    return (*own, *programs.connected()) if programs else own
+
+
+def lit_stars(brain: str) -> str:
+    """One star for each level of a brain; empty if it is no level."""
+    return LIT * level_of(brain)
+
+
+def stars_of(level: int) -> str:
+    """A level as a row of as many stars as there are levels, of which the first are lit."""
+    return LIT * level + UNLIT * (len(LEVELS) - level)
+
+
+def brain_name(words: Words, game: str, brain: str) -> str:
+    """The name of an AI on a label: the stars of a level, the words for another that the lobby offers, else its own."""
+    if level := level_of(brain):
+        return stars_of(level)
+    if brain in AUTO:
+        return words("match.auto")
+    return words(f"match.{brain}") if game in AIS and brain in AIS[game].rivals else display_name(brain).upper()
+
+
+def steering(words: Words, controls: Controls, device: Device) -> str:
+    """The signs on the steering keys; of a number pad or a pad its name; of a phone that of its owner, if known."""
+    if own := controls.owner(device):
+        return own
+    name = controls.name(device)
+    return controls.moves(device) if name == "Keyboard" else words(f"devices.{name}")

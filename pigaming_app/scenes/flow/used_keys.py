@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.ui.input.events import Device, StickState
 
 STEER, FIRE, TURBO = "drive", "fire", "turbo"

@@ -12,7 +12,7 @@ from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.lesson import GO, TURN, Lesson, Step

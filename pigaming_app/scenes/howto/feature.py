@@ -1,8 +1,7 @@
 """How to play as a feature: an animated lesson of each game."""
 
 from pigaming_app.scenes.features.feature import Feature, MenuItem, Show
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 
 
 def page(context: Context, game: str) -> Scene:

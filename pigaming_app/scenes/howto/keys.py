@@ -4,21 +4,13 @@ import re
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.sim.world import Action
 from pigaming_app.ui.draw import BODY, FOCUS, MIST, button, button_width, cut_box, dim
 from pigaming_app.ui.draw.layers import Layer, LitImage
 from pigaming_app.ui.draw.surface_cache import cached
 from pigaming_app.ui.input.events import Button
-from pigaming_app.ui.widgets.key_caps import (
-    CAP,
-    PITCH,
-    PLACES,
-    RADIUS,
-    draw_steering_key,
-    draw_stick,
-    steering_signs,
-)
+from pigaming_app.ui.widgets.key_caps import CAP, PITCH, PLACES, RADIUS, draw_steering_key, draw_stick, steering_signs
 
 STEERS = re.compile(r"go|turn|^\S+$")  # steps that steer, or a brain
 PRESSED = 0.25  # deflection from which a steering key is lit

@@ -5,9 +5,8 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_minutes, last_variant, limits_line
-from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Home, Pop, StackOperation
 from pigaming_app.scenes.howto.clip import Cutout, LessonClip
 from pigaming_app.scenes.howto.keys import draw_keys
 from pigaming_app.scenes.views.game_screens import LESSONS_PER_PAGE
@@ -15,9 +14,21 @@ from pigaming_app.scenes.views.lesson import Lesson
 from pigaming_app.scenes.views.registry import SCREENS, shown_games
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, budget, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
+from pigaming_app.ui.draw.layers import (
+    LEFT,
+    RIGHT,
+    SMALLEST,
+    Layer,
+    LitImage,
+    backdrop,
+    fit_lines,
+    fit_size,
+    span,
+    text,
+    wrap,
+    wrap_balanced,
+)
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import SMALLEST, fit_lines, fit_size, text, wrap, wrap_balanced
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import black_out, button_label, chip, chip_width, heading
 

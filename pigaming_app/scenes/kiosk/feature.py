@@ -1,8 +1,7 @@
 """The operator's desk as a feature: keys on every screen, a page in the options, the second screen."""
 
 from pigaming_app.scenes.features.feature import Feature, OptionRow, Service
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.scenes.launch import Options
 from pigaming_app.ui.draw import FOCUS, ICE, LINE, STEEL, GlowCanvas, cut_box
 

@@ -11,8 +11,7 @@ from threading import Thread
 
 from pigaming_app.ai.learning.compiler import Compiler
 from pigaming_app.scenes.features.feature import Service
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.storage.background import launch
 
 NONE, FETCHING, DONE, BUILT, FAILED = "none", "fetching", "done", "built", "failed"

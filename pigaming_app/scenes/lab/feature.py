@@ -3,8 +3,7 @@
 from pathlib import Path
 
 from pigaming_app.scenes.features.feature import Feature, MenuItem, Service
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.scenes.launch import Options
 
 

@@ -6,7 +6,7 @@ import pygame
 
 from pigaming_app.ai.networks.files import TrainedNetwork
 from pigaming_app.ai.qlearning.table_files import Trained
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.lab.network.trainer import NetworkTrainer
 from pigaming_app.scenes.lab.trainer import Trainer
 

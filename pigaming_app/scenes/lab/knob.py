@@ -4,10 +4,9 @@ import math
 
 from pigaming_app.scenes.lab.layout import BAD, GOOD, NOTHING
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, STEEL, THIN, WHITE
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_size
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size
-from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.i18n import signed
 
 LIMIT = 10
 RADIUS = 48  # px

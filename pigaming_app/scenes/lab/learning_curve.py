@@ -11,9 +11,8 @@ import pygame
 
 from pigaming_app.scenes.lab.layout import CURVE, PLOT, RIGHT, SIDE_COLORS, SIDE_LETTERS
 from pigaming_app.ui.draw import BODY, ICE, LABEL, MIST, STEEL, THIN, TITLE, WHITE, Color, dim
-from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.layers import LitImage, text, word
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import text, word
 
 MIN_RANGE = 50  # initial range of the x axis, matches; doubles as needed
 MARK = 40  # px, height of the mark of a change

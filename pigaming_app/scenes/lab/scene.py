@@ -14,8 +14,7 @@ from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.ai.qlearning.table_files import Trained
 from pigaming_app.ai.reward_line import LineError
 from pigaming_app.scenes.brain.rose import LEVELS, SIGNS
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.lab.background import LabBackground
 from pigaming_app.scenes.lab.host import dimmed_background
 from pigaming_app.scenes.lab.knob import LIMIT

@@ -7,7 +7,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.scenes.brain.rose import LEVELS, PETALS, draw_petals, draw_signs, tone
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.lab.arena_view import ArenaView
 from pigaming_app.scenes.lab.knob import dial
 from pigaming_app.scenes.lab.layout import (
@@ -38,10 +38,9 @@ from pigaming_app.scenes.lab.network.kind_switch import TABLE, kind_rect, kind_s
 from pigaming_app.scenes.views.sprites.robot import tank
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, fit_size, fit_text, wrap_balanced
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, fit_text, wrap_balanced
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.widgets.labels import black_out, blit_sprite
 

@@ -3,9 +3,8 @@
 import pygame
 
 from pigaming_app.events.ladder import ALL, climbed_games, stars_and_losses, table_of
-from pigaming_app.scenes.flow.brain_names import LIT
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.match_words import LIT
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.ladder.climber import Climber, begun, device_of, resumable_climbs
 from pigaming_app.scenes.ladder.climbers import Climbers, game_name
 from pigaming_app.scenes.ladder.rungs import LadderPage
@@ -15,9 +14,8 @@ from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.game_tile import TILE_H, TileStrip, tile
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, dim, panel
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out

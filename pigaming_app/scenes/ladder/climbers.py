@@ -5,14 +5,12 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.events.ladder import ALL, climbed_games, stars_and_losses, table_of
-from pigaming_app.scenes.flow.brain_names import LIT
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.match_words import LIT
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.storage.scores import Score, ScoreTable
 from pigaming_app.ui.draw import ICE, LABEL, text_width
-from pigaming_app.ui.draw.layers import span
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.layers import span, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.arrows import Arrows, as_direction, draw_arrows

@@ -3,8 +3,7 @@
 import secrets
 
 from pigaming_app.scenes.features.feature import Feature, MenuItem, Show
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 
 
 def page(context: Context, game: str) -> Scene:

@@ -11,9 +11,8 @@ import pygame
 
 from pigaming_app.events.ladder import LEVELS, Climb
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.brain_names import LIT
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
+from pigaming_app.scenes.flow.match_words import LIT
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation, Swap
 from pigaming_app.scenes.ladder import rungs_view as view
 from pigaming_app.scenes.ladder.climber import Climber, begun, device_of
 from pigaming_app.scenes.ladder.climbers import game_name
@@ -25,8 +24,7 @@ from pigaming_app.scenes.results.winner import AfterMatch
 from pigaming_app.scenes.views.sprites.robot import seat_robot
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, SUB
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
-from pigaming_app.ui.draw.layers import backdrop, span
-from pigaming_app.ui.draw.text import paragraph, text
+from pigaming_app.ui.draw.layers import backdrop, paragraph, span, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, chip

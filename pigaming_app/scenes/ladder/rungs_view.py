@@ -5,7 +5,7 @@ import math
 import pygame
 
 from pigaming_app.events.ladder import LEVELS, NEEDED, Climb
-from pigaming_app.scenes.flow.brain_names import LIT
+from pigaming_app.scenes.flow.match_words import LIT
 from pigaming_app.scenes.views.sprites.robot import seat_robot
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable

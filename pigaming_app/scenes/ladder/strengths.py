@@ -8,20 +8,18 @@ import pygame
 from pigaming_app import ASSETS
 from pigaming_app.ai.registry import level_of
 from pigaming_app.events.league_files import Ratings, Strength, ratings_of
-from pigaming_app.scenes.flow.brain_names import brain_name
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.match_words import brain_name
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.plugins.parts import data_folders
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
+from pigaming_app.ui.i18n import signed
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.numbers import signed
 from pigaming_app.ui.widgets.labels import sign
 
 ROWS = 12  # at most

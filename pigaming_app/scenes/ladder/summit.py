@@ -8,8 +8,7 @@ import pygame
 
 from pigaming_app.events.ladder import LEVELS, table_of, worth
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Scene, StackOperation, Swap
 from pigaming_app.scenes.ladder.climber import Climber
 from pigaming_app.scenes.ladder.climbers import Climbers, format_climb
 from pigaming_app.scenes.pages.page import Page
@@ -20,9 +19,8 @@ from pigaming_app.scenes.views.sprites.stars import star
 from pigaming_app.storage.scores import Score
 from pigaming_app.ui.draw import FOCUS, HERO, ICE, LABEL, LINE, MIST, PLAYERS, STEEL
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, Steps, resumable
-from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, fit_size, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.labels import blit_sprite
 

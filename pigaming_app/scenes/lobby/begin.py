@@ -3,8 +3,7 @@
 from pigaming_app.games.game import Game, Setup
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.auto import AutoStrengths
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.lobby.seats import LobbySeats
 from pigaming_app.scenes.results.scene import SceneFactory
 from pigaming_app.storage.settings import Choice

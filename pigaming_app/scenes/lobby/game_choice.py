@@ -6,9 +6,8 @@ import pygame
 
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_goal, tagline
-from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Home, Scene, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.game_tile import TILE_H, TileStrip, tile
 from pigaming_app.scenes.views.registry import shown_games

@@ -14,9 +14,8 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.features.registry import draw_arena
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.arena_cache import load_cached
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title, change_arena, change_rules, last_choice, playable_arenas
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation
 from pigaming_app.scenes.lobby import match_setup_view as choice
 from pigaming_app.scenes.lobby.begin import begin, chosen_setup, minutes_of
 from pigaming_app.scenes.lobby.dealt import deal, first_state, start_positions

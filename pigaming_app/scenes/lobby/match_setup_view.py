@@ -8,9 +8,8 @@ import pygame
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import Layer, LitImage, span
+from pigaming_app.ui.draw.layers import SMALLEST, Layer, LitImage, fit_lines, fit_size, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import SMALLEST, fit_lines, fit_size
 
 W = span(8, 4)[1]
 PAD = 32  # px, inner padding of a row

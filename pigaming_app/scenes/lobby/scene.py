@@ -18,11 +18,10 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.auto import AutoStrengths
-from pigaming_app.scenes.flow.brain_names import rivals
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
 from pigaming_app.scenes.flow.match_choice import choice_summary, last_choice
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation
+from pigaming_app.scenes.flow.match_words import rivals
+from pigaming_app.scenes.flow.scene import Context, Home, Pop, Push, StackOperation
 from pigaming_app.scenes.flow.used_keys import UsedKeys
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.begin import begin, chosen_setup
@@ -125,8 +124,6 @@ class Lobby:
             case Button.POINT | Button.CLICK:
                 if self._mouse(event):
                     return self._open_code()
-            case _:
-                pass
         self._update_countdown()
         return None
 

@@ -11,10 +11,9 @@ from pigaming_app.scenes.views.sprites.robot import seat_robot
 from pigaming_app.scenes.views.sprites.teams import TEAMS, emblem
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_lines, fit_size, wrap
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_lines, fit_size, wrap
 from pigaming_app.ui.widgets.labels import LEVELS, dimmed
 from pigaming_app.ui.widgets.player_card import MIDDLE, H, W
 

@@ -10,10 +10,9 @@ from pigaming_app.ai.registry import level_of
 from pigaming_app.games.game import ALLIES, FREE, PAIRS
 from pigaming_app.scenes.features.registry import join_offer
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.brain_names import stars_of
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.device_words import steering
 from pigaming_app.scenes.flow.driving import PICTURES
+from pigaming_app.scenes.flow.match_words import stars_of, steering
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.seats import AI, DRIVE, EMPTY, HUMAN, PLACES, REAL, RIVALS, TEAM, LobbySeats
 from pigaming_app.ui.draw import FOCUS, LABEL, PLAYERS, Color, dim

@@ -5,9 +5,8 @@ from collections.abc import Callable, Collection, Sequence
 from pigaming_app.games.game import Setup
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.arena_cache import load_cached
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title
-from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.mat.fault_icons import sign
 from pigaming_app.scenes.mat.things.arena_page import ArenaPage
 from pigaming_app.scenes.mat.things.outlines import boxes
@@ -15,8 +14,7 @@ from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.draw import ALARM, ICE, MIST
-from pigaming_app.ui.draw.layers import Layer
-from pigaming_app.ui.draw.text import write_lines
+from pigaming_app.ui.draw.layers import Layer, write_lines
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.dialog import HEAD, ICON, ROOM, TEXT_X
 

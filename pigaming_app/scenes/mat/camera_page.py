@@ -6,7 +6,7 @@ from typing import Any
 import pygame
 
 from pigaming_app.scenes.features.board_page import BoardPart, Box
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 
 BOX: Box = (60, 34, 1800, 1012)
 

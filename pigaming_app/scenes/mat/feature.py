@@ -6,9 +6,7 @@ import pygame
 
 from pigaming_app.scenes.features.board_page import BoardPage
 from pigaming_app.scenes.features.feature import Feature, OptionRow, ReplayKind, Service
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.robot_mat import RobotMat
-from pigaming_app.scenes.flow.stack import Scene, Stack
+from pigaming_app.scenes.flow.scene import Context, RobotMat, Scene, Stack
 from pigaming_app.scenes.launch import Options
 from pigaming_app.storage.settings import PHONE
 from pigaming_app.ui.draw import FOCUS, ICE, LINE, GlowCanvas, cut_box

@@ -18,9 +18,8 @@ from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, settings_problem
 from pigaming_app.hardware.session.ros import RosSession
 from pigaming_app.scenes.flow.arena_cache import load_cached
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.scenes.launch import Options
 from pigaming_app.sim.arena import Arena, ArenaError
 from pigaming_app.sim.things.spec import ThingSpec

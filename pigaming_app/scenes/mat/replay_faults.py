@@ -8,8 +8,8 @@ from pigaming_app.hardware.control.match_recording import RecordedFault
 from pigaming_app.scenes.mat.fault_icons import sign
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, BODY, ICE, MIST, PLAYERS, THIN, GlowCanvas, badge, cut_box, text_width
+from pigaming_app.ui.draw.layers import fit_size
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.widgets.caption import MARGIN, Caption
 

@@ -1,7 +1,7 @@
 """The robot session of a context."""
 
 from pigaming_app.hardware.session.robot_session import RobotSession
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 
 
 def session_of(context: Context) -> RobotSession:

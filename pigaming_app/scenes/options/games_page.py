@@ -9,9 +9,8 @@ from pathlib import Path
 import pygame
 
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import game_title
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.pages.page import Hints
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.pages.sheet import Sheet
@@ -23,9 +22,8 @@ from pigaming_app.storage.plugins.found import Plugin, found, user_folder
 from pigaming_app.storage.plugins.parts import failure, plugins
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, STEEL, THIN, icon, text_width
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, SMALLEST, Layer, LitImage, fit_size, fit_text, text, write_lines
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import SMALLEST, fit_size, fit_text, text, write_lines
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row as dials

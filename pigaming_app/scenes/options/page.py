@@ -13,8 +13,7 @@ import pygame
 from pigaming_app.scenes.features.feature import OptionRow
 from pigaming_app.scenes.features.registry import features
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, Quit, Scene, StackOperation
 from pigaming_app.scenes.options import pictures
 from pigaming_app.scenes.options.games_page import GamesPage
 from pigaming_app.scenes.pages.settings_page import SettingsPage
@@ -183,9 +182,7 @@ SECTIONS: dict[str, dict[str, Option]] = {
             apply=lambda page, chosen: _show_on(page, fullscreen=bool(chosen)),
         ),
     },
-    "controls": {
-        "rumble": switch("rumble", _rumble),
-    },
+    "controls": {"rumble": switch("rumble", _rumble)},
     "ease": {
         "calm": switch("calm"),
         "flashes": chosen_from("flashes", FLASHES, _flashes, for_children=True),

@@ -2,12 +2,10 @@
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.layers import LEFT, RIGHT
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters, letter_box
 
@@ -72,8 +70,6 @@ class NamePage(Page):
                 return self._save()
             case Button.CLICK if event.at:
                 self._click(event.at)
-            case _:
-                pass
         return None
 
     def leave(self) -> StackOperation:

@@ -9,13 +9,11 @@ from collections.abc import Callable, Sequence
 import pygame
 
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Home, Pop, StackOperation
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage, backdrop
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage, backdrop, fit_size
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.button_prompts import ROOM, ButtonPrompts
 from pigaming_app.ui.widgets.caption import caption

@@ -8,15 +8,13 @@ import math
 import pygame
 
 from pigaming_app.scenes.flow.access import Right, Roles
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.storage.pin import LONGEST, SHORTEST, is_easy
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import Layer, LitImage, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import LEVELS, dimmed

@@ -8,8 +8,7 @@ from functools import partial
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.ui.draw import LABEL
 from pigaming_app.ui.draw.frame_budget import Job, PrewarmQueue

@@ -4,13 +4,11 @@ from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.ui.draw import ALARM, BODY, BOLD, FOCUS, HERO, ICE, LINE, MIST, TITLE, cut_box
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import black_out, heading
 from pigaming_app.ui.widgets.letter_picker import LetterPicker, cursor, draw_letters, letter_box
@@ -83,8 +81,6 @@ class TextPage(Page):
                 return self._save()
             case Button.CLICK if event.at and abs(event.at[0] - 960) <= W / 2:
                 self._click(event.at[1] - MIDDLE)
-            case _:
-                pass
         return None
 
     def advance(self, seconds: float) -> StackOperation:

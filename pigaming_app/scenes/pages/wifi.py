@@ -3,7 +3,7 @@
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.ui.draw import BODY
-from pigaming_app.ui.draw.text import fit_text
+from pigaming_app.ui.draw.layers import fit_text
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 WIFI = {"wifi": ("phones_wifi", 32), "wifi_key": ("phones_wifi_key", 63)}  # settings by row, and their longest text

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 import pygame
 
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.layers import RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import RIGHT, Layer, LitImage, fit_text, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_text, text
 
 COLORS: tuple[kit.Color, ...] = (
     (60, 160, 255), (255, 146, 0), (20, 228, 140), (255, 144, 214),

@@ -6,8 +6,7 @@ from collections.abc import Callable, Sequence
 import pygame
 
 from pigaming_app.scenes.features.feature import Feature, JoinOffer, OptionRow, Service
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, Stack, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Scene, Stack, StackOperation
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.ui.draw import FOCUS, ICE, LINE, GlowCanvas, icon

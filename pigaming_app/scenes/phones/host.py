@@ -1,6 +1,6 @@
 """The server for phones of a context."""
 
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.phones.host import PhoneHost
 

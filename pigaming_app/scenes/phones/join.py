@@ -8,17 +8,26 @@ from collections.abc import Callable, Sequence
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.list_page import shown_name
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import (
+    LEFT,
+    RIGHT,
+    Layer,
+    LitImage,
+    fit_lines,
+    fit_size,
+    fit_text,
+    paragraph,
+    text,
+    wrap,
+)
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_lines, fit_size, fit_text, paragraph, text, wrap
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phones.host import PhoneHost

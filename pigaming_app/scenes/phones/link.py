@@ -4,8 +4,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.scenes.phones.audience import Audience
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.seating import Calling, Driven, Ended, Seating, seating

@@ -3,15 +3,13 @@
 import pygame
 
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.phones.cheers import COLORS
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.layers import LEFT, LitImage, span
+from pigaming_app.ui.draw.layers import LEFT, SMALLEST, LitImage, fit_text, paragraph, span, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import SMALLEST, fit_text, paragraph, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.input.phones.guest import Guest, Stage

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.ui.input.events import Device
 from pigaming_app.ui.input.phone_pads import MAX_PHONES
 

@@ -5,8 +5,7 @@ from importlib.util import find_spec
 import pygame
 
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.pages.wifi import WIFI, wifi_typing, wifi_value
 from pigaming_app.scenes.phones.host import phone_host
@@ -14,8 +13,7 @@ from pigaming_app.scenes.phones.join import JoinByPhone, draw_code, draw_wifi, p
 from pigaming_app.scenes.phones.list_page import PhoneList
 from pigaming_app.storage.settings import MAX_NAME
 from pigaming_app.ui.draw import ALARM, FOCUS, MIST, STEEL, THIN, text_width
-from pigaming_app.ui.draw.layers import LEFT, RIGHT
-from pigaming_app.ui.draw.text import SMALLEST, fit_text, text
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, SMALLEST, fit_text, text
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.web.network import NetworkInterface, ServerUnavailable, networks
 from pigaming_app.ui.widgets import setting_row as dials
@@ -53,7 +51,7 @@ class PhonesPage(SettingsPage):
 
     def draw_picture(self, screen: pygame.Surface, name: str, chosen: int) -> None:
         host, settings, (x, y) = self.host, self.context.settings, dials.CENTRE
-        if name in WIFI and settings.phones_wifi and importable():
+        if name in WIFI and settings.phones_wifi and find_spec("segno"):
             draw_wifi(screen, settings, pygame.Rect(x - 165, y - 165, 330, 330))
         elif host.url and name not in (*WIFI, "list"):
             draw_code(screen, host.url, pygame.Rect(x - 165, y - 165, 330, 330))
@@ -112,11 +110,6 @@ class PhonesPage(SettingsPage):
         self.show_message(self.context.words("phones.renewed"))
         self.context.sounds.play("ready")
         return None
-
-
-def importable() -> bool:
-    """True if codes can be drawn."""
-    return bool(find_spec("segno"))
 
 
 def shown(network: NetworkInterface) -> str:

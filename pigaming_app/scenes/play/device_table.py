@@ -6,13 +6,11 @@ from itertools import chain
 import pygame
 
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.driving import PICTURES
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, budget
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, fit_size
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 
 TOP, PITCH, HIGH = 236, 164, 140
@@ -25,11 +23,7 @@ class DeviceTable:
     """
 
     def __init__(
-        self,
-        context: Context,
-        devices: Sequence[Device | None],
-        access: Access,
-        style_of: Callable[[Device], str],
+        self, context: Context, devices: Sequence[Device | None], access: Access, style_of: Callable[[Device], str]
     ) -> None:
         self.context, self.access, self.style_of = context, access, style_of
         self.rows = [(seat, device) for seat, device in enumerate(devices) if device]

@@ -16,7 +16,7 @@ import pygame
 from pigaming_app.ai.game_ai import ONE_BUTTON, STAND_IN
 from pigaming_app.ai.registry import make_brain, make_person
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.flow.used_keys import UsedKeys
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.views.rumble import Rumble

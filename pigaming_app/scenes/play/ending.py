@@ -6,13 +6,12 @@ import pygame
 
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.features.replays import replay_of
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, StackOperation, Swap
 from pigaming_app.scenes.play.countdown import popped, show
 from pigaming_app.scenes.play.last_hit import LastHit, SlowMotion, repeats_last_hit, slow_motion
 from pigaming_app.scenes.play.round_break import RoundBreak
 from pigaming_app.scenes.play.runner import MatchRunner
-from pigaming_app.scenes.recordings.highlights import highlights
+from pigaming_app.scenes.recordings.store import highlights
 from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.scenes.results.winner import AfterMatch, WinnersMoment
 from pigaming_app.ui.draw import ALARM

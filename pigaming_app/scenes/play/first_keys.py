@@ -11,16 +11,15 @@ import pygame
 from pigaming_app.ai.game_ai import ONE_BUTTON
 from pigaming_app.ai.registry import AIS
 from pigaming_app.games.match import Match
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.flow.used_keys import FIRE, STEER, TURBO, UsedKeys
 from pigaming_app.scenes.play.side_hints import ROOM, X, draw_key, key_size
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import FOCUS, PLAYERS, Color, badge, icon, text_width
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_size, wrap_balanced
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, wrap_balanced
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.key_caps import CAP, PITCH, PLACES, RADIUS, draw_steering_key, draw_stick, steering_signs
 

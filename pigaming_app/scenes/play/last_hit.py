@@ -10,7 +10,7 @@ import pygame
 
 from pigaming_app.games.match import Match
 from pigaming_app.games.pitanks.state import PiTanks
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.views.film import to_bytes
 from pigaming_app.scenes.views.hud.parts import CLOCK
@@ -20,9 +20,8 @@ from pigaming_app.sim.record import from_bytes
 from pigaming_app.sim.world import DT, WIDTH
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, GlowCanvas, badge
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue
-from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.layers import LitImage, text
 from pigaming_app.ui.draw.surface_cache import cached, surfaces
-from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
 
 BEFORE, AFTER = 28, 12  # ticks shown before and after the hit

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.games.game import Setup
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import sudden_death_key, tagline
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.play.countdown import CENTRE, Countdown, clear_of, signs
 from pigaming_app.scenes.play.ending import PREWARM_MS
 from pigaming_app.scenes.play.runner import MatchRunner
@@ -19,8 +19,8 @@ from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, STEEL, THIN, GlowCanvas, cut_box, readable, text_width
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, Steps, resumable
+from pigaming_app.ui.draw.layers import fit_size, text, wrap, wrap_balanced
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text, wrap, wrap_balanced
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Device
 from pigaming_app.ui.widgets.caption import MARGIN, Caption

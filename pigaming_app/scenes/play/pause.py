@@ -13,8 +13,7 @@ import pygame
 
 from pigaming_app.scenes.features.registry import has_overlay, join_offer
 from pigaming_app.scenes.flow.access import OWNER_SECONDS, Access, PauseAccess
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, Scene, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, Scene, StackOperation
 from pigaming_app.scenes.play.device_table import DeviceTable
 from pigaming_app.scenes.play.drivers import Drivers
 from pigaming_app.scenes.play.runner import MatchRunner
@@ -22,9 +21,8 @@ from pigaming_app.scenes.views.hud.ai_sign import name_of
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.sim.things.spec import ThingSpec
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_size, fit_text, word
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, fit_text, word
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import caption

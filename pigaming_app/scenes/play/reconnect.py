@@ -7,13 +7,12 @@ import math
 
 import pygame
 
-from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Home, Pop, StackOperation, Swap
 from pigaming_app.scenes.play.pause import Pause, PausedMatch, player_line, sheet_title
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import BODY, FOCUS, GREEN, ICE, LABEL, LINE, MIST, PLAYERS, Color, icon
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_size, word, wrap
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, word, wrap
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.dialog import HEAD, PROMPTS, W, X, Y, overlay
 

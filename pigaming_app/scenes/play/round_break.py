@@ -9,11 +9,9 @@ from pigaming_app.games.game import Outcome
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.play.side_hints import X
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_size, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
-from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.numbers import numeral, signed
+from pigaming_app.ui.i18n import Words, numeral, signed
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD, W, Y, overlay
 from pigaming_app.ui.widgets.dialog import X as SHEET_X
 from pigaming_app.ui.widgets.pips import pips

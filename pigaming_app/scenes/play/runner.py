@@ -11,12 +11,10 @@ import pygame
 from pigaming_app.ai.game_ai import TURN
 from pigaming_app.games.match import Match
 from pigaming_app.scenes.features.registry import match_overlay
-from pigaming_app.scenes.flow.brain_names import brain_name
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.device_words import steering
 from pigaming_app.scenes.flow.driving import PICTURES
+from pigaming_app.scenes.flow.match_words import brain_name, steering
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.flow.timestep import FixedTimestep
-from pigaming_app.scenes.play.caption_layout import caption_boxes, robot_boxes
 from pigaming_app.scenes.play.last_hit import LastHit
 from pigaming_app.scenes.results.awards.feats import FeatRecorder
 from pigaming_app.scenes.views.background import LEFT, TOP
@@ -25,10 +23,10 @@ from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.scenes.views.rumble import Rumble
 from pigaming_app.scenes.views.view import ShownEffects, SoundCue
 from pigaming_app.sim.things.spec import ThingSpec
-from pigaming_app.sim.world import HEIGHT, WIDTH
+from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 from pigaming_app.ui.draw import BODY, PLAYERS
+from pigaming_app.ui.draw.layers import fit_text
 from pigaming_app.ui.draw.surface_cache import surfaces
-from pigaming_app.ui.draw.text import fit_text
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.input.keyboard import NUM
 from pigaming_app.ui.widgets.caption import Caption, Notice, caption
@@ -41,6 +39,8 @@ NAME_ROOM = 300  # px, of a name in a caption
 CAPTION_GAP = 104  # px from a robot to its caption
 HINT_ROOM = 140.0  # px below a robot that a hint needs
 TOP_SIGNS, SIGN_ROOM = 260.0, 110  # px from the upper edge, above which signs are below a robot; px that they take
+ARENA = pygame.Rect(LEFT + 24, TOP, int(WIDTH) - 48, int(HEIGHT))
+GAP = 8  # px between a robot and its box
 
 
 class MatchRunner:
@@ -221,3 +221,42 @@ class MatchRunner:
         if second < self.second and second <= TICK_SOUNDS and not self.match.over and self.loud:
             self.context.sounds.play("tick")
         self.second = second
+
+
+def robot_boxes(robots: Sequence[tuple[float, float]], radius: float = RADIUS) -> list[pygame.Rect]:
+    """The box of each robot. `robots`: positions on the canvas, px."""
+    half = round(radius) + GAP
+    return [pygame.Rect(round(x) - half, round(y) - half, 2 * half, 2 * half) for x, y in robots]
+
+
+def caption_boxes(
+    robots: Sequence[tuple[float, float]],
+    sizes: Sequence[tuple[int, int]],
+    reach: Sequence[float],
+    radius: float = RADIUS,
+) -> list[pygame.Rect]:
+    """The box of each robot's caption, on the canvas, px.
+
+    `robots`: positions on the canvas; `sizes`: width and height of each caption; `reach`: vertical distance of each
+    caption from its robot. A caption is above or below its robot, where the arena has more room, unless it would cover
+    another caption or robot there and less of them at another side.
+    """
+    bodies = robot_boxes(robots, radius)
+    placed: list[pygame.Rect] = []
+    for (x, y), size, offset in zip(robots, sizes, reach, strict=True):
+        near = offset if y < TOP + HEIGHT / 2 else -offset
+        beside = round(radius) + GAP + 12 + size[0] / 2
+        side = beside if x < LEFT + WIDTH / 2 else -beside
+        shifts = ((0, near), (0, -near), (side, 0), (-side, 0), (0, near + near / abs(near) * size[1]))
+        boxes = []
+        for dx, dy in shifts:
+            box = pygame.Rect((0, 0), size)
+            box.center = round(x + dx), round(y + dy)
+            boxes.append(box.clamp(ARENA))
+        placed.append(min(boxes, key=lambda box: sum(_overlap(box, other) for other in (*placed, *bodies))))
+    return placed
+
+
+def _overlap(box: pygame.Rect, other: pygame.Rect) -> int:
+    common = box.clip(other)
+    return common.w * common.h

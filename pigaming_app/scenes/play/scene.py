@@ -17,8 +17,7 @@ from pigaming_app.ai.registry import new_match
 from pigaming_app.games.game import Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.rounds import Rounds
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.play.drivers import Drivers
 from pigaming_app.scenes.play.ending import Ending
 from pigaming_app.scenes.play.first_keys import FirstKeys

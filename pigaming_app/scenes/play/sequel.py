@@ -9,8 +9,7 @@ from pigaming_app.games.match import Match
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.features.replays import replay_of
 from pigaming_app.scenes.flow.auto import AutoStrengths
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.scenes.play.drivers import Drivers, new_seed
 from pigaming_app.scenes.play.pause import Robots
 from pigaming_app.scenes.play.runner import MatchRunner

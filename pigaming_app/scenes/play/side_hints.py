@@ -7,9 +7,8 @@ import pygame
 from pigaming_app.scenes.views.background import LEFT
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, THIN, Color, button, button_width, cut_box, text_width
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import Layer, LitImage, wrap
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import wrap
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 

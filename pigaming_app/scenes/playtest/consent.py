@@ -7,9 +7,8 @@ of all of them there is no play test.
 import pygame
 
 from pigaming_app.scenes.flow.access import Access, Right
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.device_words import steering
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.match_words import steering
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.lobby import seat_card as card
 from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import empty_seats
@@ -18,8 +17,7 @@ from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.playtest import pictures
 from pigaming_app.scenes.playtest.replays import AGES
 from pigaming_app.ui.draw import ICE, LABEL, PLAYERS
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, span
-from pigaming_app.ui.draw.text import paragraph
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, paragraph, span
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.labels import black_out, blit_sprite, call_to_action, pulse
 from pigaming_app.ui.widgets.player_card import MIDDLE, H, W, ask_bar, ready_bar
@@ -76,8 +74,6 @@ class ConsentPage(Page):
                 self._change_age(admitted.device, 1 if admitted.button is Button.RIGHT else -1)
             case Button.BACK | Button.LEAVE_SEAT | Button.LOST:
                 return self._back(admitted)
-            case _:
-                pass
         return None
 
     def _fire(self, device: Device) -> StackOperation:

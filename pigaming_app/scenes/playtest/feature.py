@@ -1,8 +1,7 @@
 """Play tests as a feature: a page in the options, and what keeps the matches."""
 
 from pigaming_app.scenes.features.feature import Feature, OptionRow, ReplayKind, Service
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.playtest.watch import PlayTestWatch
 from pigaming_app.ui.draw import FOCUS, ICE, GlowCanvas

@@ -1,9 +1,8 @@
 """The operator's page of play tests: what is recorded, the game, begin, and the matches kept so far."""
 
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import game_title
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.playtest import kept, pictures
 from pigaming_app.scenes.playtest.consent import ConsentPage

@@ -4,8 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pigaming_app.scenes.features.feature import Service
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, Stack
+from pigaming_app.scenes.flow.scene import Context, Scene, Stack
 from pigaming_app.ui.input.events import Device
 
 

@@ -7,16 +7,20 @@ import errno
 import logging
 import os
 import re
+import secrets
 import stat
+from collections import deque
 from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 
 from pigaming_app.ai.brain_files import display_name
 from pigaming_app.games.game import Seat
+from pigaming_app.games.moments import CLOSE, KINDS, Moment
 from pigaming_app.games.replay import Replay, ReplayError
 from pigaming_app.scenes.features.replays import pack
 from pigaming_app.scenes.files import load_replay
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.storage.safe_files import NotSaved, write_atomic
 from pigaming_app.storage.settings import folders
 from pigaming_app.storage.trash import discard
@@ -26,6 +30,8 @@ DATE = "%Y-%m-%d_%H-%M-%S"
 OWN_NAME = re.compile(r"(\d{4}-\d\d-\d\d_\d\d-\d\d-\d\d)_[a-z]+_[a-z0-9-]+(_\d+)?\.replay")
 
 log = logging.getLogger("pigaming")
+KEPT = 8  # matches in memory
+Highlight = tuple[Replay, Moment]
 
 
 class StoreError(Exception):
@@ -122,3 +128,39 @@ def _deletable(path: Path) -> bool:
         return bool(OWN_NAME.fullmatch(path.name)) and bool(path.lstat().st_mode & stat.S_IWUSR)
     except OSError:
         return False
+
+
+class Highlights:
+    """The pool. Kinds of moments take turns; of close finishes the closest is chosen, else one at random."""
+
+    def __init__(self) -> None:
+        self.played: deque[Replay] = deque(maxlen=KEPT)
+        self._turn = 0
+
+    def add(self, replay: Replay) -> None:
+        """Keep a match that has just been played, if it has moments."""
+        if replay.moments:
+            self.played.append(replay)
+
+    def next(self) -> Highlight | None:
+        """The next highlight, with one saved replay chosen at random among the candidates; None if there is none."""
+        replays = [*self.played, *self._saved()]
+        for _ in KINDS:
+            kind = KINDS[self._turn % len(KINDS)]
+            self._turn += 1
+            found = [(replay, one) for replay in replays for one in replay.moments if one.kind == kind]
+            if found:
+                closest = min(found, key=lambda highlight: highlight[1].lead)
+                return closest if kind == CLOSE else secrets.choice(found)
+        return None
+
+    def _saved(self) -> list[Replay]:
+        """One saved replay, if there is any that plays out as recorded."""
+        saved = paths()
+        replay = load(secrets.choice(saved)) if saved else None
+        return [replay] if replay and not replay.other_engine else []
+
+
+def highlights(context: Context) -> Highlights:
+    """Those of a context, for attract mode: `context.shared(highlights)`."""
+    return Highlights()

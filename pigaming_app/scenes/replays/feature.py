@@ -1,8 +1,7 @@
 """The list of saved replays as a feature."""
 
 from pigaming_app.scenes.features.feature import Feature, MenuItem
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 
 
 def page(context: Context, game: str) -> Scene:

@@ -4,8 +4,7 @@ import pygame
 
 from pigaming_app.games.replay import Replay
 from pigaming_app.scenes.features.replays import to_match
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.recordings import store
@@ -14,7 +13,7 @@ from pigaming_app.scenes.replays import view
 from pigaming_app.scenes.replays.view import ROWS, ReplayEntry
 from pigaming_app.scenes.replays.watch import ReplayScene
 from pigaming_app.ui.draw import ICE, LABEL, MIST
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.layers import text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out

@@ -11,11 +11,9 @@ from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.views.hud.ai_sign import level_mark
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size, fit_text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, fit_text
-from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.numbers import numeral
+from pigaming_app.ui.i18n import Words, numeral
 
 ROWS = 7
 TOP, HIGH, PITCH = 212, 88, 104  # px

@@ -4,8 +4,7 @@ import pygame
 
 from pigaming_app.games.replay import Replay
 from pigaming_app.scenes.features.replays import marks_of, timeline_of
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Home, Pop, StackOperation
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.side_hints import SideHints, side_note
 from pigaming_app.sim.world import DT, HZ
@@ -63,8 +62,6 @@ class ReplayScene:
                 self._begin()
             case Button.BACK:
                 return Pop()
-            case _:
-                pass
         return None
 
     def update(self, seconds: float) -> StackOperation:

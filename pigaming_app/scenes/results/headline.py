@@ -9,7 +9,7 @@ from pigaming_app.ai.game_ai import STAND_IN
 from pigaming_app.ai.registry import AIS
 from pigaming_app.games.game import ALLIES, PAIRS, Outcome, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.brain_names import lit_stars
+from pigaming_app.scenes.flow.match_words import lit_stars
 from pigaming_app.scenes.views.hud.ai_sign import name_of
 from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.ui.draw import FOCUS, ICE, PLAYERS, Color

@@ -14,18 +14,15 @@ from pigaming_app.games.arenas import score_name
 from pigaming_app.games.game import ALLIES, RecordKind, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.arena_cache import load_cached
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_of_table, arena_title
 from pigaming_app.scenes.flow.match_words import match_length
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.storage.scores import Score, Scores, ScoreTable
 from pigaming_app.ui.draw import BODY, ICE, LABEL, MIST, text_width
-from pigaming_app.ui.draw.layers import RIGHT, span
-from pigaming_app.ui.draw.text import text
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.draw.layers import RIGHT, span, text
+from pigaming_app.ui.i18n import Words, numeral
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.numbers import numeral
 from pigaming_app.ui.widgets.arrows import as_direction, draw_arrows
 from pigaming_app.ui.widgets.score_board import BoardRow, ScoreBoard
 

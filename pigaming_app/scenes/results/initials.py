@@ -12,8 +12,7 @@ import pygame
 
 from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, Scene, StackOperation, Swap
 from pigaming_app.scenes.results import initials_view as page
 from pigaming_app.scenes.results.high_scores import contest, counts, format_score, table_of
 from pigaming_app.scenes.results.spelling import Spelling

@@ -8,9 +8,8 @@ from pigaming_app.scenes.results.spelling import Spelling
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import RIGHT, Layer, LitImage, fit_size, word
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, word
 from pigaming_app.ui.widgets.letter_picker import cursor, draw_letters
 from pigaming_app.ui.widgets.player_card import BAR, BAR_Y, MIDDLE, H, W
 

@@ -8,13 +8,12 @@ import pygame
 
 from pigaming_app.games.arenas import load
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import match_length
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.results.headline import EndedMatch, headline, is_allied, stars, winning_color
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, budget, finished_within
-from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Layer, LitImage, backdrop
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import LEFT, MARGIN, RIGHT, Layer, LitImage, backdrop, fit_size
 
 SHORT = 218  # px, line below a title without a winner
 

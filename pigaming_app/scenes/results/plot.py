@@ -8,7 +8,7 @@ import pygame
 
 from pigaming_app.ui.draw import BODY, FOCUS, HAIR, MIST, PLAYERS, STEEL, THIN, badge, dim, mix, text_width
 from pigaming_app.ui.draw.layers import Layer, LitImage
-from pigaming_app.ui.numbers import numeral
+from pigaming_app.ui.i18n import numeral
 
 Series = Sequence[tuple[float, float]]  # (seconds, score) at each change, or (lap, s)
 Point = tuple[float, float]

@@ -6,7 +6,7 @@ import pygame
 
 from pigaming_app.games.game import Row
 from pigaming_app.games.rounds import Rounds
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
 from pigaming_app.scenes.results.page_head import line
 from pigaming_app.scenes.results.podium import FIRST, Podium, stands
@@ -14,9 +14,8 @@ from pigaming_app.scenes.results.view import score_cell
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import budget, finished_within
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, span
-from pigaming_app.ui.draw.text import fit_size
-from pigaming_app.ui.numbers import numeral
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, backdrop, fit_size, span
+from pigaming_app.ui.i18n import numeral
 from pigaming_app.ui.widgets.labels import black_out
 from pigaming_app.ui.widgets.pips import pips
 

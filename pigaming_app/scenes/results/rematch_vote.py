@@ -5,7 +5,7 @@ from collections.abc import Collection, Sequence
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.flow.used_keys import UsedKeys
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, THIN, badge, cut_box, dim, icon, text_width
 from pigaming_app.ui.draw.layers import Layer, LitImage

@@ -14,8 +14,7 @@ from pigaming_app.games.game import Outcome, Setup
 from pigaming_app.games.replay import Replay
 from pigaming_app.games.rounds import Rounds
 from pigaming_app.scenes.flow.access import TAKE_SECONDS, Access
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Push, Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Home, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.recordings.store import StoreError
 from pigaming_app.scenes.results.awards.ceremony import Ceremony
@@ -157,8 +156,6 @@ class Results:
                 return self._leave()
             case Button.BACK if self.age >= LATE:
                 self.leaving.begin(admitted)
-            case _:
-                pass
         return None
 
     def update(self, seconds: float) -> StackOperation:

@@ -9,17 +9,10 @@ from pigaming_app.games.game import PAIRS, Setup
 from pigaming_app.games.match import Match, standings
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.flow.match_choice import arena_title
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.results.headline import is_allied, team_name
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.i18n import Words, numeral
 from pigaming_app.ui.input.events import Device
-from pigaming_app.ui.numbers import numeral
-
-
-class Runner(Protocol):
-    """Names the driver of a seat, with an icon."""
-
-    def driver(self, seat: int, device: Device | None) -> tuple[str, str]: ...
 
 
 @runtime_checkable

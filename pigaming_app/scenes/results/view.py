@@ -6,26 +6,18 @@ import pygame
 
 from pigaming_app.games.game import Row, Setup
 from pigaming_app.games.registry import games
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.results.awards.praise import places
+from pigaming_app.scenes.flow.scene import Context
+from pigaming_app.scenes.results.awards.award import places
 from pigaming_app.scenes.results.headline import EndedMatch, is_allied
 from pigaming_app.scenes.results.high_scores import clock, contest, format_score, high_score_tables
-from pigaming_app.scenes.results.page_head import (
-    FIRST,
-    RevealedPage,
-    RevealedPart,
-    row_starts,
-    share_of,
-)
+from pigaming_app.scenes.results.page_head import FIRST, RevealedPage, RevealedPart, row_starts, share_of
 from pigaming_app.scenes.results.plot import Curve, LapPlot, Plot, dot, team_curve
 from pigaming_app.scenes.views.hud.ai_sign import ai_mark
 from pigaming_app.scenes.views.sprites.stars import HIGH, star_row
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps
-from pigaming_app.ui.draw.layers import Layer, LitImage, span
-from pigaming_app.ui.draw.text import fit_size
-from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.numbers import numeral
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_size, span
+from pigaming_app.ui.i18n import Words, numeral
 
 TOP, ROW, PITCH = 280, 120, 136
 TIMES = ("best", "total")  # columns in s

@@ -13,8 +13,7 @@ import pygame
 
 from pigaming_app.games.game import Outcome
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Scene, StackOperation, Swap
 from pigaming_app.scenes.results.celebration import SIZES, TUMBLES, Celebration, confetti
 from pigaming_app.scenes.results.headline import EndedMatch, headline, winning_color
 from pigaming_app.scenes.views.registry import SCREENS
@@ -25,10 +24,9 @@ from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.scenes.views.view import ShownEffects
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import PrewarmQueue, Steps, resumable
-from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop
+from pigaming_app.ui.draw.layers import Layer, LitImage, backdrop, fit_size
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.draw.theme import CAPITALS, line_image
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import blit_sprite

@@ -4,7 +4,7 @@ On the title, one device is held straight ahead with its turbo button (a shoulde
 key) and without fire for five seconds. Nothing on the screen mentions it.
 """
 
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.ui.input.events import Device
 from pigaming_app.ui.input.keyboard import CLUSTERS
 

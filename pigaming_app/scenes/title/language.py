@@ -2,9 +2,9 @@
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.ui.draw import FOCUS, LABEL, TITLE
-from pigaming_app.ui.draw.text import word
+from pigaming_app.ui.draw.layers import word
 from pigaming_app.ui.i18n import NAMES
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.labels import black_out, call_to_action, frame

@@ -9,9 +9,8 @@ import pygame
 
 from pigaming_app.scenes.features.registry import idle_page, menu
 from pigaming_app.scenes.flow.auto import AutoStrengths
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import last_goal, tagline
-from pigaming_app.scenes.flow.stack import Push, Quit, Scene, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, Quit, Scene, StackOperation
 from pigaming_app.scenes.flow.used_keys import UsedKeys
 from pigaming_app.scenes.title.kiosk_unlock import KioskUnlock
 from pigaming_app.scenes.title.language import LanguageName

@@ -7,9 +7,8 @@ import pygame
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LEFT, MARGIN, Layer, LitImage, span
+from pigaming_app.ui.draw.layers import LEFT, MARGIN, Layer, LitImage, fit_lines, fit_size, span, wrap_balanced
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_lines, fit_size, wrap_balanced
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out
 

@@ -23,11 +23,9 @@ from pigaming_app.sim.arena import Arena
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import HERO, ICE, PLAYERS, SUB, Color
 from pigaming_app.ui.draw.frame_budget import Job
-from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.layers import LitImage, fit_size, text
 from pigaming_app.ui.draw.sprites import HEADINGS, Batch, put, step
-from pigaming_app.ui.draw.text import fit_size, text
-from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.i18n import Words, signed
 
 SAID, SAID_Y = 1.7, 190.0  # s for which a word is announced, and px from the top of the arena
 NAMED = 150  # px from the word to a name below it

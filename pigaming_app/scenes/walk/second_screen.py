@@ -17,7 +17,7 @@ from pigaming_app.events.spec import MOST, Entrant, EventSpec, Format
 from pigaming_app.scenes.app import App
 from pigaming_app.scenes.events.next_page import EventMatch
 from pigaming_app.scenes.events.running import RunningEvent
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.scene import MatchScene

@@ -5,7 +5,7 @@ from functools import partial
 
 from pigaming_app.games.registry import games
 from pigaming_app.scenes.editor.registry import EDITORS
-from pigaming_app.scenes.flow.stack import Push
+from pigaming_app.scenes.flow.scene import Push
 from pigaming_app.scenes.options.page import SECTIONS
 from pigaming_app.scenes.results.high_scores import HighScores, contest
 from pigaming_app.scenes.title.language import SECONDS

@@ -8,16 +8,7 @@ from collections.abc import Sequence
 from math import cos, dist, hypot, pi, sin
 from typing import NamedTuple
 
-from pigaming_app.sim.things.convex import (
-    Outline,
-    Point,
-    distance,
-    from_side,
-    inradius,
-    inset,
-    sides,
-    simplified,
-)
+from pigaming_app.sim.things.convex import Outline, Point, distance, from_side, inradius, inset, sides, simplified
 
 BAND = 12.0  # px, half the thickness of a capsule along a side, at most
 CUT, THIN = 5.5, 2.0  # px by which these may round a corner off; half the thickness of the one that fills it else

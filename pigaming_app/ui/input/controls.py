@@ -17,11 +17,7 @@ from pigaming_app.ui.input.remap import Tables
 
 _MOUSE = Device("mouse")
 _NOT_PERSONAL = (Button.FOUND, Button.LOST, Button.BRAIN, Button.STOP)  # do not change `last`
-_TURBOS = (
-    None,
-    Button.BACK,
-    Button.LEAVE_SEAT,
-)  # pad B is turbo and BACK; the turbo key of a cluster is LEAVE_SEAT
+_TURBOS = (None, Button.BACK, Button.LEAVE_SEAT)  # pad B is turbo and BACK; the turbo key of a cluster is LEAVE_SEAT
 _MAPPED = (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP, pygame.CONTROLLERAXISMOTION)
 _PLAIN = (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP, pygame.JOYAXISMOTION, pygame.JOYHATMOTION)
 

@@ -73,12 +73,7 @@ CLUSTERS = (
         (pygame.KSCAN_RSHIFT,),
     ),
     Cluster(
-        (pygame.KSCAN_I,),
-        (pygame.KSCAN_J,),
-        (pygame.KSCAN_K,),
-        (pygame.KSCAN_L,),
-        (pygame.KSCAN_U,),
-        (pygame.KSCAN_O,),
+        (pygame.KSCAN_I,), (pygame.KSCAN_J,), (pygame.KSCAN_K,), (pygame.KSCAN_L,), (pygame.KSCAN_U,), (pygame.KSCAN_O,)
     ),
     Cluster(
         (pygame.KSCAN_KP8,),

@@ -48,13 +48,7 @@ class PhoneCameraServer(TokenPageServer):
     page, socket, files, old = "camera.html", "pictures", FILES, "old"
 
     def __init__(
-        self,
-        address: str,
-        port: int,
-        token: str,
-        certificate: Certificate,
-        texts: Mapping[str, str],
-        joined: Joined,
+        self, address: str, port: int, token: str, certificate: Certificate, texts: Mapping[str, str], joined: Joined
     ) -> None:
         super().__init__("phone camera", address, port, token, texts, certificate.context)
         self.app.on_shutdown.append(self._close_all)

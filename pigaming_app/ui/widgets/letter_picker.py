@@ -5,9 +5,8 @@ from collections.abc import Sequence
 import pygame
 
 from pigaming_app.ui.draw import FOCUS, LINE, STEEL, THIN, Color, brackets, cut_box, icon, panel
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import Layer, LitImage, word
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import word
 
 ROLL = 0.09  # seconds for which a letter rolls into place
 

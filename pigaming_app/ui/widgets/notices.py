@@ -5,7 +5,7 @@ from collections import deque
 import pygame
 
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, font
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import fit_size
 from pigaming_app.ui.widgets.caption import caption
 
 STAY = 5.0  # seconds

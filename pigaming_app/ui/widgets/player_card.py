@@ -5,9 +5,8 @@ A card is W x H px, with its upper left corner at (0, 0).
 
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import Layer, LitImage, span
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_size, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.widgets.labels import LEVELS, dimmed
 
 W, H = span(0, 3)[1], 600

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import pygame
 
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.layers import Layer, LitImage, span
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_text, paragraph, span, text
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_text, paragraph, text
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import glow_bar
 

@@ -12,12 +12,7 @@ from pigaming_app.ai.factory.navigation import FAR
 from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import make_brain
 from pigaming_app.games.arenas import arenas
-from pigaming_app.games.factory.state import (
-    HALF,
-    ICE,
-    MACHINE_SLOTS,
-    A,
-)
+from pigaming_app.games.factory.state import HALF, ICE, MACHINE_SLOTS, A
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import DT, HZ

@@ -212,10 +212,7 @@ def raised(q):
         ({"head": edited_head(reward=1)}, "changed after it was saved"),
         ({"head": edited_head(format="pigaming-table-2")}, "not a trained table of this version"),
         ({"head": edited_head(rule="factory classic")}, "rules of another game"),
-        (
-            {"head": edited_head(recipe=asdict(RECIPES[2]) | {"x": 1}), "seal": True},
-            "its recipe is of another version",
-        ),
+        ({"head": edited_head(recipe=asdict(RECIPES[2]) | {"x": 1}), "seal": True}, "its recipe is of another version"),
         ({"head": edited_head(recipe={"gamma": 0.5}), "seal": True}, "its recipe is of another version"),
         ({"head": edited_head(minutes=-1), "seal": True}, "its head: minutes: expected a number >= 0.05"),
         ({"head": lambda head: np.array("[]")}, "not a trained table of this version"),

@@ -6,7 +6,7 @@ from itertools import pairwise
 import pytest
 
 from pigaming_app.ai.brain.effort import AUTO
-from pigaming_app.ai.brain.traits import NUMBERS
+from pigaming_app.ai.brain.kind import NUMBERS
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.people.matches import Trial, places

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import fields
 
 from pigaming_app.ai.brain.effort import AUTO
-from pigaming_app.ai.brain.traits import NUMBERS, Traits
+from pigaming_app.ai.brain.kind import NUMBERS, Traits
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.people.matches import Place, Trial, places
 from pigaming_app.ai.people.models import PEOPLE

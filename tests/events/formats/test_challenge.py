@@ -183,8 +183,6 @@ def places(event: Event) -> dict[str, int]:
                 open_now.clear()
                 week = []
                 weeks.append(week)
-            case _:
-                pass
     rest: dict[str, int] = {}
     for i, matches in enumerate(weeks, 1):
         for name in joined.get(i, []):

@@ -11,7 +11,7 @@ from pigaming_app.events.match_setup import check_playable, setup_of
 from pigaming_app.events.spec import Entrant, EventSpec, Format, Result
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError
-from pigaming_app.jobs.events.headless import HeadlessRun
+from pigaming_app.jobs.events.play import HeadlessRun
 from pigaming_app.scenes.events.quick_match import play
 from tests.cases import one_in
 from tests.events.examples import new_event

@@ -31,15 +31,7 @@ from tests.games.factory.shop import Shop
 from tests.matches import match_of
 
 FLOORS = arenas("factory")
-STEPS = {
-    (RAW, HALF),
-    (HALF, DONE),
-    (DONE, DELIVERED),
-    (RAW, DAMAGED),
-    (HALF, DAMAGED),
-    (DONE, DAMAGED),
-    (DAMAGED, RAW),
-}
+STEPS = {(RAW, HALF), (HALF, DONE), (DONE, DELIVERED), (RAW, DAMAGED), (HALF, DAMAGED), (DONE, DAMAGED), (DAMAGED, RAW)}
 PAIRS, TWO = "hand3 random hand2 hand1", "hand3 hand1"
 
 

@@ -160,8 +160,7 @@ def stroke(random):
 
 
 @pytest.mark.parametrize(
-    "teams",
-    [pytest.param((0, 1, 2, 3), id="alone"), pytest.param((0, 1, 0, 1), id="pairs", marks=pytest.mark.long)],
+    "teams", [pytest.param((0, 1, 2, 3), id="alone"), pytest.param((0, 1, 0, 1), id="pairs", marks=pytest.mark.long)]
 )
 def test_the_first_contact_of_a_shot_agrees_with_an_exact_oracle(teams):
     """Thousands of shots, mostly at point-blank range, single and triple, and bullets in flight, among walls."""

@@ -7,8 +7,7 @@ import pytest
 
 from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.registry import BRAINS
-from pigaming_app.jobs.balance.fairness import FairnessOptions, fairness, run, table
-from pigaming_app.jobs.balance.leads import EVERY, LEVEL, Lead, leader, leads
+from pigaming_app.jobs.balance.fairness import EVERY, LEVEL, FairnessOptions, Lead, fairness, leader, leads, run, table
 from pigaming_app.sim.kernel import can_compile
 from tests.matches import match_of, setup_of
 

@@ -28,10 +28,7 @@ def test_an_arena_goes_out_and_comes_in(
     assert load(game, "shared").source == load(game, name).source
     capsys.readouterr()
     assert main(["arena", "list", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)[game] == {
-        "arenas": [*shipped_arenas(game), "shared"],
-        "own": ["shared"],
-    }
+    assert json.loads(capsys.readouterr().out)[game] == {"arenas": [*shipped_arenas(game), "shared"], "own": ["shared"]}
 
 
 @pytest.mark.parametrize(("game", "name"), SHIPPED)

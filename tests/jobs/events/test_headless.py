@@ -9,7 +9,7 @@ from pigaming_app.events.event import Event
 from pigaming_app.events.match_setup import outcome_of, setup_of
 from pigaming_app.events.spec import Entrant, EventSpec, Format
 from pigaming_app.games.registry import games
-from pigaming_app.jobs.events.headless import HeadlessRun
+from pigaming_app.jobs.events.play import HeadlessRun
 
 BRAINS = ("level1", "idle", "random", "")
 

@@ -66,7 +66,7 @@ if what == "early":
 from pigaming_app.jobs.terminal import supervised as child
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.start import run
-from pigaming_app.scenes.flow.stack import Quit
+from pigaming_app.scenes.flow.scene import Quit
 from pigaming_app.ui import pulse
 
 pulse.INTERVAL = 0.05

@@ -15,13 +15,13 @@ from pigaming_app.games.replay import Replay, recorded
 from pigaming_app.games.setup import make_setup
 from pigaming_app.scenes.attract.clip import Clip
 from pigaming_app.scenes.attract.scene import Attract, DemoMatch, TimedPage
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.howto.scene import HowTo, taught
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.recordings import store
-from pigaming_app.scenes.recordings.highlights import KEPT, Highlights, highlights
+from pigaming_app.scenes.recordings.store import KEPT, Highlights, highlights
 from pigaming_app.scenes.results.high_scores import HighScores, high_score_tables
 from pigaming_app.scenes.start import run
 from pigaming_app.storage.scores import ScoreTable

@@ -18,7 +18,7 @@ from pigaming_app.games.setup import ChoiceError
 from pigaming_app.scenes.bots.feature import BotService
 from pigaming_app.scenes.bots.host import BotHost
 from pigaming_app.scenes.bots.page import BotsPage
-from pigaming_app.scenes.flow.brain_names import brain_name, rivals
+from pigaming_app.scenes.flow.match_words import brain_name, rivals
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.scenes.play.scene import MatchScene

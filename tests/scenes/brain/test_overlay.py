@@ -17,14 +17,14 @@ from pigaming_app.scenes.attract.scene import Attract, DemoMatch
 from pigaming_app.scenes.brain import floor_marks as marks
 from pigaming_app.scenes.brain import panels as cards
 from pigaming_app.scenes.brain.overlay import BrainOverlay
-from pigaming_app.scenes.flow.stack import Home
+from pigaming_app.scenes.flow.scene import Home
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.runner import MatchRunner
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.draw import BODY, ICONS, LABEL, text_width
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import fit_size
 from pigaming_app.ui.i18n import LANGUAGES, texts
 from pigaming_app.ui.input.events import Button, InputEvent
 from tests.ai.networks.random_network import random_network

@@ -30,7 +30,7 @@ from pigaming_app.scenes.events.setup.entrants_page import EntrantsPage
 from pigaming_app.scenes.events.setup.letters_page import LettersPage
 from pigaming_app.scenes.events.setup.page import SetupPage
 from pigaming_app.scenes.events.table_page import TablePage
-from pigaming_app.scenes.flow.stack import Pop
+from pigaming_app.scenes.flow.scene import Pop
 from pigaming_app.scenes.pages.page import MESSAGE_ROOM
 from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.scenes.phones.link import PhoneLink
@@ -40,7 +40,7 @@ from pigaming_app.scenes.results.winner import WinnersMoment
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import BODY
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import fit_size
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phone_messages import SeatView

@@ -13,7 +13,7 @@ from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import HOLD, HOLD_WITHOUT_PIN
-from pigaming_app.scenes.flow.stack import Pop, Scene
+from pigaming_app.scenes.flow.scene import Pop, Scene
 from pigaming_app.scenes.pages.text_page import ALPHABET, TextPage
 from pigaming_app.storage.safe_files import NotSaved, backup_of
 from pigaming_app.ui.input.events import Button, Device

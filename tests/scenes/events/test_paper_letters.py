@@ -3,7 +3,7 @@
 import pygame
 import pytest
 
-from pigaming_app.scenes.events.paper import letters
+from pigaming_app.scenes.events.paper import sheet
 from pigaming_app.scenes.events.paper.sheet import PaperSheet, W
 
 
@@ -11,7 +11,7 @@ from pigaming_app.scenes.events.paper.sheet import PaperSheet, W
 def font_of_pygame(monkeypatch):
     """The one that is on every machine."""
     pygame.font.init()
-    monkeypatch.setattr(letters, "FACES", ("freesansbold",))
+    monkeypatch.setattr(sheet, "FACES", ("freesansbold",))
 
 
 def written(name: str) -> bytes:
@@ -29,15 +29,15 @@ def test_each_letter_is_a_letter():
 
 @pytest.mark.parametrize("name", ["Ana", "José Muñoz", "Zoë Ærø ß", "Œuvre – “x”", "★☆"])
 def test_letters_of_the_five_languages_keep_the_fonts_of_the_arcade(name):
-    assert letters.system_font(name, 100, 1000) is None
+    assert sheet.system_font(name, 100, 1000) is None
 
 
 def test_a_long_name_fits():
-    found = letters.system_font("Ž" * 24, 200, 1500)
+    found = sheet.system_font("Ž" * 24, 200, 1500)
     assert found is not None
     assert found.size("Ž" * 24)[0] <= 1500
 
 
 def test_a_name_that_no_font_has_is_written_all_the_same():
-    assert letters.system_font("\U00012000", 100, 1000) is None
+    assert sheet.system_font("\U00012000", 100, 1000) is None
     assert written("\U00012000")

@@ -12,7 +12,7 @@ from pigaming_app.scenes.events.choice import EventsPage
 from pigaming_app.scenes.events.next_page import INPUT_LOCKOUT, NextMatch
 from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
-from pigaming_app.scenes.flow.stack import Home, Push
+from pigaming_app.scenes.flow.scene import Home, Push
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.start import opened

@@ -21,7 +21,7 @@ from pigaming_app.scenes.events.feature import LiveScores
 from pigaming_app.scenes.events.next_page import ALL_READY, INPUT_LOCKOUT, LOOK, NextMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
-from pigaming_app.scenes.flow.stack import Pop
+from pigaming_app.scenes.flow.scene import Pop
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.ui.input.events import Button, InputEvent
 from tests.scenes.arcade import KEYS, Arcade

@@ -353,9 +353,7 @@ def test_paused_time_does_not_count_as_idle(arcade: Arcade) -> None:
     assert match.devices[:2] == KEYS[:2]
 
 
-def test_when_all_are_idle_the_match_asks_and_the_first_press_returns_its_seat(
-    arcade: Arcade,
-) -> None:
+def test_when_all_are_idle_the_match_asks_and_the_first_press_returns_its_seat(arcade: Arcade) -> None:
     match = running(arcade, "human human off off", KEYS[:2], 5.0)
     arcade.until(lambda: isinstance(arcade.stack.top, StillThere), 70.0)
     assert match.devices[:2] == [None, None]

@@ -15,7 +15,7 @@ from pigaming_app.scenes.events.manage.corrections import Correction
 from pigaming_app.scenes.events.manage.event_page import EventPage
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.flow.access import BREAK, LOWEST, SESSION, Right, Role, Roles
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.guard import Guard
 from pigaming_app.scenes.kiosk.operator.page import OperatorPage
 from pigaming_app.scenes.launch import Options

@@ -2,7 +2,7 @@
 
 import pytest
 
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Quit, Stack, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Home, Pop, Push, Quit, Stack, StackOperation, Swap
 from pigaming_app.scenes.flow.timestep import MAX_TICKS, FixedTimestep
 from pigaming_app.sim.world import DT
 from tests.scenes.arcade import Floor

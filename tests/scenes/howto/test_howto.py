@@ -20,8 +20,7 @@ from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.world import HZ, Action
 from pigaming_app.storage.settings import Choice
 from pigaming_app.ui.draw import BODY, FOCUS, TITLE, button_width, text_width
-from pigaming_app.ui.draw.layers import LEFT, span
-from pigaming_app.ui.draw.text import wrap
+from pigaming_app.ui.draw.layers import LEFT, span, wrap
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button, Device, InputEvent

@@ -13,7 +13,7 @@ import pytest
 from pigaming_app.ai.qlearning.recipe import RECIPES
 from pigaming_app.ai.reward_quantities import QUANTITIES
 from pigaming_app.scenes.brain.rose import PETALS
-from pigaming_app.scenes.flow.stack import Home, Pop, Stack, StackOperation
+from pigaming_app.scenes.flow.scene import Home, Pop, Stack, StackOperation
 from pigaming_app.scenes.lab import progress, scene
 from pigaming_app.scenes.lab import trainer as trainer
 from pigaming_app.scenes.lab import view as page
@@ -30,7 +30,7 @@ from pigaming_app.scenes.lab.view import notice
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.title.scene import Title
 from pigaming_app.sim.record import digest
-from pigaming_app.ui.draw.text import wrap_balanced
+from pigaming_app.ui.draw.layers import wrap_balanced
 from pigaming_app.ui.draw.theme import BODY, text_width
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls

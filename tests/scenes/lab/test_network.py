@@ -24,7 +24,7 @@ from pigaming_app.scenes.lab.pages.compare_page import ComparePage
 from pigaming_app.scenes.lab.pages.menu import LabMenu
 from pigaming_app.scenes.lab.scene import Lab
 from pigaming_app.sim.kernel import can_compile
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import fit_size
 from pigaming_app.ui.draw.theme import BODY, TITLE, text_width
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.controls import Controls

@@ -9,7 +9,7 @@ from pigaming_app.events import climb_files
 from pigaming_app.events.ladder import Climb, table_of, worth
 from pigaming_app.events.league_files import Ratings, Strength, file_name
 from pigaming_app.games.registry import OURS, games
-from pigaming_app.scenes.flow.stack import Swap
+from pigaming_app.scenes.flow.scene import Swap
 from pigaming_app.scenes.ladder.choice import LadderChoice
 from pigaming_app.scenes.ladder.climber import Climber
 from pigaming_app.scenes.ladder.climbers import Climbers

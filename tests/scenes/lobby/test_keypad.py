@@ -8,7 +8,7 @@ import pytest
 from pigaming_app.scenes.controls.controls_test import ControlsTest
 from pigaming_app.scenes.controls.remap_page import RemapPage
 from pigaming_app.scenes.events.drivers import driver_label, suggested
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.lobby.scene import Lobby

@@ -18,7 +18,7 @@ from pigaming_app.scenes.lobby.match_setup_view import APART, CHIP, PAD, W, shor
 from pigaming_app.scenes.lobby.seats import LobbySeats
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.settings import Choice
-from pigaming_app.ui.draw.text import SMALLEST, fit_lines
+from pigaming_app.ui.draw.layers import SMALLEST, fit_lines
 from pigaming_app.ui.i18n import LANGUAGES, Words
 from pigaming_app.ui.input.events import Button
 from tests.scenes.arcade import KEYS, Arcade
@@ -206,11 +206,7 @@ def test_a_click_chooses_the_rounds(arcade: Arcade) -> None:
 
 
 def test_other_rules_bring_their_own_length_and_the_same_length_stays() -> None:
-    for game, before, after in (
-        ("race", (10, 4), (10, 5)),
-        ("factory", (5, 4), (3, 0)),
-        ("pitanks", (5, 0), (5, 0)),
-    ):
+    for game, before, after in (("race", (10, 4), (10, 5)), ("factory", (5, 4), (3, 0)), ("pitanks", (5, 0), (5, 0))):
         rules = games()[game]
         choice = Choice(minutes=before[0], variant=next(iter(rules.variants)), goal=before[1])
         change_rules(rules, choice, "party")

@@ -10,7 +10,7 @@ import pytest
 
 from pigaming_app.scenes.controls.controls_test import ControlsTest
 from pigaming_app.scenes.controls.remap_page import RemapPage
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.options.page import SECTIONS, OptionsPage, options_of
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.scores import Scores, ScoreTable

@@ -11,8 +11,7 @@ from pigaming_app.games.arenas import shipped_arenas
 from pigaming_app.scenes.flow.match_choice import change_arena, last_choice
 from pigaming_app.scenes.lobby.game_choice import GameChoice
 from pigaming_app.scenes.lobby.scene import Lobby
-from pigaming_app.scenes.phones.audience import shows_cheers
-from pigaming_app.scenes.phones.ballot import Ballot
+from pigaming_app.scenes.phones.audience import Ballot, shows_cheers
 from pigaming_app.scenes.phones.cheers import MOST, SECONDS, Cheers
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.link import PhoneLink

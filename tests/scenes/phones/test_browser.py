@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 import pytest
 
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import JoinByPhone

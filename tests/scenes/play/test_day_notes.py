@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.games.rounds import Rounds
-from pigaming_app.scenes.flow.stack import Home
+from pigaming_app.scenes.flow.scene import Home
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.storage.day_log import DayLog, PlayedMatch, read_day
 from tests.scenes.arcade import KEYS, Arcade, setup

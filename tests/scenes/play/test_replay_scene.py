@@ -28,15 +28,15 @@ def test_attract_shows_a_match_then_how_to_play_then_the_scores(
     arcade: Arcade, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert MINUTES <= 2.0
-    monkeypatch.setattr("pigaming_app.scenes.attract.scene.MINUTES", 0.2)
+    monkeypatch.setattr("pigaming_app.scenes.attract.scene.MINUTES", 0.05)
     for game in games():
         scores_of(arcade.context, game)
     attract = arcade.open(Attract(arcade.context))
     assert isinstance(attract.show, DemoMatch)
-    assert attract.show.runner.match.setup.minutes == 0.2
+    assert attract.show.runner.match.setup.minutes == 0.05
     shown = attract.show.runner.match.setup
     overtime = games()[shown.game].variants[shown.variant].overtime
-    arcade.until(lambda: not isinstance(attract.show, DemoMatch), 17.0 + overtime)
+    arcade.until(lambda: not isinstance(attract.show, DemoMatch), 8.0 + overtime)
     first = attract.show
     assert isinstance(first, TimedPage)
     arcade.wait(0.5, draw=True)

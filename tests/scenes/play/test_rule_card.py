@@ -7,11 +7,10 @@ from pigaming_app.games.arenas import arenas, load
 from pigaming_app.games.game import Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import make_setup
-from pigaming_app.scenes.play.caption_layout import ARENA as CAPTIONS
-from pigaming_app.scenes.play.caption_layout import caption_boxes, robot_boxes
 from pigaming_app.scenes.play.countdown import clear_of
 from pigaming_app.scenes.play.opening import ARENA, ROOM, SIGN, gap, in_lines, rule_card
-from pigaming_app.scenes.play.runner import CAPTION_GAP
+from pigaming_app.scenes.play.runner import ARENA as CAPTIONS
+from pigaming_app.scenes.play.runner import CAPTION_GAP, caption_boxes, robot_boxes
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import BODY, text_width

@@ -9,7 +9,7 @@ import pytest
 
 from pigaming_app.ai.registry import new_match
 from pigaming_app.games.replay import Replay, recorded, to_match, verify
-from pigaming_app.scenes.flow.stack import Stack
+from pigaming_app.scenes.flow.scene import Stack
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.recordings import store
 from pigaming_app.scenes.recordings.store import LIMIT, StoreError

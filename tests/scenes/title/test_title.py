@@ -7,7 +7,7 @@ import pygame
 import pytest
 
 from pigaming_app.scenes.attract.scene import Attract
-from pigaming_app.scenes.flow.stack import Stack
+from pigaming_app.scenes.flow.scene import Stack
 from pigaming_app.scenes.howto.scene import HowTo
 from pigaming_app.scenes.lobby.scene import Lobby
 from pigaming_app.scenes.options.page import OptionsPage

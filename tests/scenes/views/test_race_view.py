@@ -19,8 +19,8 @@ from pigaming_app.scenes.views.particles import MAX_PARTICLES
 from pigaming_app.scenes.views.race import ghost as ghosts
 from pigaming_app.scenes.views.race import hud_cards as race_cards
 from pigaming_app.scenes.views.race.events import SETTLE, SHOWN_FROM
-from pigaming_app.scenes.views.race.gaps import figure
 from pigaming_app.scenes.views.race.ghost import Ghost, file_of, ghost_of, load_ghost
+from pigaming_app.scenes.views.race.hud import figure
 from pigaming_app.scenes.views.race.hud_cards import RaceCard, card_bits
 from pigaming_app.scenes.views.race.lines import sign_post
 from pigaming_app.scenes.views.race.track import edges
@@ -29,10 +29,9 @@ from pigaming_app.sim.record import digest
 from pigaming_app.sim.world import DT, HEIGHT, WIDTH
 from pigaming_app.storage.safe_files import write_with_backup
 from pigaming_app.ui.draw.frame_budget import run_to_end
-from pigaming_app.ui.draw.text import glyph
+from pigaming_app.ui.draw.layers import glyph
 from pigaming_app.ui.draw.theme import read_large
-from pigaming_app.ui.i18n import LANGUAGES, Words
-from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.i18n import LANGUAGES, Words, signed
 from tests import tags
 from tests.cases import one_in
 

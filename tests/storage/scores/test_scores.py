@@ -37,8 +37,7 @@ def test_the_best_come_first_and_the_earlier_of_equals():
 
 
 @pytest.mark.parametrize(
-    "other",
-    [{"game": "race"}, {"arena": "islands"}, {"rules": "plain"}, {"length": 1}, {"people": 2}, {"side": 1}],
+    "other", [{"game": "race"}, {"arena": "islands"}, {"rules": "plain"}, {"length": 1}, {"people": 2}, {"side": 1}]
 )
 def test_scores_under_other_conditions_stand_in_another_table(other):
     assert filled(5).best(replace(TANKS, **other)) == []

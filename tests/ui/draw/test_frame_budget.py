@@ -9,7 +9,7 @@ import pytest
 
 from pigaming_app.scenes import app as arcade
 from pigaming_app.scenes.app import App
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Push, StackOperation
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.start import opened
 from pigaming_app.ui.draw import frame_budget

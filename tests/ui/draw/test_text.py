@@ -7,7 +7,7 @@ import weakref
 import pytest
 
 from pigaming_app.ui.draw import BODY, LABEL, font, text_width
-from pigaming_app.ui.draw.text import LINE_PITCH, SMALLEST, fit_lines, fit_paragraphs, fit_text
+from pigaming_app.ui.draw.layers import LINE_PITCH, SMALLEST, fit_lines, fit_paragraphs, fit_text
 
 NAME = "WWWWWWWWWWWW"
 PATH = "/dev/serial/by-id/usb-FTDI_FT231X_USB_UART_DN02MQBC-if00-port0"

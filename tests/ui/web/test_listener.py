@@ -76,10 +76,7 @@ def test_a_connection_without_a_complete_request_is_closed(
 
 def test_a_slow_request_is_cut_whatever_it_dribbles(made: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(listener, "IDLE_SECONDS", 0.4)
-    with (
-        running(made("127.0.0.1", 0)) as server,
-        socket.create_connection((server.address, server.port), LONG) as peer,
-    ):
+    with running(made("127.0.0.1", 0)) as server, socket.create_connection((server.address, server.port), LONG) as peer:
         end, cut = time.monotonic() + LONG, False
         peer.sendall(b"GET / HTTP/1.1\r\nX: ")
         peer.settimeout(0.05)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pigaming_app import ASSETS
-from pigaming_app.ai.brain.traits import NUMBERS, Traits
+from pigaming_app.ai.brain.kind import NUMBERS, Traits
 from pigaming_app.ai.people.fit.wishes import Array
 from pigaming_app.storage.parsing import read
 from pigaming_app.storage.schema import from_json

@@ -5,16 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pigaming_app.ai.brain.traits import Traits
+from pigaming_app.ai.brain.kind import Traits
 from pigaming_app.ai.game_ai import POINT, TURN
-from pigaming_app.ai.people.fit.calibration import (
-    FitCalibration,
-    FittedTrait,
-    calibration,
-    estimate,
-    is_told,
-    raw_of,
-)
+from pigaming_app.ai.people.fit.calibration import FitCalibration, FittedTrait, calibration, estimate, is_told, raw_of
 from pigaming_app.ai.people.fit.statistics import statistics
 from pigaming_app.ai.people.fit.wishes import Array, Watched, watch
 from pigaming_app.ai.people.models import PEOPLE

@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.brain.traits import Traits
+from pigaming_app.ai.brain.kind import BrainKind, Traits
 from pigaming_app.ai.people.models import wisher
 from pigaming_app.ai.registry import AIS
 from pigaming_app.games.registry import games

@@ -31,12 +31,7 @@ from pigaming_app.jobs.learning.league import plain
 from pigaming_app.jobs.learning.league import table as league_table
 from pigaming_app.jobs.learning.train.copies import FrozenCopies
 from pigaming_app.jobs.learning.train.live_page import page_of
-from pigaming_app.jobs.learning.train.options import (
-    DEFAULT_MINUTES,
-    DEFAULT_WORKERS,
-    PpoOptions,
-    changed,
-)
+from pigaming_app.jobs.learning.train.options import DEFAULT_MINUTES, DEFAULT_WORKERS, PpoOptions, changed
 from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
 from pigaming_app.jobs.learning.train.telemetry import TrainingTable
 from pigaming_app.jobs.learning.train.tensorboard import TensorboardFile

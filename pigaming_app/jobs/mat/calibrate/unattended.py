@@ -16,8 +16,7 @@ from pigaming_app.hardware.emulator.camera import TRAITS
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.vision.markers import WEARERS
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Stack
+from pigaming_app.scenes.flow.scene import Context, Stack
 from pigaming_app.scenes.mat.calibration.result_page import ResultPage
 from pigaming_app.scenes.mat.calibration.setup_page import CalibrationPage
 from pigaming_app.storage.scores import Scores

@@ -11,15 +11,13 @@ from pigaming_app.scenes.editor.naming import ArenaNamePage
 from pigaming_app.scenes.editor.play_test import PlayTest
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, Push, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box
-from pigaming_app.ui.draw.layers import LEFT, Layer, LitImage, span
+from pigaming_app.ui.draw.layers import LEFT, Layer, LitImage, fit_size, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot
 from pigaming_app.ui.widgets.labels import black_out, frame, heading

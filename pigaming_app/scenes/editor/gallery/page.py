@@ -17,8 +17,7 @@ from pigaming_app.scenes.editor.gallery.view import COLUMNS, ROWS
 from pigaming_app.scenes.editor.registry import EDITORS
 from pigaming_app.scenes.editor.scene import Editor
 from pigaming_app.scenes.flow.arena_cache import load_cached
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.ui.input.events import Button, InputEvent
@@ -126,9 +125,7 @@ class Gallery(Page):
     def _read(self) -> None:
         """All cards of the game."""
         words = self.context.words
-        self.cards = [
-            Card(words("editor.new"), self._new, sign="plus"),
-        ]
+        self.cards = [Card(words("editor.new"), self._new, sign="plus")]
         if games()[self.game].surprise:
             self.cards.append(Card(words("editor.surprise"), self._surprise, sign="dice"))
         for name in store.own_names(self.game)[:MOST_OWN]:

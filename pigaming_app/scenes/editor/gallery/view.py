@@ -8,9 +8,8 @@ from pigaming_app.scenes.editor.model.shapes import Paper, Tools
 from pigaming_app.sim.world import HEIGHT, WIDTH
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, MIST, STEEL, THIN, GlowCanvas, cut_box, dim
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import Layer, LitImage, span
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_text, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_text
 
 COLUMNS, ROWS = 4, 2
 W, H = span(0, 3)[1], 332  # px

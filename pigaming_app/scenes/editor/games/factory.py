@@ -4,16 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
 from pigaming_app.games.drawing.values import Part
-from pigaming_app.games.factory.layout import (
-    BODY,
-    SHELF,
-    SLOT_AT,
-    SPOT_AT,
-    TEAM_NAMES,
-    WAYS,
-    MachineSpec,
-    SlotSpec,
-)
+from pigaming_app.games.factory.layout import BODY, SHELF, SLOT_AT, SPOT_AT, TEAM_NAMES, WAYS, MachineSpec, SlotSpec
 from pigaming_app.games.factory.state import (
     ENTRY,
     EXIT,

@@ -4,16 +4,7 @@ from collections.abc import Sequence
 from math import cos, hypot, sin, tau
 
 from pigaming_app.games.drawing.values import Part, point
-from pigaming_app.scenes.editor.model.shapes import (
-    Dial,
-    Outline,
-    Paper,
-    Shape,
-    Tool,
-    apart,
-    following,
-    inside,
-)
+from pigaming_app.scenes.editor.model.shapes import Dial, Outline, Paper, Shape, Tool, apart, following, inside
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.scenes.views.things.on_mat import draw
 from pigaming_app.scenes.views.things.styles import ThingStyle

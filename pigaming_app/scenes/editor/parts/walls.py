@@ -5,17 +5,7 @@ from math import atan2, cos, hypot, pi, sin
 from typing import ClassVar
 
 from pigaming_app.games.drawing.values import Part
-from pigaming_app.scenes.editor.model.shapes import (
-    Dial,
-    Outline,
-    Paper,
-    Shape,
-    Tool,
-    Tools,
-    apart,
-    inside,
-    whole,
-)
+from pigaming_app.scenes.editor.model.shapes import Dial, Outline, Paper, Shape, Tool, Tools, apart, inside, whole
 from pigaming_app.scenes.editor.model.symmetry import Image
 from pigaming_app.scenes.editor.parts.starts import Start
 from pigaming_app.scenes.editor.parts.things import DrawnThing
@@ -78,10 +68,7 @@ class DrawnWall(Shape):
         return part == other or part.changed("from", whole(*b)).changed("to", whole(*a)) == other
 
     def dials(self, part: Part) -> Sequence[Dial]:
-        dials = [
-            Dial("turn", self.turned),
-            Dial("thick", _thicker, lambda part: str(round(_thick(part)))),
-        ]
+        dials = [Dial("turn", self.turned), Dial("thick", _thicker, lambda part: str(round(_thick(part))))]
         return [*dials, Dial("health", _weaker, lambda part: str(self.health(part)))] if self.healthy else dials
 
     def health(self, part: Part) -> int:

@@ -21,9 +21,8 @@ from pigaming_app.scenes.events.overview import BRACKET, GROUPS, TEAM_FIGURES, O
 from pigaming_app.scenes.events.running import RunningEvent, progress_line
 from pigaming_app.scenes.features import board_text as text
 from pigaming_app.scenes.features.board_page import BoardPart, Box
-from pigaming_app.scenes.flow.brain_names import brain_name
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.match_words import brain_name
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.scenes.results.awards.moment import AwardsMoment
 from pigaming_app.scenes.results.podium import FIRST, Podium, Stand
 from pigaming_app.scenes.results.winner import WinnersMoment

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pigaming_app.events.changes.live import LiveMatch
 from pigaming_app.scenes.events.next_page import EventMatch
 from pigaming_app.scenes.events.running import RunningEvent
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.results.snapshot import match_of, snapshot
 from pigaming_app.ui.i18n import Words
 

@@ -5,9 +5,14 @@ that is this server; it becomes one entry of the journal, as on the command line
 """
 
 import contextlib
+import hashlib
+import hmac
 import logging
+import secrets
 import threading
-from collections.abc import Mapping
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from datetime import date
 from pathlib import Path
 
@@ -22,7 +27,6 @@ from pigaming_app.scenes.events.desk.document import FILES, contents, languages
 from pigaming_app.scenes.events.desk.forms import Action, action_of, fixture_of, index
 from pigaming_app.scenes.events.desk.joining import Joining
 from pigaming_app.scenes.events.desk.public_page import public_page
-from pigaming_app.scenes.events.desk.sessions import COOKIE, Session, Sessions, cookie, is_key
 from pigaming_app.storage.pin import PinFile
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.i18n import LANGUAGES, Words
@@ -33,6 +37,60 @@ LOOKS = 1.5  # s between two looks of the public page
 MAX_LENGTH = 400  # characters of a field; longer ones are cut
 
 log = logging.getLogger("pigaming")
+COOKIE = "pigaming_desk"
+LASTS = 12 * 3600.0  # s
+MOST = 16  # sessions; with one more the oldest ends
+
+
+@dataclass
+class Session:
+    """One browser. `key`: stands in its forms, so that no other site can send one."""
+
+    ends: float
+    key: str = field(default_factory=lambda: secrets.token_urlsafe(16))
+    language: str = ""
+
+
+class Sessions:
+    """The sessions of a desk, which end with it. `clock`: s."""
+
+    def __init__(self, pin: PinFile, clock: Callable[[], float] = time.monotonic) -> None:
+        self.pin, self._clock = pin, clock
+        self._sessions: dict[str, Session] = {}  # by hash of the token, oldest first
+
+    def begin(self, pin: str, source: str) -> str:
+        """The token of a new session; empty if the PIN is wrong, or has to wait."""
+        if not self.pin.check(pin, source):
+            return ""
+        token = secrets.token_urlsafe(32)
+        self._sessions[_hash(token)] = Session(self._clock() + LASTS)
+        for oldest in list(self._sessions)[:-MOST]:
+            self._sessions.pop(oldest, None)
+        return token
+
+    def find(self, token: str) -> Session | None:
+        """The session of a token, unless it has ended."""
+        session = self._sessions.get(_hash(token))
+        return session if session and self._clock() < session.ends else None
+
+    def end(self, token: str) -> None:
+        """Log out."""
+        self._sessions.pop(_hash(token), None)
+
+
+def is_key(session: Session, given: str) -> bool:
+    """True for the key of a session's forms."""
+    return hmac.compare_digest(session.key.encode(), given.encode(errors="replace"))
+
+
+def cookie(token: str) -> str:
+    """The header that gives a browser its token; an empty one takes it back."""
+    age = int(LASTS) if token else 0
+    return f"{COOKIE}={token}; Path=/; Max-Age={age}; HttpOnly; SameSite=Strict"
+
+
+def _hash(token: str) -> str:
+    return hashlib.sha256(token.encode(errors="replace")).hexdigest()
 
 
 class Desk:

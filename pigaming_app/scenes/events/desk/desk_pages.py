@@ -9,8 +9,7 @@ from pigaming_app.events.spec import MAX_NAME, Fixture
 from pigaming_app.scenes.events.desk.document import document, languages
 from pigaming_app.scenes.events.desk.public_page import head, now, result_line, tables, versus
 from pigaming_app.scenes.events.running import accepts_late, round_name
-from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.numbers import numeral
+from pigaming_app.ui.i18n import Words, numeral
 from pigaming_app.ui.web.markup import Markup, tag
 
 EVERY = 1.0  # s between two looks for news

@@ -6,7 +6,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.storage.pin import PinFile
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.web import PORT

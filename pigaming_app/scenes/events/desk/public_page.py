@@ -85,12 +85,7 @@ def tables(words: Words, event: Event) -> Iterator[Markup]:
             yield from _table(*seen.table(kind), heading)
 
 
-HEADINGS = {
-    BRACKET: "desk.bracket",
-    GROUPS: "events.groups_side",
-    TABLE: "events.hint_table",
-    TEAMS: "desk.teams",
-}
+HEADINGS = {BRACKET: "desk.bracket", GROUPS: "events.groups_side", TABLE: "events.hint_table", TEAMS: "desk.teams"}
 
 
 def _busy(event: Event, live: Sequence[LiveMatch]) -> list[Fixture]:

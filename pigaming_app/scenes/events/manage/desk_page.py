@@ -4,11 +4,10 @@ import pygame
 
 from pigaming_app.scenes.events.desk.host import can_serve, desk_host
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.ui.draw import ALARM, BLACK, FOCUS, ICE, MIST, STEEL, THIN
-from pigaming_app.ui.draw.layers import LEFT
-from pigaming_app.ui.draw.text import paragraph
+from pigaming_app.ui.draw.layers import LEFT, paragraph
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.labels import sign
 from pigaming_app.ui.widgets.setting_row import SettingValue

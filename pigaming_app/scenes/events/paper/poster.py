@@ -48,7 +48,7 @@ def poster(event: Event, words: Words) -> Iterator[PaperSheet | None]:
     yield None
     _head(page, event, words)
     yield None
-    for i, medal in enumerate(_medals(event)):
+    for i, medal in enumerate(event.standings[:3]):
         _medal(page, medal, i)
         yield None
     yield from _table(page, event, words)
@@ -77,10 +77,6 @@ def _head(page: PaperSheet, event: Event, words: Words, part: str = "") -> None:
     page.write(words.day(date.today()), 64, (W - MARGIN, 430), SOFT, "r")
     pygame.draw.line(page.picture, INK, (MARGIN, 500), (W - MARGIN, 500), 8)
     page.write("PiGaming", 52, (W / 2, H - 80), SOFT, "c")
-
-
-def _medals(event: Event) -> list[Standing]:
-    return list(event.standings[:3])
 
 
 def _medal(page: PaperSheet, row: Standing, index: int) -> None:

@@ -5,7 +5,9 @@ needs nothing else, PDF needs Pillow (the extra `events`).
 """
 
 import logging
+import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
+from functools import cache
 from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
@@ -15,10 +17,9 @@ from time import perf_counter
 
 import pygame
 
-from pigaming_app.scenes.events.paper.letters import system_font
 from pigaming_app.storage.safe_files import NotSaved, write_all_atomic
-from pigaming_app.ui.draw import Color
-from pigaming_app.ui.draw.text import fit_text
+from pigaming_app.ui.draw import Color, font
+from pigaming_app.ui.draw.layers import fit_text
 from pigaming_app.ui.draw.theme import baseline, line_image
 from pigaming_app.ui.pdf import PdfFile, WrittenLine
 from pigaming_app.ui.png import png_of
@@ -35,6 +36,13 @@ AHEAD = 2  # sheets that may wait to be encoded: each takes 26 MB
 PATIENCE = 30.0  # s after which a job that nobody works on ends
 
 log = logging.getLogger("pigaming")
+FACES = (
+    "dejavusans", "notosans", "segoeui", "arial", "helveticaneue", "arialunicodems", "notosanscjkjp", "notosanscjksc",
+    "droidsansfallback", "wenquanyizenhei", "microsoftyahei", "hiraginosansgb", "symbola", "freesansbold",
+)  # fmt: skip
+PROBE = 24  # px, at which letters are compared
+NO_LETTER = "\U0010ffff"  # is drawn as a box
+RIGHT_TO_LEFT = {"R": "Hebr", "AL": "Arab"}  # script by the class of a letter
 
 
 class PaperSheet:
@@ -135,3 +143,35 @@ def _packed(sheet: PaperSheet, form: str, **more: int) -> bytes:
     image = Image.frombytes("RGB", SIZE, pygame.image.tobytes(sheet.picture, "RGB"))
     image.save(packed, form, **more)  # Pillow, unlike pygame, lets other threads run meanwhile
     return packed.getvalue()
+
+
+def system_font(line: str, size: int, room: float) -> pygame.font.Font | None:
+    """The font in which a line is at most `room` px wide; None if the arcade's own has its letters, or none has."""
+    if line.isascii() or _has(font("head", PROBE), line):
+        return None
+    for face in FACES:
+        path = _path(face)
+        if path and _has(pygame.font.Font(path, PROBE), line):
+            width = pygame.font.Font(path, size).size(line)[0]
+            found = pygame.font.Font(path, size if width <= room else int(size * room / width))
+            script = next(filter(None, (RIGHT_TO_LEFT.get(unicodedata.bidirectional(letter)) for letter in line)), "")
+            if script:
+                found.set_direction(pygame.DIRECTION_RTL)
+                found.set_script(script)
+            return found
+    return None
+
+
+@cache
+def _path(face: str) -> str | None:
+    return pygame.font.match_font(face, bold=True) or pygame.font.match_font(face)
+
+
+def _has(letters: pygame.font.Font, line: str) -> bool:
+    """True if a font draws none of these letters as a box. Marks that join a letter are left out."""
+    box = _drawn(letters, NO_LETTER)
+    return all(_drawn(letters, one) != box for one in {*line} if one not in " ★☆" and not unicodedata.combining(one))
+
+
+def _drawn(letters: pygame.font.Font, letter: str) -> bytes:
+    return pygame.image.tobytes(letters.render(letter, True, (0, 0, 0)), "RGBA")

@@ -5,12 +5,11 @@ from collections.abc import Callable
 import pygame
 
 from pigaming_app.scenes.events.names import shortened
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.results.spelling import Spelling
 from pigaming_app.ui.draw import ALARM, BODY, BOLD, HERO, ICE, LABEL, MIST
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.layers import text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.letter_picker import cursor, draw_letters, letter_box
 from pigaming_app.ui.widgets.word_filter import is_rude

@@ -8,9 +8,8 @@ from pigaming_app.scenes.events.setup.draft import BY_TURNS, Draft, variant_of
 from pigaming_app.scenes.events.setup.entrants_page import Begin, EntrantsPage
 from pigaming_app.scenes.events.setup.format_pictures import picture, row_picture
 from pigaming_app.scenes.flow.arena_cache import load_cached
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.views import game_tile
 from pigaming_app.ui.draw import BODY, readable, text_width

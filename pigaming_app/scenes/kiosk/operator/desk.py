@@ -10,13 +10,12 @@ import pygame
 
 from pigaming_app.scenes.features.feature import Service
 from pigaming_app.scenes.flow.access import Right, Roles
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, Scene, Stack
+from pigaming_app.scenes.flow.scene import Context, Push, Scene, Stack
 from pigaming_app.scenes.guard import Guard
 from pigaming_app.scenes.kiosk.operator.group_limit import GroupLimit
 from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
 from pigaming_app.ui.draw import FOCUS, ICE
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import fit_size
 from pigaming_app.ui.input.events import Device
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.notices import MAX_WIDTH

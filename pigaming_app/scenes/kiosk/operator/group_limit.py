@@ -8,8 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from pigaming_app.scenes.features.registry import without_limit
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Scene, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Home, Scene, StackOperation
 
 if TYPE_CHECKING:  # the title does not wait for these
     from pigaming_app.scenes.play.drivers import Drivers

@@ -6,9 +6,8 @@ It opens from the options, and over any screen by holding F10; a match below it 
 from collections.abc import Sequence
 
 from pigaming_app.scenes.flow.access import Right, Roles
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_words import game_title
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Home, Pop, Push, Scene, StackOperation, Swap
 from pigaming_app.scenes.kiosk import safe_start
 from pigaming_app.scenes.kiosk.operator import pictures
 from pigaming_app.scenes.kiosk.operator.group_limit import InMatch

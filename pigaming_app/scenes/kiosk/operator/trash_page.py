@@ -6,16 +6,14 @@ from datetime import datetime
 import pygame
 
 from pigaming_app.scenes.flow.access import Right, Roles
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.storage import trash
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.storage.trash import Deleted
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, THIN, cut_box, icon
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size, fit_text, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, fit_text, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot

@@ -5,7 +5,7 @@ from itertools import chain
 
 from pigaming_app.scenes.features.board_page import BoardPage
 from pigaming_app.scenes.features.registry import features
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 
 FIRST = "scores"  # name of the score page
 

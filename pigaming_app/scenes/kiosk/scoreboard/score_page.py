@@ -8,8 +8,7 @@ import pygame
 
 from pigaming_app.scenes.features import board_text as text
 from pigaming_app.scenes.features.board_page import BoardPart, Box
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.scenes.results.snapshot import MatchSnapshot, ShownMatch, Side, match_of, snapshot
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST, PLAYERS, STEEL, SUB, Color
 from pigaming_app.ui.i18n import Words

@@ -9,14 +9,13 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.features import board_text as text
 from pigaming_app.scenes.features.board_page import BoardPart, Box
 from pigaming_app.scenes.features.registry import next_line
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Context, Scene
 from pigaming_app.scenes.results.high_scores import format_score
 from pigaming_app.scenes.views.registry import shown_games
 from pigaming_app.storage.day_log import now
 from pigaming_app.storage.scores import Scores, ScoreTable
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, MIST, STEEL, SUB
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import fit_size
 from pigaming_app.ui.i18n import Words
 
 ROWS = 4

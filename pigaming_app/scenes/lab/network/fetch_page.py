@@ -4,15 +4,13 @@ from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.lab.background import BUILT, DONE, FETCHING, FOREIGN, RESTART, LabBackground
 from pigaming_app.scenes.pages.page import Hints
 from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import sheet_title
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, STEEL, THIN, Color, cut_box
-from pigaming_app.ui.draw.layers import Layer
-from pigaming_app.ui.draw.text import paragraph
+from pigaming_app.ui.draw.layers import Layer, paragraph
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.dialog import HEAD, W, X
 

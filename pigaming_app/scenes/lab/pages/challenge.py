@@ -6,8 +6,7 @@ from pigaming_app.ai.brain.kind import BrainKind, BrainPlayer
 from pigaming_app.ai.learning.training import ARENA, GAME, VARIANT
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation, Swap
 from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.drivers import new_seed
 from pigaming_app.scenes.play.pause import sheet_title
@@ -15,9 +14,9 @@ from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.scene import LATE, LEAVE, hold_bar
 from pigaming_app.ui.draw import HERO, ICE, MIST, PLAYERS, Color, badge
 from pigaming_app.ui.draw.layers import Layer
+from pigaming_app.ui.i18n import numeral
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.hold import HoldTimers
-from pigaming_app.ui.numbers import numeral
 from pigaming_app.ui.widgets.dialog import FOOT, HEAD
 
 MINUTES = 1.0

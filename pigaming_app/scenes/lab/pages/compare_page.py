@@ -13,14 +13,13 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.learning.evaluation import HANDMADE, Evaluation
 from pigaming_app.ai.learning.training import GAME
 from pigaming_app.ai.registry import BRAINS
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Pop, StackOperation
 from pigaming_app.scenes.lab.host import IDLE, LabHost
 from pigaming_app.scenes.lab.layout import GOOD, NOTHING
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box, icon
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.input.events import Button
 
 MATCHES = {True: 10, False: 2}  # matches per pair, compiled and interpreted

@@ -6,10 +6,10 @@ import pygame
 
 from pigaming_app.ai.reward_line import LONGEST
 from pigaming_app.ai.reward_quantities import QUANTITIES
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.pages.text_page import LINE_BOX, TextPage
 from pigaming_app.ui.draw import BODY, FOCUS, MIST, text_width
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.layers import text
 
 LETTERS = "abcdefghijklmnopqrstuvwxyz0123456789.+-*/()<>=!, "
 NAMES_Y, PITCH = 486, 76  # px: first row, from row to row

@@ -2,7 +2,7 @@
 
 import pygame
 
-from pigaming_app.scenes.flow.stack import Pop, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Pop, StackOperation, Swap
 from pigaming_app.scenes.lab.host import IDLE, LabHost, dimmed_background
 from pigaming_app.scenes.lab.pages.compare_page import ComparePage
 from pigaming_app.scenes.lab.pages.open_page import OpenPage
@@ -11,8 +11,7 @@ from pigaming_app.scenes.pages import name_page
 from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import menu_spots, sheet_title
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, MIST
-from pigaming_app.ui.draw.layers import Layer
-from pigaming_app.ui.draw.text import word
+from pigaming_app.ui.draw.layers import Layer, word
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus
 

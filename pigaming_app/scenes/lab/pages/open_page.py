@@ -5,15 +5,14 @@ from datetime import datetime
 import pygame
 
 from pigaming_app.scenes.files import is_network
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Pop, StackOperation
 from pigaming_app.scenes.lab.host import IDLE, LabHost
 from pigaming_app.scenes.lab.network.kind_switch import SIGN, network_sign, table_sign
 from pigaming_app.scenes.lab.saved_robots import RobotFileError, delete_robot, file_of, load_robot, names
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LABEL, MIST, STEEL, SUB, THIN, cut_box
-from pigaming_app.ui.draw.layers import Layer, LitImage, span
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_size, span, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, text
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot

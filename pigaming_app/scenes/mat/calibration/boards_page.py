@@ -13,8 +13,7 @@ from pigaming_app.hardware.calibration.procedure import Calibration
 from pigaming_app.hardware.calibration.site import CalibrationSite, Measurements
 from pigaming_app.hardware.vision.discovery import CameraId
 from pigaming_app.hardware.vision.markers import OpenCVMissing
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Scene, StackOperation, Swap
 from pigaming_app.scenes.mat.calibration.height_page import HeightPage
 from pigaming_app.scenes.mat.calibration.result_page import CalibrationResult, ResultPage
 from pigaming_app.scenes.pages.page import Page

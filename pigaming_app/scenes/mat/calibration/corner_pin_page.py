@@ -8,8 +8,7 @@ import logging
 import pygame
 
 from pigaming_app.hardware.calibration.corner_pin import STRAIGHT, CornerPin, is_turned_over, pin_of, turned_over
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.sim.world import HEIGHT, WIDTH
@@ -32,12 +31,10 @@ from pigaming_app.ui.draw import (
     panel,
 )
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import Layer, LitImage, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import text
-from pigaming_app.ui.i18n import english
+from pigaming_app.ui.i18n import english, signed
 from pigaming_app.ui.input.events import Button, InputEvent
-from pigaming_app.ui.numbers import signed
 from pigaming_app.ui.widgets.button_prompts import ButtonPrompts
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.focus import DIRECTIONS

@@ -12,8 +12,7 @@ from pigaming_app.hardware.calibration.site import CalibrationSite
 from pigaming_app.hardware.session import store
 from pigaming_app.hardware.vision.exposure import warning_of
 from pigaming_app.hardware.vision.markers import OpenCVMissing
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.calibration.height_page import DISC, GREY
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
@@ -22,9 +21,8 @@ from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, HERO, ICE, LABEL, LINE, MIST, STEEL, TITLE, Color, cut_box
-from pigaming_app.ui.draw.layers import Layer, LitImage
+from pigaming_app.ui.draw.layers import Layer, LitImage, paragraph, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.input.events import Button
 
 BAR = pygame.Rect(560, 560, 800, 40)

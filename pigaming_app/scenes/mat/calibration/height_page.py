@@ -7,15 +7,13 @@ from dataclasses import replace
 import pygame
 
 from pigaming_app.hardware.calibration.height_procedure import PLACES, STILL, HeightProcedure
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Scene, StackOperation, Swap
 from pigaming_app.scenes.mat.calibration.result_page import CalibrationResult, ResultPage
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, STEEL, THIN, GlowCanvas, dim
-from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.layers import LitImage, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button
 
 DISC = 72  # px: the light must cover a lid, 70 mm above the mat, at an angle

@@ -5,10 +5,10 @@ find the markers there again.
 import pygame
 
 from pigaming_app.hardware.calibration.printed import PrintedCalibration
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.mat.calibration.boards_page import BoardsPage
 from pigaming_app.ui.draw import ICE, SUB
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.layers import text
 
 
 class PrintedPage(BoardsPage):

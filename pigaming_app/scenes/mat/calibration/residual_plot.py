@@ -20,9 +20,8 @@ from pigaming_app.ui.draw import (
     panel,
     text_width,
 )
-from pigaming_app.ui.draw.layers import Layer, LitImage, span
+from pigaming_app.ui.draw.layers import Layer, LitImage, fit_size, span
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size
 
 AREA = pygame.Rect(span(0, 8)[0], 210, span(0, 8)[1], 596)  # of the plot
 SIDE = pygame.Rect(span(8, 4)[0] + 24, 226, span(8, 4)[1] - 24, 600)  # of the numbers beside it

@@ -18,17 +18,15 @@ from pigaming_app.hardware.session import store
 from pigaming_app.hardware.signals import ExposureState, Image
 from pigaming_app.hardware.vision.discovery import CameraId
 from pigaming_app.hardware.vision.exposure import warning_of
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, Scene, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, Pop, Scene, StackOperation, Swap
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.mat.calibration.residual_plot import AREA, SIDE, arrows, fact, figure
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, MIST, STEEL, Color
-from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.layers import LitImage, paragraph, text
 from pigaming_app.ui.draw.pixels import grey_surface
-from pigaming_app.ui.draw.text import paragraph, text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus, FocusSpot

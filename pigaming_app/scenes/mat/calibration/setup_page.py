@@ -18,8 +18,7 @@ from pigaming_app.hardware.session import store
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.hardware.vision.camera import shown
 from pigaming_app.hardware.vision.discovery import CameraId
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.mat.calibration.boards_page import BoardsPage
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.mat.calibration.printed_page import PrintedPage
@@ -30,9 +29,8 @@ from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import PHONE
 from pigaming_app.ui.draw import BODY, FOCUS, LABEL, MIST
-from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.layers import LitImage, fit_size, paragraph, text
 from pigaming_app.ui.draw.pixels import grey_surface
-from pigaming_app.ui.draw.text import fit_size, paragraph, text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets import setting_row as dials

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta
 
 from pigaming_app.hardware.vision.phone import FEED, PhoneFeed
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.storage.parsing import ParseError, read_text
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.schema import from_json, to_json

@@ -3,14 +3,12 @@
 import pygame
 
 from pigaming_app.hardware.vision.phone import size_of
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.mat.phone_camera.host import phone_camera_host
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.ui import draw as kit
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size, fit_text, paragraph, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, fit_text, paragraph, text
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.web.code import qr_code
 from pigaming_app.ui.widgets.labels import sign

@@ -12,16 +12,14 @@ from pigaming_app.hardware.radio.xbee_protocol import XBeeMode
 from pigaming_app.hardware.radio.xbee_setup import RadioNetwork, Steps, XBeeSetup, network_of, parameters
 from pigaming_app.hardware.robot_kinds import KINDS, set_up_command
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.mat.radio.sketches import sketch
 from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorError, OperatorMessage
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL
-from pigaming_app.ui.draw.layers import LitImage
-from pigaming_app.ui.draw.text import paragraph, text
+from pigaming_app.ui.draw.layers import LitImage, paragraph, text
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets import setting_row as dials

@@ -10,7 +10,7 @@ import pygame
 
 from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.robot_session import cause_of
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Home, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.fault_icons import sign
 from pigaming_app.scenes.mat.robots.flood_light import FloodLight, hint_line
@@ -19,8 +19,7 @@ from pigaming_app.scenes.mat.things.moved_page import InterruptedMatch, MovedPag
 from pigaming_app.scenes.play.pause import Pause, sheet_title
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LINE, MIST, PLAYERS, Color
-from pigaming_app.ui.draw.layers import Layer
-from pigaming_app.ui.draw.text import LINE_PITCH, SMALLEST, fit_lines, fit_paragraphs, fit_size
+from pigaming_app.ui.draw.layers import LINE_PITCH, SMALLEST, Layer, fit_lines, fit_paragraphs, fit_size
 from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.caption import Caption, caption

@@ -10,8 +10,7 @@ from pigaming_app.hardware.radio.serial_line import ports
 from pigaming_app.hardware.session.robot_session import camera_warning
 from pigaming_app.hardware.vision.camera import shown
 from pigaming_app.hardware.vision.discovery import cameras
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.mat.calibration.picture_quality import exposure_text
 from pigaming_app.scenes.mat.robots.avoid_discs import BlockLayout
 from pigaming_app.scenes.mat.robots.fleet_state import FleetState, worst_finding
@@ -22,8 +21,7 @@ from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.settings import PHONE
 from pigaming_app.ui.draw import ALARM, FOCUS, GREEN, ICE, MIST, Color
-from pigaming_app.ui.draw.layers import LitImage
-from pigaming_app.ui.draw.text import paragraph, text
+from pigaming_app.ui.draw.layers import LitImage, paragraph, text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets import setting_row as dials
 from pigaming_app.ui.widgets.button_prompts import places

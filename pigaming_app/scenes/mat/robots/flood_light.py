@@ -9,10 +9,10 @@ from collections.abc import Sequence
 
 import pygame
 
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.ui.draw import BODY
-from pigaming_app.ui.draw.text import text
+from pigaming_app.ui.draw.layers import text
 from pigaming_app.ui.i18n import Words
 
 LIGHT = 128  # grey level: bright enough for markers in the dark, without dazzling

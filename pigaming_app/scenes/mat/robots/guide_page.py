@@ -6,8 +6,7 @@ import pygame
 
 from pigaming_app.hardware.session.guide import STEPS, GuideStep, next_step, steps
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Push, Scene, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Home, Push, Scene, StackOperation
 from pigaming_app.scenes.mat.robots.fleet_state import FleetState
 from pigaming_app.scenes.mat.robots.sketches import sketch
 from pigaming_app.scenes.mat.session import session_of

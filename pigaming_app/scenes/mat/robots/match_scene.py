@@ -18,8 +18,7 @@ from pigaming_app.hardware.control.moving_things import same_mud
 from pigaming_app.hardware.scan.things import ThingLayout
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.hardware.session.things_on_mat import save_layout
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, Scene, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Home, Pop, Push, Scene, StackOperation
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage
 from pigaming_app.scenes.mat.robots.real_robots import RealRobots

@@ -8,16 +8,14 @@ import pygame
 from pigaming_app.hardware.session.guide import SHEET
 from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, Scene, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, Scene, StackOperation
 from pigaming_app.scenes.mat.robots.sketches import sketch
 from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.storage.safe_files import write_atomic
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS
-from pigaming_app.ui.draw.layers import LitImage
-from pigaming_app.ui.draw.text import paragraph
+from pigaming_app.ui.draw.layers import LitImage, paragraph
 from pigaming_app.ui.i18n import english, with_english
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.setting_row import SettingValue

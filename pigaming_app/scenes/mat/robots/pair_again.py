@@ -9,7 +9,7 @@ import math
 import pygame
 
 from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Pop, StackOperation
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.robots.fleet_state import worst_finding
@@ -18,7 +18,7 @@ from pigaming_app.scenes.mat.things.moved_page import InterruptedMatch
 from pigaming_app.scenes.pages.page import Hints, Page
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.draw import ALARM, BODY, ICE
-from pigaming_app.ui.draw.text import paragraph, text
+from pigaming_app.ui.draw.layers import paragraph, text
 from pigaming_app.ui.input.events import Button, InputEvent
 
 LOOKS = 3.0  # s, timeout of the search before the first spin

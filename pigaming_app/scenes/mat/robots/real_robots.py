@@ -14,7 +14,7 @@ from pigaming_app.hardware.control.safety import Fault, Response
 from pigaming_app.hardware.scan.blocks import BlockWalls
 from pigaming_app.hardware.session.robot_session import RobotSession, cause_of
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.flow.timestep import FixedTimestep
 from pigaming_app.scenes.mat.calibration.corner_markers import draw_corners
 from pigaming_app.scenes.mat.replays import reroute_of

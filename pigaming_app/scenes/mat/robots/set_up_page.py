@@ -8,16 +8,14 @@ from pigaming_app.hardware.commissioning import board_setup
 from pigaming_app.hardware.commissioning.board_setup import KINDS, SetupFailed
 from pigaming_app.hardware.session.store import arena_id, wifi_key
 from pigaming_app.scenes.flow.access import Right
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.mat.robots.sketches import sketch
 from pigaming_app.scenes.pages.settings_page import SettingsPage
 from pigaming_app.scenes.pages.wifi import WIFI, wifi_typing, wifi_value
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.draw import BODY, GREEN, MIST
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage
-from pigaming_app.ui.draw.text import paragraph, text
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage, paragraph, text
 from pigaming_app.ui.input.events import InputEvent
 from pigaming_app.ui.widgets.setting_row import SettingValue
 

@@ -5,13 +5,12 @@ import math
 import pygame
 
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import StackOperation
 from pigaming_app.scenes.mat.things.moved_page import InterruptedMatch
 from pigaming_app.scenes.pages.sheet import Sheet
 from pigaming_app.scenes.play.pause import menu_spots, sheet_title
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE, MIST, PLAYERS, badge
-from pigaming_app.ui.draw.layers import Layer
-from pigaming_app.ui.draw.text import fit_size, word
+from pigaming_app.ui.draw.layers import Layer, fit_size, word
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.focus import Focus
 

@@ -12,7 +12,7 @@ from pigaming_app.hardware.control.homing import HomingProgress
 from pigaming_app.hardware.control.mixed_plant import MixedPlant
 from pigaming_app.hardware.control.safety import Fault
 from pigaming_app.hardware.session.robot_session import cause_of
-from pigaming_app.scenes.flow.context import Context
+from pigaming_app.scenes.flow.scene import Context
 from pigaming_app.scenes.mat.robots.fault_page import fault_caption, fault_sentence
 from pigaming_app.scenes.mat.robots.flood_light import UNSEEN as UNSEEN_AFTER
 from pigaming_app.scenes.mat.robots.flood_light import FloodLight, hint_line, looking
@@ -32,10 +32,9 @@ from pigaming_app.ui.draw import (
     GlowCanvas,
     dim,
 )
-from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.layers import LitImage, text
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, step, turned
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, Device
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.labels import blit_sprite

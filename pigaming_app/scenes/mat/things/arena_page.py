@@ -15,9 +15,8 @@ from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.hardware.session.things_on_mat import load_layout, save_layout
 from pigaming_app.scenes.flow.access import Access
 from pigaming_app.scenes.flow.arena_cache import load_cached
-from pigaming_app.scenes.flow.context import Context
 from pigaming_app.scenes.flow.match_choice import arena_title
-from pigaming_app.scenes.flow.stack import Push, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.mat.session import session_of
 from pigaming_app.scenes.mat.things.outlines import COLORS, HALO, draw_thing, frame
 from pigaming_app.scenes.mat.things.playable import PlayableArenas
@@ -30,7 +29,7 @@ from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.safe_files import NotSaved
 from pigaming_app.ui.draw import ALARM, BODY, FOCUS, ICE, LABEL, MIST
-from pigaming_app.ui.draw.text import text, wrap
+from pigaming_app.ui.draw.layers import text, wrap
 from pigaming_app.ui.i18n import english
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.widgets.focus import FocusSpot

@@ -13,15 +13,15 @@ from pigaming_app.hardware.scan.things import LayoutError, ThingLayout
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.hardware.session.things_on_mat import load_layout
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.stack import Home, Pop, Push, StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Home, Pop, Push, StackOperation, Swap
 from pigaming_app.scenes.mat.things.match_watch import MatchWatch
 from pigaming_app.scenes.mat.things.sweep_page import SweepPage
 from pigaming_app.scenes.play.pause import Pause, PausedMatch, Robots
 from pigaming_app.scenes.views.background import LEFT, TOP
 from pigaming_app.ui.draw import ALARM, BODY, ICE, LABEL, LINE, MIST, GlowCanvas
+from pigaming_app.ui.draw.layers import text
 from pigaming_app.ui.draw.sprites import Sprite, trim
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.caption import caption
 from pigaming_app.ui.widgets.labels import blit_sprite

@@ -7,9 +7,8 @@ import pygame
 from pigaming_app.scenes.mat.things.outlines import boxes
 from pigaming_app.ui.draw import BODY, FOCUS, ICE, LINE, STEEL, THIN, GlowCanvas, cut_box
 from pigaming_app.ui.draw.frame_budget import Steps, resumable
-from pigaming_app.ui.draw.layers import LitImage
+from pigaming_app.ui.draw.layers import LitImage, text, wrap_balanced
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import text, wrap_balanced
 from pigaming_app.ui.i18n import Words
 
 STEPS = ("put", "light", "scan")

@@ -11,13 +11,12 @@ from pigaming_app.hardware.scan.rig_scan import RigScan
 from pigaming_app.hardware.scan.things import ThingLayout
 from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.hardware.session.things_on_mat import with_choices
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import Pop, StackOperation
+from pigaming_app.scenes.flow.scene import Context, Pop, StackOperation
 from pigaming_app.scenes.pages.page import Page
 from pigaming_app.scenes.views.sprites.effects import timer_ring
 from pigaming_app.ui.draw import FOCUS, ICE, LABEL, LINE
+from pigaming_app.ui.draw.layers import text
 from pigaming_app.ui.draw.pixels import grey_surface
-from pigaming_app.ui.draw.text import text
 from pigaming_app.ui.input.events import Button
 
 CENTRE = 960, 540

@@ -5,11 +5,10 @@ from math import isfinite
 
 from pigaming_app.games.game import Row
 from pigaming_app.games.rounds import Rounds
-from pigaming_app.scenes.flow.brain_names import brain_name
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.results.awards.award import Award, Player, awarded, own_awards
+from pigaming_app.scenes.flow.match_words import brain_name
+from pigaming_app.scenes.flow.scene import Context
+from pigaming_app.scenes.results.awards.award import Award, Player, awarded, own_awards, places, praises
 from pigaming_app.scenes.results.awards.feats import Feats
-from pigaming_app.scenes.results.awards.praise import places, praises
 from pigaming_app.scenes.results.headline import EndedMatch, is_allied
 from pigaming_app.scenes.results.page_head import RevealedPage, RevealedPart, row_starts
 from pigaming_app.scenes.views.hud.ai_sign import name_of
@@ -18,8 +17,7 @@ from pigaming_app.scenes.views.sprites.stars import STARS, draw_star
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.frame_budget import Steps
 from pigaming_app.ui.draw.icons import ICONS
-from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, Layer, LitImage, fit_size
 from pigaming_app.ui.i18n import Words
 
 TOP, HEIGHT, GAP, MOST = 204, 624, 16, 190  # px: of all rows, the gap between two, the height of one at most

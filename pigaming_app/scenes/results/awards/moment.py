@@ -3,8 +3,7 @@
 import pygame
 
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation, Swap
+from pigaming_app.scenes.flow.scene import Context, StackOperation, Swap
 from pigaming_app.scenes.results.awards.ceremony import Ceremony
 from pigaming_app.scenes.results.winner import PREWARM_MS, AfterMatch
 from pigaming_app.ui.input.events import Button, InputEvent

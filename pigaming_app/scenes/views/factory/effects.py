@@ -21,7 +21,7 @@ from pigaming_app.scenes.views.sprites.factory import STATES
 from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.scenes.views.view import SoundCue, ViewOptions
 from pigaming_app.ui.draw import ALARM, FOCUS
-from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.i18n import signed
 
 POP = 0.12  # s, pop animation of a moved crate
 JINGLES = {ICE: "delivered_ice", FIRE: "delivered_fire"}
@@ -91,8 +91,6 @@ def react(
                 particles.burst(x, y, STATES[state.pallets[event.what].state], 10, 26, 50)
             case "freeze":
                 particles.burst(x, y, ALARM, 16, 50, 70)
-            case _:
-                pass
         if event.kind not in (THAWED, STARTED):
             cues.append((sound, event.player, event.x))
     return cues

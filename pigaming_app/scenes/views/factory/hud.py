@@ -19,7 +19,7 @@ from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, LABEL, Color, readable
 from pigaming_app.ui.draw import ICE as WHITE
 from pigaming_app.ui.draw.frame_budget import Job
-from pigaming_app.ui.draw.text import wrap_balanced
+from pigaming_app.ui.draw.layers import wrap_balanced
 from pigaming_app.ui.i18n import Words
 
 ROBOT, CRATES = 268, 330  # px from a panel's outer edge, at least
@@ -60,7 +60,7 @@ class FactoryHud:
     def _show_panel(self, state: Factory, team: int) -> None:
         bits: Callable[[], Iterator[Bit]]
         content: tuple[Any, ...]
-        color = FOCUS if lacks_one(state, team) else WHITE
+        color = FOCUS if not state.rules.party and state.delivered[team] == state.rules.pallets - 1 else WHITE
         key, end = self.calls.get(team, ("", 0))
         if self.words and state.tick < end:
             content = self.words(f"factory.{key}"), call_color(key, team)
@@ -109,11 +109,6 @@ class FactoryHud:
             yield from (drawn(order_cards.bits, team, (order,), 0, W, False) for order in rushes)
         if party and self.words:
             yield drawn(word_bits, self._overtime)
-
-
-def lacks_one(state: Factory, team: int) -> bool:
-    """True if a team has exactly one more pallet to deliver."""
-    return bool(not state.rules.party and state.delivered[team] == state.rules.pallets - 1)
 
 
 def team_bits(

@@ -13,8 +13,8 @@ from pigaming_app.scenes.views.sprites.factory import draw_crate
 from pigaming_app.scenes.views.sprites.teams import TEAMS as COLORS
 from pigaming_app.scenes.views.sprites.teams import emblem
 from pigaming_app.ui import draw as kit
+from pigaming_app.ui.draw.layers import fit_size, number_width
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, number_width
 
 Y, H, W = 26, 104, 652  # px: top, height and width of a panel
 X = (160, 1108)

@@ -153,10 +153,7 @@ LESSONS = {
     "people": Lesson((Actor(500, 450, 0, "go 760 450, go 640 450"),), 5.5, (640.0, 450.0)),
     "rush": Lesson((Actor(330, 628, 180, BRING),), 4.5, EXIT, _pallet_at(ON_ROBOT, 0, DONE, rush=900)),
     "loose": Lesson(
-        (
-            Actor(620, 380, -45, GRAB),
-            Actor(1000, 300, 180, "go 890 240"),
-        ),
+        (Actor(620, 380, -45, GRAB), Actor(1000, 300, 180, "go 890 240")),
         4.5,
         (780.0, 280.0),
         _loose_at(SHARED_SLOTS + 1),

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 
 from pigaming_app.ai.registry import level_of
-from pigaming_app.scenes.flow.brain_names import LIT
+from pigaming_app.scenes.flow.match_words import LIT
 from pigaming_app.ui.draw import WHITE, Color, GlowCanvas, cut_box, icon, mix, text_width
-from pigaming_app.ui.draw.text import fit_text
+from pigaming_app.ui.draw.layers import fit_text
 
 TAB = 34  # px, type size on a card's outline
 

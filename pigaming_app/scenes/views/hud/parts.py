@@ -10,9 +10,9 @@ from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, TITLE, Color, GlowCanvas, cut_box, dim, readable
 from pigaming_app.ui.draw.frame_budget import Job
+from pigaming_app.ui.draw.layers import fit_size, glyph, number_width, text
 from pigaming_app.ui.draw.sprites import Sprite, faded
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, glyph, number_width, text
 
 Y, H, EDGE = 34, 92, 24  # px: top and height of the panels, margin around their sprites
 PANEL_W = 316  # px, width of a panel

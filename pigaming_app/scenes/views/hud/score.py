@@ -15,9 +15,9 @@ from pigaming_app.scenes.views.background import HUD_HEIGHT, Background, Bit
 from pigaming_app.scenes.views.hud import parts
 from pigaming_app.scenes.views.hud.ai_sign import ai_of, driver_tab, name_of
 from pigaming_app.ui import draw as kit
+from pigaming_app.ui.draw.layers import number_width
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import number_width
-from pigaming_app.ui.numbers import numeral
+from pigaming_app.ui.i18n import numeral
 
 SUM_W, CLOCK_Y = 116, 84  # px
 

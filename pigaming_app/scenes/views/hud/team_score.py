@@ -7,9 +7,9 @@ from pigaming_app.scenes.views.hud import parts
 from pigaming_app.scenes.views.hud.score import ScoreHud, TeamPanel
 from pigaming_app.scenes.views.sprites.teams import TEAMS, emblem
 from pigaming_app.ui import draw as kit
+from pigaming_app.ui.draw.layers import number_width
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import number_width
-from pigaming_app.ui.numbers import numeral
+from pigaming_app.ui.i18n import numeral
 
 W, TOP, BOTTOM = 228, 20, 128  # px: width, upper and lower edge of a total
 DIGITS, LARGER = 132, 146  # px, type sizes: legible from five metres, larger than the clock; of larger texts

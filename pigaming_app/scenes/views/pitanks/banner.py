@@ -11,8 +11,8 @@ from pigaming_app.scenes.views.background import Bit
 from pigaming_app.scenes.views.hud.parts import ALARM_SECONDS, CLOCK, EDGE, number_bits
 from pigaming_app.sim.world import HZ
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, LABEL, SUB, GlowCanvas, dim, readable
+from pigaming_app.ui.draw.layers import fit_size, glyph, number_width, text
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import fit_size, glyph, number_width, text
 from pigaming_app.ui.i18n import Words
 
 ROOM = CLOCK.w - 24  # px for a line

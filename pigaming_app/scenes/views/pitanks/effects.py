@@ -9,7 +9,7 @@ from pigaming_app.scenes.views.pitanks.events import PiTanksEvent
 from pigaming_app.scenes.views.view import SoundCue, ViewOptions
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, WALL
-from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.i18n import signed
 
 BESIDE, ABOVE = 46.0, 66.0  # px from a robot to its score popup
 

@@ -12,7 +12,7 @@ from pigaming_app.scenes.views.walled_background import wall_sprite
 from pigaming_app.ui.draw import ALARM, FOCUS, LINE, PLAYERS, THIN, WALL
 from pigaming_app.ui.draw.frame_budget import Job
 from pigaming_app.ui.draw.sprites import HEADINGS
-from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.i18n import signed
 
 
 def jobs(state: Any, walls: int, seats: Sequence[int]) -> Iterator[Job]:

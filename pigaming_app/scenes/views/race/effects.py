@@ -17,10 +17,9 @@ from pigaming_app.scenes.views.race.recovery import BEAM_LASTS, beam
 from pigaming_app.scenes.views.view import Pose, SoundCue, ViewOptions, decimal
 from pigaming_app.sim.world import DT, WIDTH
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, SUB, WHITE, Color
+from pigaming_app.ui.draw.layers import glyph, number_width
 from pigaming_app.ui.draw.sprites import Batch, Sprite, put
-from pigaming_app.ui.draw.text import glyph, number_width
-from pigaming_app.ui.i18n import Words
-from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.i18n import Words, signed
 
 SOUNDS = {  # by event, the most important first
     "close": "photo_finish",
@@ -165,7 +164,7 @@ class RaceEffects:
             case "item":
                 particles.burst(x, y, FOCUS, 12, 44, 60)
             case "close":
-                self._photo(x, y)
+                self.particles.burst(x, y, FOCUS, 30, 46, 150)  # of a close finish
 
     def celebrate(self, x: float, y: float, color: Color) -> None:
         """A cloud of chequered confetti."""
@@ -184,10 +183,6 @@ class RaceEffects:
         self.back_at[seat] = self.particles.clock
         if self.options.flashes != "off":
             self.particles.bloom(x, y, BEAM_LASTS, reel(beam, seat))
-
-    def _photo(self, x: float, y: float) -> None:
-        """Sparks of a close finish."""
-        self.particles.burst(x, y, FOCUS, 30, 46, 150)
 
     def record(self, x: float, y: float) -> None:
         """Effects of a new best lap ever on this track."""

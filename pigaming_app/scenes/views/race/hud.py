@@ -3,6 +3,7 @@
 The clock counts up; once a robot has finished it counts down the time left for the others.
 """
 
+from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
@@ -16,20 +17,20 @@ from pigaming_app.scenes.views.hud.ai_sign import ai_of, name_of
 from pigaming_app.scenes.views.hud.parts import CLOCK, XS, H, HudParts, Y, drawn, pulse, word_bits
 from pigaming_app.scenes.views.hud.parts import clock_bits as digits
 from pigaming_app.scenes.views.race.events import drives_wrong
-from pigaming_app.scenes.views.race.gaps import Gaps, figure
 from pigaming_app.scenes.views.race.hud_cards import FLASH, RaceCard, W, card_bits
 from pigaming_app.scenes.views.race.lines import flag, line_signs
 from pigaming_app.scenes.views.view import decimal
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import DT, HZ
 from pigaming_app.ui.draw import ALARM, ICE, LABEL, PLAYERS, WHITE, GlowCanvas, readable
 from pigaming_app.ui.draw.frame_budget import Job
+from pigaming_app.ui.draw.layers import wrap, wrap_balanced
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import wrap, wrap_balanced
-from pigaming_app.ui.i18n import Words
+from pigaming_app.ui.i18n import Words, signed
 
 MOVED = int(1.2 * HZ)  # ticks for which an arrow marks a change of place
 ANNOUNCED = int(2.5 * HZ)  # ticks for which words stand in place of the clock
 ICONS = ("", "speed", "shield", "oil")  # of `Racer.item`
+EVERY = 25  # ticks between two readings, so that the tenths are readable
 
 
 class RaceHud:
@@ -143,3 +144,35 @@ def small_flag() -> pygame.Surface:
     ink = GlowCanvas(120, 120)
     flag(ink, 58, 60, 28, WHITE)
     return ink.lit(0.7)
+
+
+class Gaps:
+    """Keeps the leading distance of every tick of a race."""
+
+    def __init__(self, state: Race) -> None:
+        self.began = state.tick
+        self.reached: list[float] = []  # px, leading distance at each tick
+        self.shown = [0.0] * len(state.robots)
+        self.follow(state)
+
+    def follow(self, state: Race) -> None:
+        """Record this tick; refresh the gaps every EVERY ticks."""
+        farthest = max(racer.progress for racer, robot in zip(state.racers, state.robots, strict=True) if robot.present)
+        while len(self.reached) <= state.tick - self.began:
+            self.reached.append(max(farthest, self.reached[-1] if self.reached else farthest))
+        if state.tick % EVERY == 0:
+            self.shown = [self.gap(state, seat) for seat in range(len(state.robots))]
+
+    def gap(self, state: Race, seat: int) -> float:
+        """Gap to the leader in s; after the finish, to the winner."""
+        racer = state.racers[seat]
+        if racer.finished:
+            first = min(other.finish for other in state.racers if other.finished)
+            return (racer.finish - first) * DT
+        return (len(self.reached) - 1 - bisect_left(self.reached, racer.progress)) * DT
+
+
+def figure(seconds: float) -> str:
+    """A gap in at most four characters: tenths below ten seconds, whole seconds above."""
+    tenths = round(10 * max(0.0, seconds))
+    return signed(tenths / 10, 1) if tenths < 100 else signed(seconds)

@@ -13,8 +13,8 @@ from pigaming_app.scenes.views.hud import parts
 from pigaming_app.scenes.views.hud.ai_sign import driver_tab
 from pigaming_app.scenes.views.race.lines import draw_sign, flag
 from pigaming_app.ui import draw as kit
+from pigaming_app.ui.draw.layers import number_width
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.draw.text import number_width
 
 W = parts.PANEL_W  # px, width of the cards
 GAIN, LOSS = (96, 255, 150), (255, 128, 118)  # colours of a gain and a loss of time; the sign shows it too

@@ -14,8 +14,8 @@ from pigaming_app.scenes.views.sprites.robot import ghost as blank
 from pigaming_app.scenes.views.view import decimal
 from pigaming_app.ui.draw import ALARM, FOCUS, ICE, PLAYERS, STEEL, SUB, THIN, WHITE
 from pigaming_app.ui.draw.frame_budget import Job
+from pigaming_app.ui.draw.layers import glyph
 from pigaming_app.ui.draw.sprites import HEADINGS, step
-from pigaming_app.ui.draw.text import glyph
 from pigaming_app.ui.i18n import Words
 
 

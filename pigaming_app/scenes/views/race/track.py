@@ -35,10 +35,7 @@ def ribs(course: Course) -> tuple[Rib, ...]:
     """The closed centre line of a course."""
     n = course.count
     headings = [
-        math.atan2(
-            course.ys[(i + 1) % n] - course.ys[i - 1],
-            course.xs[(i + 1) % n] - course.xs[i - 1],
-        )
+        math.atan2(course.ys[(i + 1) % n] - course.ys[i - 1], course.xs[(i + 1) % n] - course.xs[i - 1])
         for i in range(n)
     ]
     out = []

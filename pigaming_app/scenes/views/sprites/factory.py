@@ -13,7 +13,7 @@ from pigaming_app.scenes.views.sprites.teams import TEAMS
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.sprites import HEADINGS, Sprite, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.i18n import signed
 
 STATES: dict[int, kit.Color] = {
     RAW: (255, 84, 76),

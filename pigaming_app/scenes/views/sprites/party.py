@@ -9,7 +9,7 @@ from pigaming_app.sim.world import RADIUS
 from pigaming_app.ui import draw as kit
 from pigaming_app.ui.draw.sprites import Sprite, master, painted, trim, turned
 from pigaming_app.ui.draw.surface_cache import cached
-from pigaming_app.ui.numbers import signed
+from pigaming_app.ui.i18n import signed
 
 STARS, STAR_TURNS = 5, 8  # stars round a robot; rotation steps from one star to the next
 STAR_R = 58  # px from a robot to its stars

@@ -38,13 +38,7 @@ def draw_tank(ink: kit.GlowCanvas, player: int, rim: kit.Color | None = None) ->
 
 
 def robot(
-    ink: kit.GlowCanvas,
-    player: int,
-    x: float,
-    y: float,
-    angle: float,
-    scale: float = 1.0,
-    rim: kit.Color | None = None,
+    ink: kit.GlowCanvas, player: int, x: float, y: float, angle: float, scale: float = 1.0, rim: kit.Color | None = None
 ) -> kit.GlowCanvas:
     """Draw the robot of seat 0..3 at (x, y), heading `angle` rad, with its number upright. `rim`: colour of its team,
     if its ring has that.

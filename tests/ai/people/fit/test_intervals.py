@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pigaming_app.ai.people.fit.intervals import LONGEST, Lapses, density, lapses_of, period_of
+from pigaming_app.ai.people.fit.statistics import LONGEST, Lapses, density, lapses_of, period_of
 
 
 def times(period, odds, length, unseen, count, seed=1):

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from pigaming_app.ai.people.fit.calibration import FITTED, SHARES, FitCalibration, calibration, plain, raw_of
-from pigaming_app.ai.people.fit.known import samples_of
 from pigaming_app.ai.people.fit.people import FittedPerson, mean_of
+from tests.ai.people.fit.known import samples_of
 
 PEOPLE, SEED = 24, 2026
 MATCHES = {"pitanks": 16, "race": 16, "football": 8, "factory": 16}  # about half an hour

@@ -6,8 +6,7 @@ from pathlib import Path
 from pigaming_app.events.event import Event
 from pigaming_app.events.event_files import load, save
 from pigaming_app.events.spec import Entrant, EventSpec, Format
-from pigaming_app.scenes.events.desk.desk import Desk
-from pigaming_app.scenes.events.desk.sessions import COOKIE
+from pigaming_app.scenes.events.desk.desk import COOKIE, Desk
 from pigaming_app.storage.pin import PinFile
 from pigaming_app.ui.web.server import WebReply, WebRequest
 

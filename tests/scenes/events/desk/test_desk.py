@@ -11,8 +11,8 @@ from pigaming_app.events.changes.live import LiveMatch, write
 from pigaming_app.events.event_files import save, update
 from pigaming_app.events.spec import Format
 from pigaming_app.scenes.events.desk import desk
+from pigaming_app.scenes.events.desk.desk import LASTS, MOST, Sessions
 from pigaming_app.scenes.events.desk.public_page import public_page
-from pigaming_app.scenes.events.desk.sessions import LASTS, MOST, Sessions
 from pigaming_app.storage.pin import PinFile
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.web.server import WebRequest

@@ -12,7 +12,7 @@ from pigaming_app.scenes.events.feature import DeskService
 from pigaming_app.scenes.events.manage.desk_page import DeskPage
 from pigaming_app.scenes.events.manage.event_page import DESK, EventPage
 from pigaming_app.scenes.events.next_page import NextMatch
-from pigaming_app.scenes.flow.stack import Pop
+from pigaming_app.scenes.flow.scene import Pop
 from pigaming_app.storage.pin import PinFile
 from pigaming_app.storage.settings import folders
 from pigaming_app.ui.i18n import LANGUAGES

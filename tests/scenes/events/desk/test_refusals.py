@@ -84,10 +84,7 @@ SITUATIONS = (
     Situation("score_range", SWISS, "match/1", SCORES | {"score0": "1e10"}),
     Situation("bad_score", SWISS, "match/1", SCORES | {"score0": "x"}),
     Situation(
-        "called",
-        of(Format.ROUND_ROBIN).after(Summoned(1, "left")),
-        "match/3",
-        {"do": "call", "arcade": "right"},
+        "called", of(Format.ROUND_ROBIN).after(Summoned(1, "left")), "match/3", {"do": "call", "arcade": "right"}
     ),
     Situation("not_called", SWISS, "match/1", {"do": "call_off"}),
     Situation("in_break", SWISS.after(Paused()), "match/1", {"do": "call", "arcade": "left"}),

@@ -9,7 +9,7 @@ from pigaming_app.scenes.events.next_page import NextMatch
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.setup.draft import Draft
 from pigaming_app.scenes.events.setup.page import SetupPage
-from pigaming_app.scenes.flow.stack import Home, Scene
+from pigaming_app.scenes.flow.scene import Home, Scene
 from pigaming_app.scenes.kiosk.operator.group_limit import FAREWELL, WARNED, GroupLimit
 from pigaming_app.scenes.play.scene import MatchScene
 from tests.scenes.arcade import Arcade, Floor, setup

@@ -8,7 +8,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.scenes.app import App
 from pigaming_app.scenes.attract.scene import Attract
 from pigaming_app.scenes.flow.match_choice import last_choice, playable_arenas
-from pigaming_app.scenes.flow.stack import Push
+from pigaming_app.scenes.flow.scene import Push
 from pigaming_app.scenes.kiosk.operator.page import ROWS, OperatorPage
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.lobby.scene import Lobby

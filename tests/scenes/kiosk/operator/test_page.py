@@ -7,9 +7,16 @@ import pytest
 
 from pigaming_app.scenes.flow.access import HOLD, HOLD_WITHOUT_PIN
 from pigaming_app.scenes.kiosk import safe_start
-from pigaming_app.scenes.kiosk.operator.chart import OTHERS, bars_of, games_of, step_of
 from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
-from pigaming_app.scenes.kiosk.operator.figures_page import FOLDER, FiguresPage, _short
+from pigaming_app.scenes.kiosk.operator.figures_page import (
+    FOLDER,
+    OTHERS,
+    FiguresPage,
+    _short,
+    bars_of,
+    games_of,
+    step_of,
+)
 from pigaming_app.scenes.kiosk.operator.page import LIMITS, PIN, QUIET, ROWS, SAFE_START, OperatorPage
 from pigaming_app.scenes.options.page import OptionsPage
 from pigaming_app.scenes.play.scene import MatchScene
@@ -17,7 +24,7 @@ from pigaming_app.scenes.title.scene import Title
 from pigaming_app.storage.day_log import DayLog, PlayedMatch, now
 from pigaming_app.storage.safe_mode import DEFAULTS, VARIABLE
 from pigaming_app.storage.settings import Settings, folders
-from pigaming_app.ui.draw.text import fit_lines
+from pigaming_app.ui.draw.layers import fit_lines
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets import setting_row as dials
@@ -157,7 +164,7 @@ def test_title_music_stops_in_the_quiet_hours(arcade: Arcade, monkeypatch: pytes
     title = Title(arcade.context)
     title.on_enter()
     settings.quiet_from, settings.quiet_until = "00:00", "23:59"
-    monkeypatch.setattr("pigaming_app.scenes.flow.context.now", lambda: now().replace(hour=12))
+    monkeypatch.setattr("pigaming_app.scenes.flow.scene.now", lambda: now().replace(hour=12))
     title.update(0.1)
     title.update(0.1)
     settings.quiet_until = "11:00"

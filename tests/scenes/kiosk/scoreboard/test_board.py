@@ -9,13 +9,12 @@ import pytest
 
 from pigaming_app.scenes.features import board_text as text
 from pigaming_app.scenes.features.board_page import BoardPart
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
-from pigaming_app.scenes.kiosk.scoreboard.board import SIZE, Board, fit
 from pigaming_app.scenes.kiosk.scoreboard.pages import Pages
 from pigaming_app.scenes.kiosk.scoreboard.score_page import ScorePage, match_parts
 from pigaming_app.scenes.kiosk.scoreboard.standby_page import StandbyPage, best_today
-from pigaming_app.scenes.kiosk.scoreboard.window import PERIOD, WINDOWED, ScoreboardWindow
+from pigaming_app.scenes.kiosk.scoreboard.window import PERIOD, SIZE, WINDOWED, Board, ScoreboardWindow, fit
 from pigaming_app.scenes.mat.camera_page import CameraPage
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene

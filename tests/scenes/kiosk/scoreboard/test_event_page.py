@@ -27,11 +27,11 @@ from pigaming_app.scenes.events.podium_page import EventPodiumPage
 from pigaming_app.scenes.events.running import RunningEvent
 from pigaming_app.scenes.events.table_page import TablePage
 from pigaming_app.scenes.features.board_page import BoardPart
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.kiosk.operator.desk import OperatorDesk
-from pigaming_app.scenes.kiosk.scoreboard.board import SIZE, Board
 from pigaming_app.scenes.kiosk.scoreboard.score_page import shown_match
 from pigaming_app.scenes.kiosk.scoreboard.standby_page import StandbyPage
+from pigaming_app.scenes.kiosk.scoreboard.window import SIZE, Board
 from pigaming_app.scenes.play.pause import Pause
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.snapshot import MatchSnapshot

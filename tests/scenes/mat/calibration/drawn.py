@@ -10,7 +10,7 @@ from pigaming_app.hardware.calibration.quality import CameraQuality
 from pigaming_app.hardware.calibration.site import Measurements
 from pigaming_app.hardware.calibration.solver import Residuals
 from pigaming_app.hardware.signals import ExposureState
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.mat.calibration.result_page import CalibrationResult, ResultPage
 from pigaming_app.storage.messages import OperatorMessage
 from tests.hardware.mat import nominal

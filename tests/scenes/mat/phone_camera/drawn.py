@@ -7,7 +7,7 @@ from typing import Any
 from PIL import Image
 
 from pigaming_app.hardware.vision.phone import PhoneFeed, PhonePicture
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.mat.phone_camera.page import PhoneCameraPage
 from pigaming_app.ui.web.network import ServerUnavailable
 from tests.scenes.arcade import Arcade

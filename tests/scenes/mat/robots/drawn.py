@@ -15,7 +15,7 @@ from pigaming_app.hardware.scan.things import Thing, ThingKind, ThingLayout
 from pigaming_app.hardware.session.guide import GuideStep
 from pigaming_app.hardware.session.real import RealSession
 from pigaming_app.scenes.flow.access import Access
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.mat.before_match import UnplayablePage
 from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.mat.radio.page import RadioPage

@@ -7,8 +7,7 @@ from typing import cast
 import pytest
 
 from pigaming_app.hardware.session.emulated import EmulatedSession
-from pigaming_app.scenes.flow.context import Context
-from pigaming_app.scenes.flow.stack import StackOperation
+from pigaming_app.scenes.flow.scene import Context, StackOperation
 from pigaming_app.scenes.launch import Options
 from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.mat.robots.match_scene import RealMatch

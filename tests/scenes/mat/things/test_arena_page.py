@@ -15,7 +15,7 @@ from pigaming_app.hardware.scan.things import Outline, Thing, ThingKind, ThingLa
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.things_on_mat import load_layout, save_layout, things_in_play
 from pigaming_app.scenes.features.replays import decode, pack, replay_of, verify
-from pigaming_app.scenes.flow.stack import Scene
+from pigaming_app.scenes.flow.scene import Scene
 from pigaming_app.scenes.mat.before_match import UnplayablePage
 from pigaming_app.scenes.mat.mat import SessionMat
 from pigaming_app.scenes.mat.robots.fault_page import FaultPage

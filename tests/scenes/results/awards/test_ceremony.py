@@ -11,8 +11,7 @@ from pigaming_app.scenes.results.scene import IDLE, Results
 from pigaming_app.scenes.results.view import score_cell
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.ui.draw import BODY, LABEL, SUB
-from pigaming_app.ui.draw.layers import LEFT, RIGHT
-from pigaming_app.ui.draw.text import fit_size
+from pigaming_app.ui.draw.layers import LEFT, RIGHT, fit_size
 from pigaming_app.ui.i18n import LANGUAGES, Words, texts
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.widgets.button_prompts import places, type_size

@@ -5,8 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 from pigaming_app.games.game import Outcome, Row
-from pigaming_app.scenes.results.awards.award import FREE, Award
-from pigaming_app.scenes.results.awards.praise import last_seats, places, praises
+from pigaming_app.scenes.results.awards.award import FREE, Award, last_seats, places, praises
 from pigaming_app.scenes.results.headline import EndedMatch
 from pigaming_app.ui.i18n import Words
 from tests.matches import setup_of

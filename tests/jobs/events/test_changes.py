@@ -18,7 +18,7 @@ from pigaming_app.jobs.cli import main
 from tests.cases import one_in
 from tests.jobs.test_hostile_options import ANY, POSIX, fault, furnish
 
-ROOT = Path(__file__).resolve().parents[4]
+ROOT = Path(__file__).resolve().parents[3]
 FILE = Path("cup.json")
 
 

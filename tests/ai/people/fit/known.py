@@ -6,8 +6,7 @@ from random import Random
 
 import numpy as np
 
-from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.brain.traits import Traits
+from pigaming_app.ai.brain.kind import BrainKind, Traits
 from pigaming_app.ai.game_ai import LEVELS, POINT
 from pigaming_app.ai.learning.batch import initial_states
 from pigaming_app.ai.learning.rollout import cast_with_baselines, compiled_rollout
