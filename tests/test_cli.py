@@ -130,7 +130,7 @@ def test_a_duel_prints_one_object(capsys):
         ["play", "pitanks", "race"],
         ["train", "qlearning", "race", "--out", "a.npz"],
         ["train", "qlearning", "chess", "--out", "a.npz"],
-        ["train", "ppo", "factory", "--out", "a.npz"],
+        ["train", "ppo", "chess", "--out", "a.npz"],
         ["train", "ppo", "chess", "--out", "a.npz"],
         ["play", "--arena", "nowhere", "--headless"],
         ["play", "--minutes", "-1"],
