@@ -131,7 +131,6 @@ def test_a_duel_prints_one_object(capsys):
         ["train", "qlearning", "race", "--out", "a.npz"],
         ["train", "qlearning", "chess", "--out", "a.npz"],
         ["train", "ppo", "chess", "--out", "a.npz"],
-        ["train", "ppo", "chess", "--out", "a.npz"],
         ["play", "--arena", "nowhere", "--headless"],
         ["play", "--minutes", "-1"],
         ["play", "--minutes", "nan"],

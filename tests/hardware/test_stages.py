@@ -35,7 +35,7 @@ MAY = {
     "tracking": {"calibration", "vision"},
     "ros": {"control", "radio", "tracking"},
     "drivers": {"radio", "ros"},
-    "commissioning": {"control", "tracking"},
+    "commissioning": {"control", "radio", "tracking"},
     "sysid": {"calibration"},
     "scan": {"calibration", "control", "vision"},
     "emulator": {"calibration", "vision"},

@@ -17,7 +17,7 @@ EXCLUDED = (  # large libraries that no job of a bundle needs, but an installed 
     "yaml",
 )  # fmt: skip
 PACKAGES = sorted(path.parent for path in ROOT.glob("pigaming_*/__init__.py"))  # this one, and games beside it
-ASSET_FOLDERS = ("arenas", "brains", "desk", "fonts", "new_game", "people", "phones", "sounds", "text")
+ASSET_FOLDERS = ("arenas", "benchmark", "brains", "desk", "fonts", "new_game", "people", "phones", "sounds", "text")
 SHARED = "micropython"  # folders with programs of another interpreter
 
 

@@ -1,6 +1,8 @@
 """Blocks that follow from the code."""
 
 from math import ceil
+from pathlib import Path
+from statistics import mean
 
 from pigaming_app import links
 from pigaming_app.ai.game_ai import LEVELS
@@ -10,11 +12,14 @@ from pigaming_app.games.arenas import arenas, load, shipped_arenas, widest
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import make_setup
+from pigaming_app.gym.benchmark.results import BenchmarkResults, by_budget
+from pigaming_app.gym.benchmark.tasks import FORMAT, TASKS
 from pigaming_app.hardware.control.virtual_walls import SPARE
 from pigaming_app.sim.drivetrain import MM
 from pigaming_app.sim.world import HZ, WIDTH
+from pigaming_app.storage.schema import from_json
 from pigaming_app.ui.i18n import Words
-from tests.bench.figures import as_markdown
+from tests.bench.figures import ROOT, as_markdown
 from tests.bench.makespan_bound import bound
 
 DIAMETERS = 60, 95, 120  # mm: a small robot, a 3pi, boards on the printed chassis
@@ -101,3 +106,24 @@ def others(game: str) -> str:
 def listed(names: object) -> str:
     """Names in code, or a dash."""
     return ", ".join(f"`{name}`" for name in names) or "–"  # type: ignore[attr-defined]
+
+
+def results_of(path: Path) -> BenchmarkResults:
+    """The results in a file of PiGaming-Bench."""
+    return from_json(path.read_text("utf-8"), BenchmarkResults, FORMAT)
+
+
+def baselines() -> str:
+    """The table of docs/benchmark.md, of the results beside it."""
+    order = [*TASKS]
+    rows = [["task", "method", "trainings", "score, %", "share of wins by condition, %"]]
+    files = map(results_of, (ROOT / "docs/benchmark").glob("*.json"))
+    for found in sorted(files, key=lambda one: (order.index(one.task), -mean(run.score for run in one.runs))):
+        for score, low, high, count in by_budget(found).values():
+            points = {
+                name: [run.conditions[name].points for run in found.runs] for name in TASKS[found.task].conditions
+            }
+            each = ", ".join(f"{name} {mean(row):.0f}" for name, row in points.items())  # of 100 matches
+            share = f"{100 * score:.1f} ({100 * low:.0f}–{100 * high:.0f})"
+            rows.append([f"`{found.task}`", found.method, str(count), share, each])
+    return as_markdown(rows)

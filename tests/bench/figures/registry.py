@@ -28,6 +28,7 @@ DERIVED = {
     "bound": Derived(OPPONENTS, derived.makespan_bound),
     "traits": Derived(PEOPLE, people.traits),
     "tricks": Derived(OPPONENTS, exploits.tricks),
+    "baselines": Derived("docs/benchmark.md", derived.baselines),
 }
 MEASURED = {
     "speed": Measured("README.md", f"{MAIN} bench pitanks", speed.table, 3),

@@ -1,12 +1,13 @@
 """Baselines of PiGaming-Bench: an agent of each method, from a million decisions, as docs/benchmark.md lists them.
 
-python3 examples/benchmark_baselines.py search --seed 1 --out search-1.npz     random search, NumPy alone
-python3 examples/benchmark_baselines.py clone --seed 1 --out clone-1.npz       needs PyTorch
-python3 examples/benchmark_baselines.py cleanrl --seed 1 --out cleanrl-1.npz   needs PyTorch
-python3 examples/benchmark_baselines.py sb3 --seed 1 --out sb3-1.npz           needs Stable-Baselines3
+python -m tests.bench.benchmark_baselines search --seed 1 --out search-1.npz     random search, NumPy alone
+python -m tests.bench.benchmark_baselines clone --seed 1 --out clone-1.npz       needs PyTorch
+python -m tests.bench.benchmark_baselines cleanrl --seed 1 --out cleanrl-1.npz   needs PyTorch
+python -m tests.bench.benchmark_baselines sb3 --seed 1 --out sb3-1.npz           needs Stable-Baselines3
 """
 
 import argparse
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,7 @@ from pigaming_app.gym.benchmark.agent_file import save_agent
 from pigaming_app.gym.benchmark.tasks import SHIPPED
 from pigaming_app.sim.rng import training_seed
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "examples"))  # ppo_torch.py
 GAME, NAME, HEADS = "pitanks", "PiTanks-v0", (3, 7, 2, 2)
 ARENAS = SHIPPED[GAME]
 Layers = list[tuple[Any, Any]]
