@@ -51,7 +51,7 @@ def set_rules(rules: PiTanksRules, setup: Setup) -> None:
     if setup.variant == "party":
         rules.penalty = 0
         rules.knockout, rules.protection = KNOCKOUT, PARTY_PROTECTION
-        rules.bounty_lead = 5
+        rules.bounty_lead = 4
         rules.finale = 20 * HZ
         rules.overtime = round(OVERTIME * HZ)
 

@@ -186,8 +186,8 @@ def test_pickups_keep_away_from_a_lit_robot():
 # ------------------------------------------------------------------------------------------------- bounty and finale
 
 
-@pytest.mark.parametrize(("leads_by", "points"), [(5, 1), (6, 2)])
-def test_a_leader_by_more_than_five_is_worth_two(leads_by, points):
+@pytest.mark.parametrize(("leads_by", "points"), [(4, 1), (5, 2)])
+def test_a_leader_by_more_than_four_is_worth_two(leads_by, points):
     match = party(THREE)
     match.robots[1].score, match.robots[2].score = 5 + leads_by, 5
     ticks(match, 1)
@@ -202,7 +202,7 @@ def test_a_leader_by_more_than_five_is_worth_two(leads_by, points):
 
 def test_both_robots_of_a_leading_team_are_worth_two():
     match = party([*THREE, (1200.0, 100.0, 0.0)], teams=(0, 0, 1, 1))
-    match.robots[2].score = 6
+    match.robots[2].score = 5
     ticks(match, 1)
     assert [tank.bounty for tank in match.tanks] == [0, 0, 1, 1]
 
@@ -304,7 +304,7 @@ def test_a_hit_that_ends_the_match_leaves_time():
 
 def test_brains_see_light_knock_out_bounty_finale_and_overtime():
     match = party(THREE)
-    match.robots[1].score, match.tanks[2].lit = 6, 1
+    match.robots[1].score, match.tanks[2].lit = 5, 1
     hit(match, 1, 0)
     ticks(match, 1)
     obs = PiTanksObservation()

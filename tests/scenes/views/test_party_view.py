@@ -49,7 +49,7 @@ def clock(screen, view, state):
 
 def test_the_points_rise_at_the_hit_in_the_colour_of_the_shooter():
     state, view = match()
-    state.robots[1].score = 6
+    state.robots[1].score = 5
     sounds(view, state)
     hit(state, 0, 1)
     assert "hit" in sounds(view, state)
