@@ -5,6 +5,8 @@ Commands are parsed as printed; lengths are limited afterwards. A row that fits 
 
 from dataclasses import dataclass
 
+from pigaming_app.ai.networks.files import BRAINS
+
 
 @dataclass(frozen=True)
 class Placeholder:
@@ -35,6 +37,7 @@ PLACEHOLDERS = (
     Placeholder(r"\bJOB\b", "duel", NAME),
     Placeholder(r"\bBRAIN\b", "net", NAME),
     Placeholder(r"path/to/file\.toml", "mine.toml", NAME),
+    Placeholder(r"\bassets/brains/(?=\w)", f"{BRAINS.as_posix()}/", "commands run in an empty folder"),
     Placeholder(r"--hands HANDS\b", "--hands player", NAME),
     Placeholder(r"--seats LEVEL\b", "--seats level3", NAME),
     Placeholder(r"--variant V\b", "--variant party", NAME),
