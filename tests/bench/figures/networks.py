@@ -7,15 +7,15 @@ from pigaming_app.games.race.start import VARIANTS
 from tests.bench import network_football, network_races, network_wins
 from tests.bench.figures.duels import LEAST
 
-RACER = "assets/brains/race.npz"
+GUNNER, RACER = "assets/brains/pitanks.npz", "assets/brains/race.npz"
 EACH = 100  # matches or races of a kind
 
 
 def wins(share: float) -> list[list[str]]:
-    """Fewest wins of the network of PiTanks, of EACH, by rule set and kind of match."""
+    """Fewest wins of the network of the PiTanks levels, of EACH, by rule set and kind of match."""
     matches, minutes = (EACH, network_wins.MINUTES) if share == 1.0 else (1, LEAST)
     rivals = network_wins.RIVALS if share == 1.0 else network_wins.RIVALS[:1]
-    network, seeds = find_brain("pitanks", "net"), range(10001, 10001 + matches)
+    network, seeds = find_brain("pitanks", GUNNER), range(10001, 10001 + matches)
     fewest: dict[str, dict[str, int]] = {}
     for one in network_wins.results(network, seeds, rivals, minutes=minutes):
         row = fewest.setdefault(kind_of(one), {})

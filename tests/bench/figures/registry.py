@@ -66,7 +66,9 @@ MEASURED = {
         15,
     ),
     "exploits": Measured(OPPONENTS, f"{MAIN} exploits GAME --hands HANDS --matches 200", exploits.wins, 30),
-    "network": Measured(NETWORKS, f"{BENCH}network_wins net --matches {networks.EACH}", networks.wins, 10),
+    "network": Measured(
+        NETWORKS, f"{BENCH}network_wins {networks.GUNNER} --matches {networks.EACH}", networks.wins, 10
+    ),
     "racer": Measured(NETWORKS, f"{BENCH}network_races {networks.RACER}", networks.races, 4),
     "seeds": Measured("docs/qlearning.md", SEEDS, seeds.table, 13),
     "verdict": Measured(THESIS, f"{SEEDS} [--set in_sight=0 --set exposure=0]", seeds.verdict, 13),
