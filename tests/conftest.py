@@ -45,6 +45,14 @@ def _a_home_of_their_own() -> Iterator[None]:
         yield
 
 
+@pytest.fixture(autouse=True, scope="module")
+def _no_arena_stays() -> Iterator[None]:
+    """An arena in the common home would be one of a game's for all tests after it."""
+    common = Path(os.environ["PIGAMING_HOME"])
+    yield
+    assert not list(common.rglob("arenas/*/*.toml"))
+
+
 @pytest.fixture(autouse=True, scope="session")
 def _one_process_for_many_arcades() -> Iterator[Callable[..., Any]]:
     """Parse each text of an arena once, as arenas never change; keep pictures and freed memory for the next test.

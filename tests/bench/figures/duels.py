@@ -4,7 +4,7 @@ from itertools import pairwise
 
 from pigaming_app.ai.game_ai import LEVELS
 from pigaming_app.ai.learning.league import duel, league
-from pigaming_app.games.arenas import arenas
+from pigaming_app.games.arenas import shipped_arenas
 
 AGAINST_HAND2 = ("q1", "hand3", "q2", "hand2", "fsm", "hand1", "classic")
 PAIRS = (("hand3", "hand2"), ("hand2", "hand1"), ("hand1", "random"))
@@ -46,7 +46,7 @@ def pairs(share: float) -> list[list[str]]:
 
 def ties(share: float) -> list[list[str]]:
     """Ties of machines with their likes by arena, and wins of the weakest against `random`, in %."""
-    places = arenas("pitanks")
+    places = shipped_arenas("pitanks")
     rows = [["", *places]]
     for brain in ("hand1", "hand2", "hand3"):
         found = [result(brain, brain, 200, share, "pickups", arena).split("/") for arena in places]

@@ -166,6 +166,7 @@ def test_the_first_page_names_all_pages_and_says_in_each_language_what_to_do(lan
         assert " ".join(words(f"sheet.{key}", width=1333, height=750).split()) in plain
 
 
+@pytest.mark.usefixtures("home")
 def test_a_drawing_of_the_user_is_printed_as_well(tmp_path):
     folder = folders().data / "arenas" / "pitanks"
     folder.mkdir(parents=True)
