@@ -99,9 +99,8 @@ def ends_in_time(match):
     assert all(isfinite(number) for number in numbers(match.state))
 
 
-MARKS = {("pitanks", False): [], ("pitanks", True): [pytest.mark.long]}  # compiling takes long
-BODIES = [
-    pytest.param(*one, marks=MARKS.get(one, [pytest.mark.long, pytest.mark.again]))
+BODIES = [  # compiling takes long
+    pytest.param(*one, marks=[] if one == ("pitanks", False) else [pytest.mark.long, pytest.mark.again])
     for one in product(games(), (False, True))
 ]
 

@@ -17,7 +17,7 @@ import pytest
 from pigaming_app.ai.networks.files import encode
 from pigaming_app.ai.ppo import shard, win_rates
 from pigaming_app.ai.ppo.registry import TASKS
-from pigaming_app.ai.ppo.task_file import file_of, text_of
+from pigaming_app.ai.ppo.task_file import file_of, read_task, text_of
 from pigaming_app.ai.registry import BRAINS
 from pigaming_app.games import setup
 from pigaming_app.games.registry import games
@@ -172,9 +172,13 @@ def shorten_matches(patch: pytest.MonkeyPatch) -> None:
 
 def shorten_trainings(patch: pytest.MonkeyPatch) -> None:
     """Let `train ppo` play a few plain matches of the first line-up."""
+
+    def tiny(task: Any) -> Any:
+        return replace(task, line_ups=task.line_ups[:1], rivals=("idle",), minutes=(MINUTES,), hyper=TINY)
+
     for name, task in [*TASKS.items()]:
-        tiny = replace(task, line_ups=task.line_ups[:1], rivals=("idle",), minutes=(MINUTES,), hyper=TINY)
-        patch.setitem(TASKS, name, tiny)
+        patch.setitem(TASKS, name, tiny(task))
+    patch.setattr(ppo_training, "read_task", lambda *file: tiny(read_task(*file)))
     for module in (shard, win_rates):
         patch.setattr(module, "loop_of", plain_loop)
     for measured in ("MEASURED", "MEASURED_AT_END", "MEASURED_AGAINST"):

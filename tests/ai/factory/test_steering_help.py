@@ -14,7 +14,7 @@ from pigaming_app.games.factory.state import DONE, ENTRY, EXIT, HALF, ICE, INPUT
 from pigaming_app.sim.action import quantise, set_action
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.input.events import StickState
-from tests.cases import one_in, repeated
+from tests.cases import one_in
 from tests.games.factory.shop import Shop
 from tests.matches import match_of
 
@@ -48,8 +48,9 @@ def test_keys_at_random_deliver_a_pallet_with_help(floor):
     assert match.state.delivered[ICE] == 1
 
 
+@pytest.mark.again
 @pytest.mark.long
-@pytest.mark.parametrize("mates", repeated([0, 3]))
+@pytest.mark.parametrize("mates", [0, 3])
 def test_keys_at_random_deliver_half_as_much_as_a_beginner_without_help(mates):
     """Mean of two matches on each floor, of three minutes."""
     games = [(floor, seed) for floor in FLOORS for seed in range(2)]

@@ -129,6 +129,7 @@ def test_a_scale_that_makes_no_sense_is_refused(scale):
         places(Trial("pitanks", 1, minutes=0.05), ["player"], ["level1"], scale)
 
 
+@pytest.mark.again
 @pytest.mark.long
 @pytest.mark.skipif(not can_compile(), reason="needs the extra train")
 def test_levels_suit_people():

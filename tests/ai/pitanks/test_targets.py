@@ -5,7 +5,6 @@ from itertools import pairwise
 
 import pytest
 
-from tests.cases import repeated
 from tests.matches import match_of
 
 CASES = [(level, variant) for level in ("level1", "level3", "level5") for variant in ("party", "pickups", "classic")]
@@ -29,8 +28,9 @@ def victims(level: str, variant: str, seed: int) -> dict[int, list[int]]:
     return found
 
 
+@pytest.mark.again
 @pytest.mark.long
-@pytest.mark.parametrize(("level", "variant"), repeated(CASES))
+@pytest.mark.parametrize(("level", "variant"), CASES)
 def test_their_hits_are_spread_evenly_and_move_on(request, level, variant):
     """A third of all hits for each of the others; two in a row on one seat are stray shots."""
     if (level, variant) == ("level3", "pickups"):

@@ -16,7 +16,7 @@ from pigaming_app.sim.action import quantise, set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.record import digest
 from pigaming_app.ui.input.events import StickState
-from tests.cases import one_in, repeated
+from tests.cases import one_in
 from tests.matches import match_of
 
 TRACKS = arenas("race")
@@ -112,8 +112,9 @@ def test_who_strays_cannot_turn_still_farther_away_but_back():
     assert back < -0.8
 
 
+@pytest.mark.again
 @pytest.mark.long
-@pytest.mark.parametrize("track", repeated(TRACKS))
+@pytest.mark.parametrize("track", TRACKS)
 def test_keys_at_random_get_half_as_far_with_help_as_a_beginner_without(track):
     """Laps in two minutes, mean of four races, beside three robots of level 1."""
     everybody = (("masher", True), ("masher", False), ("beginner", False))

@@ -18,7 +18,6 @@ from pigaming_app.games.setup import make_setup
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.world import DT
-from tests.cases import repeated
 from tests.games.rails import place_on
 from tests.matches import setup_of
 
@@ -242,9 +241,10 @@ def test_other_tracks_have_the_laps_of_the_rules():
     assert dict(zip(VARIANTS, goals, strict=True)) == {"standard": 3, "draft": 3, "party": 5}
 
 
+@pytest.mark.again
 @pytest.mark.long
 @pytest.mark.skipif(not can_compile(), reason="needs numba")
-@pytest.mark.parametrize(("track", "variant"), repeated(product(shipped_arenas("race"), VARIANTS)))
+@pytest.mark.parametrize(("track", "variant"), product(shipped_arenas("race"), VARIANTS))
 def test_a_child_alone_drives_a_default_race_in_60_to_90_s(track, variant):
     """Medians of its models, so that one in mud for a minute does not count."""
     goal = default_goal("race", variant, track)

@@ -59,7 +59,7 @@ FAMILIES = [
     pytest.param(  # plays in test_browser.py, too
         chromium_browsing, id="chromium", marks=[needs(chromium(), "chromium"), pytest.mark.again]
     ),
-    pytest.param(firefox_browsing, id="firefox", marks=needs(firefox(), "firefox-esr")),
+    pytest.param(firefox_browsing, id="firefox", marks=[needs(firefox(), "firefox-esr"), pytest.mark.again]),
     pytest.param(webkit_browsing, id="webkit", marks=needs(webkit(), "webkit2gtk-driver xvfb")),
 ]
 
