@@ -61,7 +61,7 @@ def person(traits: Any) -> BrainKind:
     return _footballer("person", Strength(1.0, reaction, 2.0 * traits.aim, traits.turbo, traits.tactics > 0.5, haste))
 
 
-NET = shipped_brain("net", "football", "football", Path(__file__).parents[1] / "brains", {"sharpness": 2.0})
+NET = shipped_brain("net", "football", "champion", Path(__file__).parents[1] / "brains", {"sharpness": 2.0})
 
 AI = GameAI(
     {

@@ -5,6 +5,7 @@ Commands are parsed as printed; lengths are limited afterwards. A row that fits 
 
 from dataclasses import dataclass
 
+from pigaming_app import ROOT
 from pigaming_app.ai.networks.files import BRAINS
 
 
@@ -27,6 +28,7 @@ class Elsewhere:
 
 
 NAME, OPTION, VALUE = "a name to fill in", "an option that may be left out", "an option without its value"
+EMPTY = "commands run in an empty folder"
 
 PLACEHOLDERS = (
     Placeholder(r" \[(-[^\]]*)\]", r" \1", OPTION),
@@ -37,7 +39,8 @@ PLACEHOLDERS = (
     Placeholder(r"\bJOB\b", "duel", NAME),
     Placeholder(r"\bBRAIN\b", "net", NAME),
     Placeholder(r"path/to/file\.toml", "mine.toml", NAME),
-    Placeholder(r"\bassets/brains/(?=\w)", f"{BRAINS.as_posix()}/", "commands run in an empty folder"),
+    Placeholder(r"\bassets/brains/(?=\w)", f"{BRAINS.as_posix()}/", EMPTY),
+    Placeholder(r"\bpigaming_football/brains/(?=\w)", f"{(ROOT / 'pigaming_football/brains').as_posix()}/", EMPTY),
     Placeholder(r"--hands HANDS\b", "--hands player", NAME),
     Placeholder(r"--seats LEVEL\b", "--seats level3", NAME),
     Placeholder(r"--variant V\b", "--variant party", NAME),

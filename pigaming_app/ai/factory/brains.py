@@ -23,7 +23,7 @@ STRENGTHS = (
     weaker(speed=0.39, hesitation=2.6, noise=0.2, delay=0.4, slip=0.04, rules=1),
     weaker(speed=0.43, hesitation=2.0, noise=0.2, delay=0.4, slip=0.04, rules=1),
     weaker(speed=0.5, hesitation=1.5, noise=0.12, delay=0.3, slip=0.02, rules=2),
-    weaker(speed=0.62, hesitation=0.9, noise=0.06, delay=0.2, rules=2),
+    weaker(form=0.12, speed=0.605, hesitation=0.9, noise=0.06, delay=0.2, rules=2),
 )
 EASIEST = weaker(speed=0.26, hesitation=5.0, noise=0.35, delay=0.45, slip=0.03, rules=2)
 HARDEST = weaker(speed=1.0, hesitation=0.0, noise=0.0, delay=0.1, slip=0.0, rules=2)

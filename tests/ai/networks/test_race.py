@@ -102,7 +102,7 @@ def test_a_bad_day_is_slower_by_no_more_than_the_form():
     [
         ("pitanks", "assets/brains/champion.npz"),
         ("race", "assets/brains/race.npz"),
-        ("football", "pigaming_football/brains/football.npz"),
+        ("football", "pigaming_football/brains/champion.npz"),
     ],
 )
 def test_a_shipped_network_plays_as_its_file_says(game, file):

@@ -76,12 +76,13 @@ def test_a_shipped_file_says_what_its_network_says_of_its_training(game):
     check_names(TASKS[game])
 
 
-def test_the_champion_learned_by_its_file_from_the_network_of_the_levels():
-    task = read_task(BRAINS / "champion.task.toml", TASKS["pitanks"])
-    assert recorded_task(BRAINS / "champion.npz") == text_of(file_of(task))
-    with np.load(BRAINS / "champion.npz") as parts:
+@pytest.mark.parametrize(("game", "folder"), [("pitanks", BRAINS), ("football", Path(football).parent / "brains")])
+def test_a_champion_learned_by_its_file_from_the_first_network_of_its_game(game, folder):
+    task = read_task(folder / "champion.task.toml", TASKS[game])
+    assert recorded_task(folder / "champion.npz") == text_of(file_of(task))
+    with np.load(folder / "champion.npz") as parts:
         head = json.loads(str(parts["head"]))
-    assert (head["recipe"]["start"], head["updates"]) == ("pitanks", task.length.updates)
+    assert (head["recipe"]["start"], head["updates"]) == (game, task.length.updates)
 
 
 def told(line_up):
