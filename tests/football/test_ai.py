@@ -154,7 +154,7 @@ def test_nobody_stands_still_for_long():
 @needs_numba
 @pytest.mark.again
 @pytest.mark.long
-@pytest.mark.parametrize(("lower", "upper"), pairwise(LEVELS))
+@pytest.mark.parametrize(("lower", "upper"), [*pairwise(LEVELS)])
 def test_each_level_beats_the_one_below(lower, upper):
     result = duel("football", upper, lower, 100, 1, AS_PLAYED)
     assert result.wins / (result.wins + result.losses) >= 0.65

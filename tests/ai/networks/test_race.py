@@ -101,6 +101,7 @@ def test_a_bad_day_is_slower_by_no_more_than_the_form():
     ("game", "file"),
     [
         ("pitanks", "assets/brains/champion.npz"),
+        ("factory", "assets/brains/factory.npz"),
         ("race", "assets/brains/race.npz"),
         ("football", "pigaming_football/brains/champion.npz"),
     ],

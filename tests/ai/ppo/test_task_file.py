@@ -76,13 +76,20 @@ def test_a_shipped_file_says_what_its_network_says_of_its_training(game):
     check_names(TASKS[game])
 
 
-@pytest.mark.parametrize(("game", "folder"), [("pitanks", BRAINS), ("football", Path(football).parent / "brains")])
-def test_a_champion_learned_by_its_file_from_the_first_network_of_its_game(game, folder):
-    task = read_task(folder / "champion.task.toml", TASKS[game])
-    assert recorded_task(folder / "champion.npz") == text_of(file_of(task))
-    with np.load(folder / "champion.npz") as parts:
+@pytest.mark.parametrize(
+    ("game", "network", "start"),
+    [
+        ("factory", BRAINS / "factory.npz", None),
+        ("pitanks", BRAINS / "champion.npz", "pitanks"),
+        ("football", Path(football).parent / "brains/champion.npz", "football"),
+    ],
+)
+def test_a_network_learned_by_its_file_a_champion_from_the_first_of_its_game(game, network, start):
+    task = read_task(network.with_suffix(".task.toml"), TASKS[game])
+    assert recorded_task(network) == text_of(file_of(task))
+    with np.load(network) as parts:
         head = json.loads(str(parts["head"]))
-    assert (head["recipe"]["start"], head["updates"]) == (game, task.length.updates)
+    assert (head["recipe"]["start"], head["updates"]) == (start, task.length.updates)
 
 
 def told(line_up):

@@ -244,7 +244,7 @@ def test_other_tracks_have_the_laps_of_the_rules():
 @pytest.mark.again
 @pytest.mark.long
 @pytest.mark.skipif(not can_compile(), reason="needs numba")
-@pytest.mark.parametrize(("track", "variant"), product(shipped_arenas("race"), VARIANTS))
+@pytest.mark.parametrize(("track", "variant"), [*product(shipped_arenas("race"), VARIANTS)])
 def test_a_child_alone_drives_a_default_race_in_60_to_90_s(track, variant):
     """Medians of its models, so that one in mud for a minute does not count."""
     goal = default_goal("race", variant, track)
