@@ -38,8 +38,9 @@ def make_training(judge: Callable[[Any], None]) -> Loop:
         for _ in range(ticks):
             if match.over:
                 break
-            learn(match, 0, one, table)
-            learn(match, 1, two, table)
+            if match.tick % table.knobs.period == 0:
+                learn(match, 0, one, table)
+                learn(match, 1, two, table)
             judge(match)
             drive(match)
             if match.over:

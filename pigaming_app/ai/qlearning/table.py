@@ -79,10 +79,10 @@ def sample_move(table: QTable, state: int, heat: float, owner: Rng, odds: list[f
     """
     first = state * ACTIONS
     highest = max_value(table, state)
-    total = 0.0
+    untried, total = power_of(0.0, highest, heat), 0.0  # most values are 0 or the highest, and exp takes long
     for a in range(ACTIONS):
-        power = (table.q[first + a] - highest) / heat
-        odds[a] = exp(power) if power > VANISHING else 0.0
+        q = table.q[first + a]
+        odds[a] = untried if q == 0.0 else 1.0 if q == highest else power_of(q, highest, heat)
         total += odds[a]
     rest = uniform(owner) * total
     for a in range(ACTIONS):
@@ -90,6 +90,13 @@ def sample_move(table: QTable, state: int, heat: float, owner: Rng, odds: list[f
         if rest < 0.0:
             return a
     return ACTIONS - 1
+
+
+@kernel
+def power_of(q: float, highest: float, heat: float) -> float:
+    """exp((q - highest) / heat)."""
+    power = (q - highest) / heat
+    return exp(power) if power > VANISHING else 0.0
 
 
 @kernel
