@@ -64,7 +64,7 @@ def _quick_sector(dx: float, dy: float, heading: float) -> int:
         angle = pi - angle
     if dy < 0.0:
         angle = -angle
-    place = (angle - heading) / WIDE + (3.0 * SECTORS + 0.5)
+    place = (angle - heading) * (SECTORS / tau) + (3.0 * SECTORS + 0.5)
     number = int(place)
     return number % SECTORS if EDGE < place - number < 1.0 - EDGE else exact_sector(dx, dy, heading)
 

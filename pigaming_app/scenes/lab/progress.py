@@ -63,14 +63,14 @@ class TrainingProgress:
     def played(self) -> float:
         """Matches so far, including the fraction of the current one."""
         training = self.training
-        return training.matches + min(1.0, int(training.match.tick) / (training.minutes * 60 * HZ)) % 1.0
+        return training.matches + min(1.0, training.tick / (training.minutes * 60 * HZ)) % 1.0
 
     def train(self, ticks: int) -> None:
         """Train for `ticks`, recording checkpoints at match boundaries."""
         training = self.training
         whole = round(training.minutes * 60 * HZ)
         while ticks > 0:
-            left = whole - int(training.match.tick)
+            left = whole - training.tick
             batch = min(ticks, left if left > 0 else whole)
             training.run(batch)
             ticks -= batch
