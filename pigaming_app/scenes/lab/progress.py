@@ -73,8 +73,8 @@ class TrainingProgress:
         training = self.training
         whole = round(training.minutes * 60 * HZ)
         while ticks > 0:
-            left = whole - training.tick
-            batch = min(ticks, left if left > 0 else whole)
+            due = next((matches for matches in CHECKPOINTS if matches > training.matches), 0)
+            batch = min(ticks, (due - training.matches) * whole - training.tick % whole) if due else ticks
             training.run(batch)
             ticks -= batch
             self._save_checkpoint()
