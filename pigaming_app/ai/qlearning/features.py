@@ -51,9 +51,11 @@ def exact_sector(dx: float, dy: float, heading: float) -> int:
     return int(turn_to(atan2(dy, dx) - heading) / WIDE + (SECTORS + 0.5)) % SECTORS
 
 
-def _quick_sector(dx: float, dy: float, heading: float) -> int:
+def quick_sector(dx: float, dy: float, heading: float) -> int:
     """`exact_sector`, with the angle by a polynomial that is right to 1e-5 rad (C. Hastings, 1955) where that tells."""
     wide, high = abs(dx), abs(dy)
+    if wide == high:  # perhaps no way at all, which has no ratio
+        return exact_sector(dx, dy, heading)
     ratio = high / wide if high < wide else wide / high
     square = ratio * ratio
     series = -0.3302995 + square * (0.1801410 + square * (-0.0851330 + square * 0.0208351))
@@ -69,7 +71,7 @@ def _quick_sector(dx: float, dy: float, heading: float) -> int:
     return number % SECTORS if EDGE < place - number < 1.0 - EDGE else exact_sector(dx, dy, heading)
 
 
-@kernel_with_loops(_quick_sector)
+@kernel_with_loops(quick_sector)
 def sector(dx: float, dy: float, heading: float) -> int:
     """`exact_sector`, in less time where it is compiled."""
     return exact_sector(dx, dy, heading)
