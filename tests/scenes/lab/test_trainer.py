@@ -98,11 +98,11 @@ def endless() -> Iterator[Compiler]:
 
 
 def test_a_checkpoint_is_of_its_very_match_however_many_are_played_at_once() -> None:
-    progress = TrainingProgress(TableTraining(Recipe(), 1, fast=False, minutes=0.002))  # matches of 6 ticks
-    for ticks in (5, 60 * 6 - 2):
+    progress = TrainingProgress(TableTraining(Recipe(), 1, fast=False, minutes=0.004))  # matches of 12 ticks
+    for ticks in (7, 60 * 12 - 4):
         progress.train(ticks)
     found = {wanted: (one.matches, one.experiences) for wanted, one in progress.checkpoints.items()}
-    assert found == {0: (0, 0), 10: (10, 40), 50: (50, 200)}  # two of each robot in a match
+    assert found == {0: (0, 0), 10: (10, 60), 50: (50, 300)}  # three of each robot in a match
     assert (progress.training.matches, progress.training.tick) == (60, 3)
 
 
