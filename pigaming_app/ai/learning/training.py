@@ -101,6 +101,9 @@ class TableTraining:
         self._tables = self._row(fresh_table(seed) if table is None else to_plain(table))
         self.recipe = recipe
         self._fresh, self._mind = self._row(initial_states([self._setup()])[0]), self._row(LearnerMind())
+        self._matches: Any  # rows of the match in progress and of its learners' minds
+        self._ones: Any
+        self._twos: Any
         self._begin()
 
     def run(self, ticks: int) -> None:
