@@ -121,7 +121,9 @@ ELSEWHERE = (
     Elsewhere(r".*tests\.golden( --write)?", "a minute; it may change what tests compare with", "tests/test_golden.py"),
     Elsewhere(r".*tests\.bench\.open_day.*", MINUTES_LONG, "tests/bench/test_open_day.py"),
     Elsewhere(
-        r".*tests\.bench\.(detection|makespan|reference_lap|network_races|levels)\b.*", MINUTES_LONG, "tests/bench"
+        r".*tests\.bench\.(detection|makespan|reference_lap|network_races|levels|lab_rate)\b.*",
+        MINUTES_LONG,
+        "tests/bench",
     ),
     Elsewhere(r".*tests\.bench\.phone_camera.*", "aiortc", "tests/scenes/mat/phone_camera/test_browser.py"),
     Elsewhere(r".*tests\.bench\.marker_ids.*", MINUTES_LONG, "tests/hardware/calibration/test_quality.py"),

@@ -9,6 +9,7 @@ from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.learning.training import ARENA, GAME, MINUTES, TableTraining, training_setup
 from pigaming_app.ai.qlearning.recipe import Recipe
 from pigaming_app.ai.registry import BRAINS
+from pigaming_app.games.game import Setup
 from pigaming_app.sim.world import HZ
 from pigaming_app.storage.background import exit_with_parent
 
@@ -27,8 +28,11 @@ class Evaluation:
         minutes: float = MINUTES,
         arena: str = ARENA,
         fast: bool = False,
+        unplayed: dict[tuple[Setup, bool], Batch] | None = None,
     ) -> None:
+        """`unplayed`: batches of single matches that evaluations share: one takes as long to make as to play."""
         self.kinds = one, other
+        self._unplayed = {} if unplayed is None else unplayed
         self.matches, self.seed, self.minutes, self.arena, self.fast = matches, seed, minutes, arena, fast
         self.wins = self.ties = self.losses = 0
         self._played = 0
@@ -62,9 +66,10 @@ class Evaluation:
         swapped = self._played % 2
         if self._batch is None:
             kinds = self.kinds[::-1] if swapped else self.kinds
-            self._batch = Batch(
-                [training_setup(self.seed + self._played // 2, self.minutes, self.arena)], kinds, self.fast
-            )
+            setup = training_setup(self.seed + self._played // 2, self.minutes, self.arena)
+            if (setup, self.fast) not in self._unplayed:
+                self._unplayed[setup, self.fast] = Batch([setup], [], self.fast)
+            self._batch = Batch([setup], kinds, self.fast, twin=self._unplayed[setup, self.fast])
             self._left = round(self.minutes * 60 * HZ)
         ticks = min(ticks, self._left)
         self._batch.play(ticks)

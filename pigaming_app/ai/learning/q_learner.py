@@ -21,10 +21,8 @@ CREEP = 10.0  # px/s; a slower robot counts as standing
 
 @kernel
 def learn(match: PiTanks, seat: int, mind: LearnerMind, table: QTable) -> None:
-    """One tick of a learner: at every decision update the table for the last one, then draw the next move."""
+    """A decision of a learner: update the table for the last one, then draw the next move."""
     knobs = table.knobs
-    if match.tick % knobs.period:
-        return
     opponent = nearest_opponent(match, seat)
     here = situation(match, seat, opponent, knobs.incoming)
     if mind.begun:

@@ -27,25 +27,28 @@ from pigaming_app.sim.rng import seeded, training_seed
 from pigaming_app.sim.world import HZ
 
 GAME, VARIANT, ARENA, MINUTES = "pitanks", "classic", "classic", 2.0
+MOST_AT_ONCE = 64  # matches in a call of the loop
 Loop = Callable[[Any, Any, Any, Any, int], None]
 
 
 def make_training(judge: Callable[[Any], None]) -> Loop:
-    """A loop that advances a match by `ticks` ticks, or to its end, with learners on its first two seats."""
+    """A loop that plays matches, one after the other, for `ticks` ticks, with learners on their first two seats."""
 
     def practise(matches: Any, ones: Any, twos: Any, tables: Any, ticks: int) -> None:
-        match, one, two, table = matches[0], ones[0], twos[0], tables[0]
-        for _ in range(ticks):
-            if match.over:
-                break
-            learn(match, 0, one, table)
-            learn(match, 1, two, table)
-            judge(match)
-            drive(match)
-            if match.over:
-                learn_last(match, 0, one, table)
-                learn_last(match, 1, two, table)
-                table.matches += 1
+        table = tables[0]
+        for i in range(len(matches)):
+            match, one, two = matches[i], ones[i], twos[i]
+            while ticks > 0 and not match.over:
+                if match.tick % table.knobs.period == 0:
+                    learn(match, 0, one, table)
+                    learn(match, 1, two, table)
+                judge(match)
+                drive(match)
+                ticks -= 1
+                if match.over:
+                    learn_last(match, 0, one, table)
+                    learn_last(match, 1, two, table)
+                    table.matches += 1
 
     return practise
 
@@ -98,16 +101,17 @@ class TableTraining:
         self._tables = self._row(fresh_table(seed) if table is None else to_plain(table))
         self.recipe = recipe
         self._fresh, self._mind = self._row(initial_states([self._setup()])[0]), self._row(LearnerMind())
+        self._matches: Any  # rows of the match in progress and of its learners' minds
+        self._ones: Any
+        self._twos: Any
         self._begin()
 
     def run(self, ticks: int) -> None:
         """Play and learn for `ticks` ticks, across matches."""
         while ticks > 0:
-            if self.match.over:
+            if number(self._matches, "over"):
                 self._begin()
-            before = int(self.match.tick)
-            self.loop(self._matches, self._ones, self._twos, self._tables, ticks)
-            ticks -= int(self.match.tick) - before
+            ticks -= self._play(ticks)
         self._seen = _copy(self._matches) if self.fast else self._matches
 
     def warm(self) -> None:
@@ -134,6 +138,11 @@ class TableTraining:
         return as_record(self._matches)
 
     @property
+    def tick(self) -> int:
+        """Ticks played of the match in progress."""
+        return number(self._matches, "tick")
+
+    @property
     def table(self) -> Any:
         """The live table, a plain or NumPy record; it changes during `run`."""
         return as_record(self._tables)
@@ -141,12 +150,12 @@ class TableTraining:
     @property
     def matches(self) -> int:
         """Matches played to the end."""
-        return int(self.table.matches)
+        return number(self._tables, "matches")
 
     @property
     def experiences(self) -> int:
         """Updates of the table, of both robots together."""
-        return int(self.table.experiences)
+        return number(self._tables, "experiences")
 
     @property
     def temperature(self) -> float:
@@ -156,7 +165,7 @@ class TableTraining:
     @property
     def visited(self) -> int:
         """States visited at least once."""
-        return int(self.table.states)
+        return number(self._tables, "states")
 
     def checkpoint(self, name: str = "q") -> Checkpoint:
         """A frozen copy of the table as a brain."""
@@ -180,6 +189,19 @@ class TableTraining:
     def _row(self, state: Any) -> Any:
         """A row of one record, NumPy if compiled, else plain."""
         return packed([state]) if self.fast else [state]
+
+    def _play(self, ticks: int) -> int:
+        """Play at most `ticks` ticks of this match and of a few more, in one call of the loop; returns how many."""
+        more = min(MOST_AT_ONCE - 1, ticks // round(self.minutes * 60 * HZ))
+        matches = _followed_by(self._matches, self._fresh, more)
+        ones, twos = (_followed_by(minds, self._mind, more) for minds in (self._ones, self._twos))
+        before = self.tick
+        self.loop(matches, ones, twos, self._tables, ticks)
+        played = [number(matches[i : i + 1], "tick") for i in range(more + 1)]
+        last = max(i for i in range(more + 1) if i == 0 or played[i])
+        here = slice(last, last + 1)
+        self._matches, self._ones, self._twos = matches[here], ones[here], twos[here]
+        return sum(played) - before
 
     def _begin(self) -> None:
         """Begin the next match with fresh minds."""
@@ -209,9 +231,26 @@ def as_record(row: Any) -> Any:
     return row.view(np.recarray)[0]
 
 
+def number(row: Any, name: str) -> int:
+    """A whole number of the only record of a row, plain or NumPy; in a hundredth of the time of `as_record`."""
+    return int(getattr(row[0], name) if isinstance(row, list) else row[name][0])
+
+
 def _copy(row: Any) -> Any:
-    """A copy of a row of one record, plain or NumPy; as bytes, since NumPy copies records field by field."""
-    return [copy(row[0])] if isinstance(row, list) else row.view(f"V{row.itemsize}").copy().view(row.dtype)
+    """A copy of a row of one record, plain or NumPy."""
+    return _followed_by(row[:0], row, 1)
+
+
+def _followed_by(row: Any, other: Any, count: int) -> Any:
+    """A row of records, plain or NumPy, and `count` copies of the only one of another; as bytes, since NumPy copies
+    records field by field."""
+    if isinstance(row, list):
+        return [*row, *(copy(other[0]) for _ in range(count))]
+    if not count:
+        return row
+    import numpy as np
+
+    return np.frombuffer(bytearray(row.tobytes() + count * other.tobytes()), row.dtype)
 
 
 def to_plain(table: Any) -> QTable:

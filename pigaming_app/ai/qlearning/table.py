@@ -64,11 +64,12 @@ class LearnerMind:
 @kernel
 def max_value(table: QTable, state: int) -> float:
     """Highest Q of a state."""
-    highest: float = table.q[state * ACTIONS]
-    for k in range(state * ACTIONS + 1, (state + 1) * ACTIONS):
-        if table.q[k] > highest:
-            highest = table.q[k]
-    return highest
+    first = max(0, state * ACTIONS)  # seen to be no place from the end, which numba would look for every time
+    highest, other = table.q[first], table.q[first + 1]  # of two halves: the processor compares them side by side
+    for a in range(2, ACTIONS, 2):
+        highest = table.q[first + a] if table.q[first + a] > highest else highest
+        other = table.q[first + a + 1] if table.q[first + a + 1] > other else other
+    return other if other > highest else highest
 
 
 @kernel
@@ -79,10 +80,10 @@ def sample_move(table: QTable, state: int, heat: float, owner: Rng, odds: list[f
     """
     first = state * ACTIONS
     highest = max_value(table, state)
-    total = 0.0
+    untried, total = power_of(0.0, highest, heat), 0.0  # most values are 0 or the highest, and exp takes long
     for a in range(ACTIONS):
-        power = (table.q[first + a] - highest) / heat
-        odds[a] = exp(power) if power > VANISHING else 0.0
+        q = table.q[first + a]
+        odds[a] = untried if q == 0.0 else 1.0 if q == highest else power_of(q, highest, heat)
         total += odds[a]
     rest = uniform(owner) * total
     for a in range(ACTIONS):
@@ -90,6 +91,13 @@ def sample_move(table: QTable, state: int, heat: float, owner: Rng, odds: list[f
         if rest < 0.0:
             return a
     return ACTIONS - 1
+
+
+@kernel
+def power_of(q: float, highest: float, heat: float) -> float:
+    """exp((q - highest) / heat)."""
+    power = (q - highest) / heat
+    return exp(power) if power > VANISHING else 0.0
 
 
 @kernel

@@ -8,8 +8,10 @@ from typing import Any
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.learning.evaluation import HANDMADE, Evaluation
 from pigaming_app.ai.learning.policy_summary import Direction, direction
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.learning.training import GAME, Checkpoint, TableTraining
 from pigaming_app.ai.registry import BRAINS
+from pigaming_app.games.game import Setup
 from pigaming_app.scenes.brain.rose import PETALS
 from pigaming_app.scenes.lab.learning_curve import Measure
 from pigaming_app.sim.world import HZ
@@ -20,7 +22,7 @@ MINUTES = {True: 2.0, False: 1.0}  # per match
 EXAM_SEED = 1000
 EXAM_INTERVAL = 8.0  # s between evaluations, provided the training advanced
 EXAMS_PER_CURVE = 25  # approximate evaluations over the length of the curve
-EXAM_SHARE = 0.04  # of the time at full speed, after as many matches
+EXAM_SHARE = 0.02  # of the time at full speed, after as many matches
 FORECAST = 0.5  # s after which the end of an evaluation can be foreseen
 FIRST_POINT = 8.0  # s after which the first evaluation ends with the matches played so far, at least two
 PICTURE = {True: 1 / 14, False: 1 / 100}  # s between frames, at full speed and otherwise
@@ -47,6 +49,7 @@ class TrainingProgress:
         self.checkpoints: dict[int, Checkpoint] = {}
         self.snapshot = TrainingState(training.snapshot(), 0, training.matches, knowing(training))
         self._exam: Evaluation | None = None
+        self._unplayed: dict[tuple[Setup, bool], Batch] = {}
         self._exam_start = -1.0  # matches at the start of the last evaluation
         self._exam_time = self._last_frame = self._last_direction = perf_counter()
         self._exam_seconds = 0.0  # that the last evaluation took
@@ -63,15 +66,15 @@ class TrainingProgress:
     def played(self) -> float:
         """Matches so far, including the fraction of the current one."""
         training = self.training
-        return training.matches + min(1.0, int(training.match.tick) / (training.minutes * 60 * HZ)) % 1.0
+        return training.matches + min(1.0, training.tick / (training.minutes * 60 * HZ)) % 1.0
 
     def train(self, ticks: int) -> None:
         """Train for `ticks`, recording checkpoints at match boundaries."""
         training = self.training
         whole = round(training.minutes * 60 * HZ)
         while ticks > 0:
-            left = whole - int(training.match.tick)
-            batch = min(ticks, left if left > 0 else whole)
+            due = next((matches for matches in CHECKPOINTS if matches > training.matches), 0)
+            batch = min(ticks, (due - training.matches) * whole - training.tick % whole) if due else ticks
             training.run(batch)
             ticks -= batch
             self._save_checkpoint()
@@ -125,7 +128,7 @@ class TrainingProgress:
         training, handmade = self.training, BRAINS[GAME][HANDMADE]
         fast = training.fast
         minutes = min(MINUTES[fast], training.minutes)
-        return Evaluation(learned, handmade, MATCHES[fast], EXAM_SEED, minutes, training.arena, fast)
+        return Evaluation(learned, handmade, MATCHES[fast], EXAM_SEED, minutes, training.arena, fast, self._unplayed)
 
     def _save_checkpoint(self) -> None:
         """Save a checkpoint if one is due."""

@@ -15,7 +15,7 @@ from pigaming_app.ai.learning.evaluation import compile_all
 from pigaming_app.ai.learning.training import Checkpoint, TableTraining, resumed
 from pigaming_app.ai.qlearning.recipe import Recipe
 from pigaming_app.ai.qlearning.table_files import Trained
-from pigaming_app.scenes.lab.progress import TrainingProgress, TrainingState
+from pigaming_app.scenes.lab.progress import EXAMS_PER_CURVE, TrainingProgress, TrainingState
 from pigaming_app.scenes.lab.rewarded import Rewarded
 from pigaming_app.scenes.lab.saved_robots import RobotFileError, save_robot
 from pigaming_app.sim.arena import ArenaError
@@ -25,7 +25,8 @@ from pigaming_app.ui import memory as heap
 
 FASTEST = 2  # index of full speed
 FACTORS = (1, 10)  # times real time
-CHUNK = 6000  # ticks per batch at full speed: a match, 2 to 3 ms compiled
+CHUNK = 6000  # ticks of a match
+TURN = 0.02  # s that a batch takes at most at full speed, of one match or more: between two, drawing may hold Python
 MAX_BACKLOG = 4  # frames of ticks to catch up at most; the rest is dropped
 FEED_TIMEOUT = 0.7  # s without `feed` after which the thread ends
 SLICE = 0.007  # s per frame for interpreted training and evaluation; rendering takes 2 of the 16 ms
@@ -211,15 +212,18 @@ class Trainer(Rewarded[Recipe]):
                 self.progress.replace_training(self.training)
 
     def _run(self) -> None:
-        last = perf_counter()
+        last, chunk = perf_counter(), CHUNK
         while self._active:
             now = perf_counter()
             with self._lock:
                 self._follow_recipe()
-                ticks = CHUNK if self.speed == FASTEST else self._due(now - last)
+                at_once = CHUNK * max(1, self.training.matches // EXAMS_PER_CURVE)  # evaluations are no farther apart
+                ticks = min(chunk, at_once) if self.speed == FASTEST else self._due(now - last)
                 exam = self.progress.exam_due(self.speed == FASTEST)
                 if not (exam and self.speed == FASTEST):
                     self.progress.train(ticks)
+                    if self.speed == FASTEST:
+                        chunk = next_chunk(ticks, perf_counter() - now)
                 self.progress.publish(self.speed == FASTEST)
                 progress = self.progress
             last = now
@@ -229,3 +233,8 @@ class Trainer(Rewarded[Recipe]):
                 progress.record_exam()
             if self.speed < FASTEST:
                 sleep(max(0.0, 1 / HZ - (perf_counter() - now)))
+
+
+def next_chunk(ticks: int, seconds: float) -> int:
+    """Ticks of whole matches to play in a batch, after one of `ticks` took `seconds`: twice as many at most."""
+    return CHUNK * max(1, int(min(2.0 * ticks, ticks * TURN / max(seconds, 1e-6)) / CHUNK))

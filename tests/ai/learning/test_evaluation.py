@@ -3,8 +3,10 @@
 import pytest
 
 from pigaming_app.ai.learning.evaluation import HANDMADE, Evaluation
+from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.learning.training import GAME, contest
 from pigaming_app.ai.registry import BRAINS
+from pigaming_app.games.game import Setup
 
 HARD, IDLE, OWN = BRAINS[GAME]["level5"], BRAINS[GAME]["idle"], BRAINS[GAME][HANDMADE]
 
@@ -37,3 +39,13 @@ def test_after_its_end_nothing_more_is_played() -> None:
     evaluation = played(Evaluation(IDLE, IDLE, 2, 1, minutes=0.02), 50)
     evaluation.play(50)
     assert evaluation.wins + evaluation.ties + evaluation.losses == 2
+
+
+def test_evaluations_that_share_their_starts_leave_them_as_they_were() -> None:
+    unplayed: dict[tuple[Setup, bool], Batch] = {}
+    for _ in range(2):
+        evaluation = played(Evaluation(HARD, IDLE, 4, 3, minutes=0.3, unplayed=unplayed), 500)
+        assert (evaluation.wins, evaluation.ties, evaluation.losses) == contest(
+            HARD, IDLE, 4, 3, minutes=0.3, fast=False
+        )
+    assert [batch.ticks() for batch in unplayed.values()] == [0, 0]

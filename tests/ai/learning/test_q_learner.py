@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import cos, exp, pi, sin, tau
+from random import Random
 
 import pytest
 
@@ -20,9 +21,12 @@ from pigaming_app.ai.qlearning.features import (
     NONE,
     SECTORS,
     STATES,
+    WIDE,
     bullet_of,
+    exact_sector,
     nearest_opponent,
     opponent_of,
+    quick_sector,
     sector,
     situation,
     state,
@@ -35,6 +39,7 @@ from pigaming_app.ai.qlearning.table import (
     PAIRS,
     LearnerMind,
     QTable,
+    max_value,
     move_probabilities,
     reset,
     sample_move,
@@ -90,6 +95,29 @@ def test_sector_0_is_centred_straight_ahead_and_they_go_on_clockwise(k, heading)
     for off in (-0.49, 0.0, 0.49):
         bearing = heading + (k + off) * tau / 16
         assert sector(100.0 * cos(bearing), 100.0 * sin(bearing), heading) == k
+
+
+def test_the_quick_sector_is_the_exact_one_at_every_edge_and_in_between():
+    chance, headings = Random(1), [0.0, 1.0, pi, 6.2, tau - 1e-9]
+    offsets = [(chance.uniform(-1600.0, 1600.0), chance.uniform(-900.0, 900.0)) for _ in range(1000)]
+    offsets += [
+        (1.0, 0.0),
+        (-1.0, 0.0),
+        (-1.0, -0.0),
+        (0.0, 1.0),
+        (0.0, -1.0),
+        (-0.0, 1.0),
+        (1e-9, 1e3),
+        (7.0, 7.0),
+        (0.0, 0.0),
+    ]
+    for heading in headings:
+        for k in range(SECTORS):
+            edge = heading + (k + 0.5) * WIDE
+            nearby = [edge + sign * 10.0**power for sign in (-1, 1) for power in range(-16, 0)]
+            offsets += [(500.0 * cos(bearing), 500.0 * sin(bearing)) for bearing in nearby]
+        for dx, dy in offsets:
+            assert quick_sector(dx, dy, heading) == exact_sector(dx, dy, heading), (dx, dy, heading)
 
 
 def test_it_sees_the_opponent_the_closest_wall_and_the_closest_bullet_that_comes_nearer():
@@ -348,6 +376,19 @@ def test_the_roulette_draws_by_exp_of_q_over_t():
         assert count / 20_000 == pytest.approx(wish, abs=0.012)  # 4 standard deviations are 0.0094
 
 
+@pytest.mark.parametrize("heat", [0.5, 0.02])
+def test_powers_and_the_highest_value_are_those_of_their_definitions_to_the_bit(heat):
+    table, chance = taught(), Random(2)
+    for _ in range(200):
+        table.q[:ACTIONS] = row = [
+            chance.choice([0.0, 0.0, 10.0, -1.0, chance.gauss(0.0, 5.0)]) for _ in range(ACTIONS)
+        ]
+        odds = [0.0] * ACTIONS
+        sample_move(table, 0, heat, table, odds)
+        assert max_value(table, 0) == max(row)
+        assert odds == [exp((q - max(row)) / heat) for q in row]
+
+
 def test_q_of_25_at_the_lowest_temperature_overflows_nothing():
     table = taught()
     table.q[:ACTIONS] = [25.0 if a == DRIVE else -25.0 for a in range(ACTIONS)]
@@ -359,7 +400,7 @@ def test_both_robots_learn_into_one_table_ten_times_a_second():
     table, minds = taught(), (LearnerMind(), LearnerMind())
     game = Match(training_setup(1)).game
     while not match.over:
-        for seat in (0, 1):
+        for seat in (0, 1) if match.tick % table.knobs.period == 0 else ():
             learn(match, seat, minds[seat], table)
         game.judge(match)
     assert table.experiences == 2 * (60 - 1)

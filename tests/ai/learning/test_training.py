@@ -97,6 +97,17 @@ def test_the_same_seed_is_the_same_table_and_slices_do_not_matter(fast):
 
 
 @pytest.mark.parametrize("fast", BODIES)
+def test_matches_played_in_one_call_are_those_played_one_by_one(fast, monkeypatch):
+    courses = []
+    for most in (1, 3, 64):
+        monkeypatch.setattr(training, "MOST_AT_ONCE", most)
+        courses.append(short(fast))
+        courses[-1].run(7 * 300 + 100)
+        assert (courses[-1].matches, courses[-1].tick) == (7, 100)
+    assert len({(digest(course._tables[0]), digest(course.snapshot())) for course in courses}) == 1
+
+
+@pytest.mark.parametrize("fast", BODIES)
 def test_a_recipe_may_change_on_the_way_and_the_table_is_kept(fast):
     course = short(fast)
     course.run(300)

@@ -12,9 +12,11 @@ from pathlib import Path
 import pytest
 
 from pigaming_app.ai.learning.compiler import Compiler
-from pigaming_app.ai.qlearning.recipe import RECIPES
+from pigaming_app.ai.learning.training import TableTraining
+from pigaming_app.ai.qlearning.recipe import RECIPES, Recipe
 from pigaming_app.scenes.lab import trainer as trainer_module
-from pigaming_app.scenes.lab.trainer import FASTEST, Trainer
+from pigaming_app.scenes.lab.progress import TrainingProgress
+from pigaming_app.scenes.lab.trainer import CHUNK, FASTEST, TURN, Trainer, next_chunk
 from pigaming_app.sim.kernel import can_compile
 
 needs_numba = pytest.mark.skipif(not can_compile(), reason="numba is not installed")
@@ -93,6 +95,20 @@ def endless() -> Iterator[Compiler]:
     compiler = Compiler(ENDLESS)
     yield compiler
     compiler.end()
+
+
+def test_a_checkpoint_is_of_its_very_match_however_many_are_played_at_once() -> None:
+    progress = TrainingProgress(TableTraining(Recipe(), 1, fast=False, minutes=0.004))  # matches of 12 ticks
+    for ticks in (7, 60 * 12 - 4):
+        progress.train(ticks)
+    found = {wanted: (one.matches, one.experiences) for wanted, one in progress.checkpoints.items()}
+    assert found == {0: (0, 0), 10: (10, 60), 50: (50, 300)}  # three of each robot in a match
+    assert (progress.training.matches, progress.training.tick) == (60, 3)
+
+
+def test_a_batch_is_a_match_where_they_are_slow_and_grows_to_its_time_where_they_are_fast() -> None:
+    assert next_chunk(CHUNK, 10 * TURN) == next_chunk(8 * CHUNK, 10 * TURN) == CHUNK
+    assert [next_chunk(ticks * CHUNK, ticks * TURN / 9.5) // CHUNK for ticks in (1, 2, 4, 8, 9)] == [2, 4, 8, 9, 9]
 
 
 @needs_numba
