@@ -62,7 +62,7 @@ def test_a_board_at_a_port_becomes_robot_three(tmp_path: Path) -> None:
         assert "geheim" not in done.stdout + done.stderr
         usb.plug()
         with BoardOnUsb(usb.port) as board:
-            told = board._ask("import config\nprint(config.ROBOT, config.NETWORK, config.PASSWORD, len(config.KEY))")
+            told = board.ask("import config\nprint(config.ROBOT, config.NETWORK, config.PASSWORD, len(config.KEY))")
     assert told == "3 Schule geheim 32"
 
 
@@ -81,5 +81,5 @@ def test_a_pololu_becomes_robot_two_without_a_network(tmp_path: Path) -> None:
         assert "main.py robots --radio-setup 2" in done.stdout
         usb.plug()
         with BoardOnUsb(usb.port) as board:
-            told = board._ask("import config\nprint(config.ROBOT, config.RADIO, config.ARENA > 0)")
+            told = board.ask("import config\nprint(config.ROBOT, config.RADIO, config.ARENA > 0)")
     assert told == "2 serial_radio True"

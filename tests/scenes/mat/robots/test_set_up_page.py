@@ -90,4 +90,4 @@ def test_a_board_becomes_robot_two_and_the_next_one_three(
     assert page.robot == 3
     usb.plug()
     with BoardOnUsb(usb.port) as board:
-        assert board._ask("import config\nprint(config.ROBOT, config.NETWORK, config.PASSWORD)") == "2 Hof geheim"
+        assert board.ask("import config\nprint(config.ROBOT, config.NETWORK, config.PASSWORD)") == "2 Hof geheim"
