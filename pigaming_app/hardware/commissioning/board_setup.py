@@ -40,7 +40,7 @@ KINDS = {
     "microbit": BoardKind("micro:bit", "", MICROBIT),
     "cutebot": BoardKind("Cutebot", "cutebot", MICROBIT),
     "maqueen": BoardKind("Maqueen", "maqueen", MICROBIT),
-    "relay": BoardKind("micro:bit, R", "", MICROBIT),  # on the computer's USB port; it shows R
+    "relay": BoardKind("micro:bit", "", MICROBIT),  # on the computer's USB port
 }
 BOARDS = {"rp2": "pico_w", "esp32": "esp32"}  # kind by `sys.platform`, of boards with Wi-Fi
 MAKER = "pololu"  # in the name of the machine, by Pololu's own MicroPython
@@ -173,8 +173,10 @@ def _set_up(port: str, board: str, files: Callable[[str], Mapping[str, bytes]], 
 def _try_on_blocks(port: str, board: str, tell: Callable[[str], None]) -> int:
     with BoardOnUsb(port) as connected:
         kind = connected.kind_or(board)
+        folder = PROGRAM / "microbit" if KINDS[kind].radio == MICROBIT else PROGRAM
+        folder = PROGRAM / "microbit" if KINDS[kind].radio == MICROBIT else PROGRAM
         connected.begin_anew()
-        connected.ask((PROGRAM / ("microbit" if KINDS[kind].radio == MICROBIT else "") / "on_blocks.py").read_text("utf-8"))
+        connected.ask((folder / "on_blocks.py").read_text("utf-8"))
         for name, (left, right) in TURNS.items():
             tell(name)
             connected.ask(f"turn({left}, {right}, {TURN_MS})")

@@ -6,7 +6,6 @@ spare, in chunks of 126 bytes, and an open file has replaced the one before (mic
 
 import builtins
 import os
-import sys
 
 MISSING = "hashlib", "network", "binascii", "_thread"
 CHUNKS, CHUNK = 128, 126  # bytes

@@ -1,9 +1,10 @@
-"""Test of a micro:bit robot on blocks: sent by USB, and not kept. A turn ends by itself, whatever becomes of the cable."""
+"""Test of a micro:bit on blocks: sent by USB, and not kept. A turn ends by itself, whatever becomes of the cable."""
 
 import time
 
-import main
 from microbit import display, sleep
+
+import main
 
 robot = main.Robot()  # its timer brakes 200 ms after the last command
 

@@ -166,7 +166,7 @@ def main():
 
 
 def run(robot):
-    """Drive and report. The watchdog, which nothing stops, starts with the first command: until then USB may interrupt."""
+    """Drive and report. The watchdog, which nothing stops, starts with the first command; USB may interrupt before."""
     radio.config(channel=ARENA % 84, group=ARENA // 84, length=32, queue=8, power=7)
     radio.on()
     shown, watched = None, False
