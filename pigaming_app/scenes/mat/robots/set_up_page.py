@@ -169,5 +169,8 @@ class SetUpPage(SettingsPage):
     def _told(self, result: str | int) -> str:
         words = self.context.words
         if isinstance(result, int):
-            return words("board.tried", volts=f"{numeral(result / 1000, 1)} V" if result else words("board.unmeasured"))
+            return words(
+                "board.tried",
+                volts=f"{words.decimal(numeral(result / 1000, 1))} V" if result else words("board.unmeasured"),
+            )
         return words("board.done_relay") if result == "relay" else words("board.done", robot=self.robot)

@@ -13,6 +13,11 @@ const monotonic = () => Number(process.hrtime.bigint() / 1000000n);
 const nothing = () => {}, pins = {};
 let changed = false, micropython, asked = 0; // bytes of PASTE that have come
 
+function tell() {
+  if (changed) process.stderr.write(JSON.stringify(pins) + "\n");
+  changed = false;
+}
+
 globalThis.bridge = {
   ticks: monotonic, board: () => board, pulses: () => 0, button: () => 0, hangs: () => false, fault: () => 0,
   battery: () => BATTERY, divider: () => board === "board_pololu_2040" ? 11 : 3, reference: () => REFERENCE,
@@ -22,8 +27,7 @@ globalThis.bridge = {
     pins[name] = value;
   },
   wait(until) {
-    if (changed) process.stderr.write(JSON.stringify(pins) + "\n");
-    changed = false;
+    tell();
     Atomics.wait(clock, 0, 0, Math.max(1, until - monotonic()));
   },
 };
@@ -61,6 +65,7 @@ async function take(byte) {
     micropython.replInit();
     micropython.replProcessChar(1); // the prompt stays raw
   }
+  tell();
 }
 
 await boot([]);
