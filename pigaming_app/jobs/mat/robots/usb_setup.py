@@ -59,12 +59,12 @@ def set_up(options: Any, words: Sequence[str]) -> int:
     board = options.board or ""
     with refused(OperatorError):
         port = words[1] if len(words) > 1 else board_setup.only_port()
-        password = _password(settings, options)
+        network, password = _wifi(options)
         print(f"{port}: robot {options.robot}", flush=True)
         kind = board_setup.set_up(
             port,
             board,
-            lambda board: board_setup.files_of(board, options.robot, arena, key, settings.phones_wifi, password),
+            lambda board: board_setup.files_of(board, options.robot, arena, key, network, password),
             lambda name, new: print(f"  {name:12} {'written' if new else 'as it was'}", flush=True),
         )
         print(f"{kind} is {'ready: leave it here' if kind == 'relay' else f'robot {options.robot}'}", flush=True)
@@ -90,8 +90,9 @@ def _print_next(options: Any, kind: str) -> None:
         print(f"Then, on blocks: main.py robots --radio {radio} --wheels {options.robot}")
 
 
-def _password(settings: Settings, options: Any) -> str:
-    """The password of the Wi-Fi, typed once, and kept; where, is printed. Raises Refusal if it cannot be."""
+def _wifi(options: Any) -> tuple[str, str]:
+    """Name and password of the Wi-Fi, typed once, and kept; where, is printed. Raises Refusal if it cannot be."""
+    settings, _ = Settings.load(folders().config)
     before = settings.phones_wifi, settings.phones_wifi_key
     if options.network:
         wifi.rename(settings, options.network)
@@ -107,7 +108,7 @@ def _password(settings: Settings, options: Any) -> str:
     if before != (settings.phones_wifi, settings.phones_wifi_key):
         with refused(NotSaved):
             wifi.save(settings)
-    return wifi.password(settings, wifi.PATIENT)
+    return name, wifi.password(settings, wifi.PATIENT)
 
 
 def _address(robot: int) -> str:
