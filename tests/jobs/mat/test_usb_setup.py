@@ -110,7 +110,12 @@ def test_the_password_is_typed_once_and_where_it_is_kept_is_told(
 
     def told(types: str, **options: Any) -> str:
         """What is printed when somebody is there who types."""
-        monkeypatch.setattr(usb_setup, "typed", lambda prompt, job: [types, prompts.append(prompt)][0])
+
+        def typed(prompt: str, job: str) -> str:
+            prompts.append(prompt)
+            return types
+
+        monkeypatch.setattr(usb_setup, "typed", typed)
         wifi._keyring.cache_clear()
         wifi._found.clear()
         wifi._asked.clear()
@@ -136,6 +141,7 @@ def test_the_password_is_typed_once_and_where_it_is_kept_is_told(
 
 
 @pytest.mark.long
+@pytest.mark.again
 def test_a_microbit_becomes_robot_two_and_is_tried_on_blocks(tmp_path: Path) -> None:
     try:
         interpreter()
