@@ -38,7 +38,7 @@ def setup(home: Path, *words: str, typed: str = "geheim\n") -> subprocess.Comple
         (("a", "b", "--network", "x"), "one word more"),
         (("/dev/nothing", "--network", "x"), "/dev/nothing is gone or in use"),
         (("--network", "x", "--robot", "5"), "is more than 4"),
-        (("/dev/nothing", "--network", 33 * "x"), "the name has at most 32 letters"),
+        (("/dev/nothing", "--network", 33 * "x"), "a name has at most 32 letters"),
     ],
 )
 def test_what_cannot_be_set_up_is_refused_in_one_line(tmp_path: Path, words: tuple[str, ...], said: str) -> None:

@@ -60,7 +60,7 @@ def set_up(options: Any, words: Sequence[str]) -> int:
     with refused(OperatorError):
         port = words[1] if len(words) > 1 else board_setup.only_port()
         network, password = _wifi(options)
-        print(f"{port}: robot {options.robot}", flush=True)
+        print(f"{port}: {'relay' if board == 'relay' else f'robot {options.robot}'}", flush=True)
         kind = board_setup.set_up(
             port,
             board,
@@ -95,12 +95,14 @@ def _wifi(options: Any) -> tuple[str, str]:
     settings, _ = Settings.load(folders().config)
     before = settings.phones_wifi, settings.phones_wifi_key
     if options.network:
+        if len(options.network) > wifi.NAME:
+            raise Refusal(f"--network: a name has at most {wifi.NAME} letters")
         wifi.rename(settings, options.network)
     known, name = wifi.password(settings, wifi.PATIENT), settings.phones_wifi
     if options.password or (options.network and not known):
         password = typed(f"Password of {name}: ", "robots setup")
-        if len(name) > wifi.NAME or len(password) > wifi.LONGEST:
-            raise Refusal(f"robots setup: the name has at most {wifi.NAME} letters, the password {wifi.LONGEST}")
+        if len(password) > wifi.LONGEST:
+            raise Refusal(f"robots setup: a password has at most {wifi.LONGEST} letters")
         if wifi.keep(settings, password):
             print("The password is in the system's keyring.")
         elif password:
