@@ -33,6 +33,7 @@ os.environ["SDL_AUDIODRIVER"] = "dummy"
 os.environ["SDL_JOYSTICK_ALLOW_BACKGROUND_EVENTS"] = "1"  # as in the arcade: pads count though a window was closed
 os.environ["LANG"] = "C.UTF-8"  # the arcade starts in English
 os.environ.pop("LANGUAGE", None)
+os.environ["PYTHON_KEYRING_BACKEND"] = "keyring.backends.fail.Keyring"  # never that of whoever runs the tests
 os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
 os.environ.update(dict.fromkeys(BLAS, "1"))  # as in every job, which comes too late here
 os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))  # before home moves: compiling takes long

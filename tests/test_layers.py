@@ -49,7 +49,7 @@ ONLY_IN = {
 }
 DEPENDENCIES = {"pygame", "numpy", "platformdirs", "tomli_w", "msgspec", "networkx", "numba", "llvmlite"}
 DEPENDENCIES |= {"cv2", "serial", "matplotlib", "onnxruntime", "gymnasium", "pettingzoo", "pymunk", "ray", "PIL"}
-DEPENDENCIES |= {"aiohttp", "segno", "ifaddr", "cryptography", "mpremote", "stable_baselines3"}
+DEPENDENCIES |= {"aiohttp", "segno", "ifaddr", "cryptography", "keyring", "mpremote", "stable_baselines3"}
 ROS = {"rospy", "rosgraph", "geometry_msgs", "sensor_msgs", "std_msgs"}  # of the system, in one module
 DEPENDENCIES |= ROS
 FILES = [PACKAGE.parent / "main.py", *sorted(path for path in PACKAGE.rglob("*.py") if "micropython" not in path.parts)]

@@ -69,12 +69,21 @@ def prepare(needed: set[str], optional: set[str]) -> Path:
             install(place, needed | installed_groups(place))
         complete = installed_groups(place)
         if not optional <= complete:
-            try:
-                install(place, complete | optional)
-            except StartError as trouble:
-                report(f"{trouble} Going on without {_names(requirements(optional))}.")
-                install(place, complete)
+            _add(place, sorted(optional - complete))
     return place
+
+
+def _add(place: Path, extras: list[str]) -> None:
+    """Install extras all together, or else each that can be. Raises StartError without what was there before."""
+    complete = installed_groups(place)
+    try:
+        install(place, complete | {*extras})
+    except StartError as trouble:
+        if len(extras) == 1:
+            report(f"{trouble} Going on without {_names(requirements(extras))}.")
+        install(place, complete)
+        for extra in extras if len(extras) > 1 else ():
+            _add(place, [extra])
 
 
 def _claimed() -> tuple[Path, IO[str]]:

@@ -31,6 +31,7 @@ OPTIONAL = {
 }  # extras that a job also runs without
 OPTIONAL |= {"test": {"train", "hardware", "plots", "gym", "onnx", "phones"}, "bench": {"train", "gym", "bench"}}
 OPTIONAL |= {"bundle": {"train", "hardware", "phones", "events"}}
+WITH_WIFI = {"hardware", "phones"}  # extras that come with `keyring`, for the Wi-Fi's password
 EXTRA_OF_WORD = {  # words that require an extra anywhere on the command line
     **dict.fromkeys(("robots", "calibrate", "fidelity", "ros", "--emulate", "--real"), "hardware"),
     **dict.fromkeys(("--curve", "--plots"), "plots"),
@@ -68,7 +69,8 @@ def extras(args: list[str]) -> set[str]:
     """The extras that a command line may use."""
     found = {EXTRA_OF_WORD[word] for word in (arg.partition("=")[0] for arg in args) if word in EXTRA_OF_WORD}
     found |= {extra for suffix, extra in EXTRA_OF_FILE.items() if any(suffix in arg.lower() for arg in args)}
-    return found | OPTIONAL.get(job_of(args), set())
+    found |= OPTIONAL.get(job_of(args), set())
+    return found | {"keyring"} if found & WITH_WIFI else found
 
 
 def hand_over(place: Path, args: list[str]) -> int:

@@ -35,6 +35,7 @@ PROGRAM = "pigaming" if INSTALLED or FROZEN else "main.py"
 EXTRAS = {
     "train": "bench, duel, league and train are slow without it; the arcade does not need it",
     "hardware": "only real robots need it",
+    "keyring": "without it the Wi-Fi's password of robots and phones is a setting, as plain text",
     "ray": "only training on several machines needs it",
     "phones": "only phones as pads or as the camera need it",
     "onnx": "only ONNX models as players need it",

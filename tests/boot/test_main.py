@@ -173,6 +173,14 @@ def test_a_duel_goes_on_without_the_compiler(furnished):
     assert "Going on without numba." in ended.stderr
 
 
+def test_robots_go_on_without_a_keyring_where_there_is_none_for_this_machine(furnished):
+    """It needs `cryptography` on Linux, which some machines have no wheel of."""
+    ended = started(furnished, "robots", MOOD="keyring:No matching distribution found for keyring")
+    assert ended.stdout == f"{furnished / '.venv'} robots\n"
+    assert re.findall(r"Going on without .*", ended.stderr) == ["Going on without keyring."]
+    assert interpreter.installed_groups(furnished / ".venv") == {"arcade", "hardware"}
+
+
 @pytest.mark.parametrize("words", [["play", "--real=1,3"], ["--emulate", "3"], ["bench", "robots"]], ids=" ".join)
 def test_words_for_real_robots_install_opencv(furnished, words):
     started(furnished, *words)

@@ -70,7 +70,7 @@ from pigaming_app.scenes.lobby.match_setup import MatchSetupPage
 from pigaming_app.scenes.lobby.scene import Lobby, game_choice
 from pigaming_app.scenes.lobby.seats import LobbySeats
 from pigaming_app.scenes.mat.robots.menu import RobotsMenu
-from pigaming_app.scenes.mat.robots.set_up_page import SetUpPage
+from pigaming_app.scenes.mat.robots.set_up_page import BoardWork, SetUpPage
 from pigaming_app.scenes.options import games_page
 from pigaming_app.scenes.options.games_page import NewGame
 from pigaming_app.scenes.options.page import SECTIONS, OptionsPage
@@ -509,6 +509,18 @@ PLUGINS = (
 )
 
 
+def board_failed(arcade: Arcade) -> Scene:
+    """The page after a test on blocks that found no micro:bit."""
+    page = SetUpPage(arcade.context)
+    page.work = BoardWork("blocks", lambda note: 0)
+    page.work.done = [arcade.context.words(f"board.turn_{turn}") for turn in ("left", "right", "back", "lamp")]
+    page.show_message(
+        arcade.context.words.sentence(OperatorMessage("board_microbit", port="/dev/ttyACM10")), wrong=True
+    )
+    page.focus.move_to("blocks")
+    return page
+
+
 def added_games(arcade: Arcade, first: int = 0) -> Scene:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(games_page, "found", lambda: PLUGINS)
@@ -683,6 +695,7 @@ SCREENS: dict[str, Callable[[Arcade], Scene]] = {
     **{f"options {section}": partial(options, section=section) for section in SECTIONS},
     "remap": lambda arcade: RemapPage(arcade.context),
     "board set-up": lambda arcade: SetUpPage(arcade.context),
+    "board set-up that failed": board_failed,
     "guide of the mat": robots_drawn.guide,
     "robots menu": lambda arcade: RobotsMenu(arcade.context),
     "marker sheet written": sheet_written,

@@ -29,10 +29,12 @@ STRIPPED = (
     "numba/**/*.so",
     "PIL/*.so",
     "aiohttp/**/*.so",
+    "_cffi_backend*.so",
     "cryptography/**/*.so",
     "frozenlist/*.so",
     "multidict/*.so",
     "propcache/*.so",
+    "pygame/**/*.so",
     "yarl/*.so",
 )
 APP = "PiGaming.app"  # on macOS, beside the folder

@@ -32,6 +32,7 @@ from pigaming_app.ui.i18n import Words
 from pigaming_app.ui.input.events import Button, Device, InputEvent
 from pigaming_app.ui.input.phones.host import PhoneHost
 from pigaming_app.ui.web.code import qr_code, wifi_text
+from pigaming_app.ui.web.wifi import password
 from pigaming_app.ui.widgets.labels import pulse, sign
 
 IDLE = 60.0  # s without input until the title
@@ -142,7 +143,7 @@ class JoinByPhone(Page):
 
 def draw_wifi(screen: pygame.Surface, settings: Settings, box: pygame.Rect) -> None:
     """Draw the code of the Wi-Fi in the middle of a box."""
-    code = qr_code(wifi_text(settings.phones_wifi, settings.phones_wifi_key), box.w, kit.BLACK, kit.ICE)
+    code = qr_code(wifi_text(settings.phones_wifi, password(settings)), box.w, kit.BLACK, kit.ICE)
     screen.blit(code, code.get_rect(center=box.center))
 
 

@@ -7,7 +7,7 @@ import pygame
 from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
 from pigaming_app.scenes.pages.settings_page import SettingsPage
-from pigaming_app.scenes.pages.wifi import WIFI, wifi_typing, wifi_value
+from pigaming_app.scenes.pages.wifi import WIFI, wifi_line, wifi_typing, wifi_value
 from pigaming_app.scenes.phones.host import phone_host
 from pigaming_app.scenes.phones.join import JoinByPhone, draw_code, draw_wifi, plain, trouble
 from pigaming_app.scenes.phones.list_page import PhoneList
@@ -77,6 +77,9 @@ class PhonesPage(SettingsPage):
         if chosen and chosen not in known:
             return SettingValue("arrows", (*names, chosen), len(names))
         return SettingValue("arrows", tuple(names), known.index(chosen) + 1 if chosen else 0)
+
+    def line(self, name: str) -> str:
+        return wifi_line(self, name) if name in WIFI else super().line(name)
 
     def _names(self) -> list[str]:
         """The names under which the networks are stored."""

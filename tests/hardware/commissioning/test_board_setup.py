@@ -24,8 +24,8 @@ def usb() -> Iterator[UsbBoard]:
 
 def on_board(board: BoardOnUsb) -> dict[str, str]:
     """The hash of each file on the board, as its own interpreter has it."""
-    names = board._ask("import os\nprint(' '.join(n for n in os.listdir('/') if n.endswith(('.py', '.part'))))").split()
-    return {name: board._ask(HASH.replace("NAME", repr(name))) for name in names}
+    names = board.ask("import os\nprint(' '.join(n for n in os.listdir('/') if n.endswith(('.py', '.part'))))").split()
+    return {name: board.ask(HASH.replace("NAME", repr(name))) for name in names}
 
 
 HASH = """
@@ -54,17 +54,17 @@ def test_all_files_arrive_and_the_second_time_none_is_written(usb: UsbBoard) -> 
 def test_a_program_that_came_over_the_air_makes_room_for_that_of_usb(usb: UsbBoard) -> None:
     with BoardOnUsb(usb.port) as board:
         board.write(FILES)
-        board._ask("for n in ('kept', 'trial'):\n with open(n, 'w') as f:\n  f.write('a')")
+        board.ask("for n in ('kept', 'trial'):\n with open(n, 'w') as f:\n  f.write('a')")
         board.write(FILES)
-        assert board._ask("import os\nprint('kept' in os.listdir() or 'trial' in os.listdir())") == "False"
+        assert board.ask("import os\nprint('kept' in os.listdir() or 'trial' in os.listdir())") == "False"
 
 
 def test_the_board_reads_name_and_password_as_they_were_typed(usb: UsbBoard) -> None:
     with BoardOnUsb(usb.port) as board:
         board.write(FILES)
-        assert board._ask("import config\nprint(config.NETWORK)") == 'Schule "Süd"'
-        assert board._ask("print(config.PASSWORD)") == "geheim\\\\ 'x'"
-        assert board._ask("print(config.ROBOT, config.ARENA, config.KEY)") == f"2 4711 {bytes(range(16)).hex()}"
+        assert board.ask("import config\nprint(config.NETWORK)") == 'Schule "Süd"'
+        assert board.ask("print(config.PASSWORD)") == "geheim\\\\ 'x'"
+        assert board.ask("print(config.ROBOT, config.ARENA, config.KEY)") == f"2 4711 {bytes(range(16)).hex()}"
 
 
 def test_a_changed_file_is_written_with_the_main_program_last(usb: UsbBoard) -> None:
@@ -121,7 +121,7 @@ def test_boards_are_told_apart_by_what_they_print(
     monkeypatch: pytest.MonkeyPatch, platform: str, wifi: int, machine: str, kind: str
 ) -> None:
     told = {"name": "micropython", "version": [1, 24], "platform": platform, "wifi": wifi, "machine": machine}
-    monkeypatch.setattr(BoardOnUsb, "_ask", lambda board, program: json.dumps(told))
+    monkeypatch.setattr(BoardOnUsb, "ask", lambda board, program: json.dumps(told))
     assert BoardOnUsb("any").kind() == kind
 
 

@@ -5,6 +5,7 @@ Skipped without Node.js and npm.
 
 import pytest
 
+from pigaming_app.hardware.commissioning.board_setup import END_RELAY
 from pigaming_app.hardware.emulator.wifi.boards import MicrobitConfig
 from pigaming_app.hardware.emulator.wifi.relay import MicrobitAir
 from pigaming_app.hardware.radio.link import Link
@@ -161,6 +162,35 @@ def test_the_relay_passes_on_whole_packets_only_and_no_byte_interrupts_it(air):
         air.put(0, packet[5:], b"usb")
         air.run(0.004)
     assert air.aired == [CHANNEL + packet for packet in packets]
+
+
+def test_bytes_03_without_a_head_end_the_relay_and_none_of_a_stream_of_packets_do(air):
+    """A robot that runs backwards has 03 in its packets; even if every second head is lost, the relay goes on."""
+    air.run(0.1)
+    slow = bytes([0xD1]) + 17 * b"\3"
+    for _ in range(6):
+        air.put(0, slow + slow[1:], b"usb")
+        air.run(0.01)
+    later = drive_packet(ARENA, 9, GO)
+    air.put(0, later, b"usb")
+    air.run(0.01)
+    assert air.aired[-1] == CHANNEL + later
+    air.put(0, END_RELAY, b"usb")
+    air.run(0.05)
+    before = len(air.aired)
+    air.put(0, drive_packet(ARENA, 1, GO), b"usb")
+    air.run(0.05)
+    assert len(air.aired) == before
+
+
+def test_ctrl_c_before_the_first_command_leaves_the_prompt_to_usb(air, link):
+    """The chip's watchdog, which nothing stops, would restart the program amid a set-up."""
+    air.boards.disturb(1, do="interrupt")
+    air.run(2.0)
+    assert not air.boards.resets
+    air.boards.disturb(2, do="hang board")
+    air.run(2.0)
+    assert not air.boards.resets
 
 
 def test_the_button_parks_a_robot_until_it_is_pressed_again(air, link):

@@ -4,12 +4,17 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from pigaming_app.hardware.commissioning import board_setup
 from pigaming_app.hardware.commissioning.board_setup import BoardOnUsb
 from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython, interpreter
 from pigaming_app.hardware.emulator.wifi.usb import UsbBoard
+from pigaming_app.jobs.mat.robots import RobotsOptions, usb_setup
+from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.ui.web import wifi
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -26,10 +31,14 @@ def setup(home: Path, *words: str, typed: str = "geheim\n") -> subprocess.Comple
     ("words", "said"),
     [
         (("/dev/nothing",), "/dev/nothing is gone or in use"),
-        (("--board", "zumo"), "choose from 'pico_w', 'esp32', 'pololu_2040'"),
+        (
+            ("--board", "zumo"),
+            "choose from 'pico_w', 'esp32', 'pololu_2040', 'microbit', 'cutebot'",
+        ),
         (("a", "b", "--network", "x"), "one word more"),
         (("/dev/nothing", "--network", "x"), "/dev/nothing is gone or in use"),
         (("--network", "x", "--robot", "5"), "is more than 4"),
+        (("/dev/nothing", "--network", 33 * "x"), "a name has at most 32 letters"),
     ],
 )
 def test_what_cannot_be_set_up_is_refused_in_one_line(tmp_path: Path, words: tuple[str, ...], said: str) -> None:
@@ -46,23 +55,24 @@ def test_a_board_at_a_port_becomes_robot_three(tmp_path: Path) -> None:
     except NoMicroPython as reason:
         pytest.skip(str(reason))
     with UsbBoard() as usb:
-        unknown = setup(tmp_path, usb.port, "--network", "Schule", "--no-wait")
-        assert unknown.returncode == 2
-        assert "is unknown: choose pico_w, esp32, pololu_2040" in unknown.stderr
-        usb.plug()
         nameless = setup(tmp_path, usb.port, "--board", "pico_w", "--no-wait")
         assert nameless.returncode == 2
         assert "joins a Wi-Fi" in nameless.stderr
         usb.plug()
+        unknown = setup(tmp_path, usb.port, "--network", "Schule", "--no-wait")
+        assert unknown.returncode == 2
+        assert "is unknown: choose pico_w, esp32, pololu_2040" in unknown.stderr
+        assert f"as plain text in {tmp_path}" in unknown.stdout
+        usb.plug()
         words = (usb.port, "--network", "Schule", "--robot", "3", "--board", "pico_w", "--no-wait")
-        done = setup(tmp_path, *words)
+        done = setup(tmp_path, *words, typed="")
         assert done.returncode == 0, done.stderr
         assert done.stdout.count("written") == 7
         assert "main.py robots --radio udp --wheels 3" in done.stdout
         assert "geheim" not in done.stdout + done.stderr
         usb.plug()
         with BoardOnUsb(usb.port) as board:
-            told = board._ask("import config\nprint(config.ROBOT, config.NETWORK, config.PASSWORD, len(config.KEY))")
+            told = board.ask("import config\nprint(config.ROBOT, config.NETWORK, config.PASSWORD, len(config.KEY))")
     assert told == "3 Schule geheim 32"
 
 
@@ -81,5 +91,69 @@ def test_a_pololu_becomes_robot_two_without_a_network(tmp_path: Path) -> None:
         assert "main.py robots --radio-setup 2" in done.stdout
         usb.plug()
         with BoardOnUsb(usb.port) as board:
-            told = board._ask("import config\nprint(config.ROBOT, config.RADIO, config.ARENA > 0)")
+            told = board.ask("import config\nprint(config.ROBOT, config.RADIO, config.ARENA > 0)")
     assert told == "2 serial_radio True"
+
+
+@pytest.mark.parametrize("keyring", ["Drawer", "Locked"])
+def test_the_password_is_typed_once_and_where_it_is_kept_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], keyring: str
+) -> None:
+    """The port is none, which is found out only after the Wi-Fi was typed."""
+    pytest.importorskip("keyring", reason="the extra `keyring` is not installed")
+    pytest.importorskip("mpremote", reason="the extra `hardware` is not installed")
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path))
+    monkeypatch.setenv("PYTHON_KEYRING_BACKEND", f"tests.ui.web.keyrings.{keyring}")
+    monkeypatch.setenv("KEYRING_DRAWER", str(tmp_path / "drawer"))
+    monkeypatch.setattr(board_setup, "AGAIN", 0.0)
+    prompts: list[str] = []
+
+    def told(types: str, **options: Any) -> str:
+        """What is printed when somebody is there who types."""
+
+        def typed(prompt: str, job: str) -> str:
+            prompts.append(prompt)
+            return types
+
+        monkeypatch.setattr(usb_setup, "typed", typed)
+        wifi._keyring.cache_clear()
+        wifi._found.clear()
+        wifi._asked.clear()
+        with pytest.raises(Refusal, match="gone or in use"):
+            usb_setup.set_up(RobotsOptions(**options), ["setup", "/dev/nothing"])
+        return capsys.readouterr().out
+
+    first = told("geheim", network="Schule")
+    again = told("falsch", network="Schule") + told("falsch")
+    assert prompts == ["Password of Schule: "], "it is not asked for a second time"
+    assert "falsch" not in again
+    settings = tmp_path / "config" / "settings.toml"
+    if keyring == "Drawer":
+        assert "The password is in the system's keyring." in first
+        assert "geheim" not in settings.read_text()
+        assert "geheim" in (tmp_path / "drawer").read_text()
+    else:
+        assert f"No keyring: the password stands as plain text in {settings}." in first
+        assert 'phones_wifi_key = "geheim"' in settings.read_text()
+    told("anders", password=True)
+    assert "anders" in (tmp_path / "drawer" if keyring == "Drawer" else settings).read_text()
+    wifi._keyring.cache_clear()
+
+
+@pytest.mark.long
+@pytest.mark.again
+def test_a_microbit_becomes_robot_two_and_is_tried_on_blocks(tmp_path: Path) -> None:
+    try:
+        interpreter()
+    except NoMicroPython as reason:
+        pytest.skip(str(reason))
+    with UsbBoard("microbit") as usb:
+        done = setup(tmp_path, usb.port, "--robot", "2", "--on-blocks", typed="")
+        assert done.returncode == 0, done.stderr
+        assert usb.motors[-1] == (0.0, 0.0)
+    assert [line.strip() for line in done.stdout.splitlines()[1:]] == [
+        "main.py      written",
+        "microbit is robot 2",
+        *("left wheel ahead", "right wheel ahead", "both wheels back", "lamp", "battery not measured"),
+        "Then, on blocks: main.py robots --radio relay --wheels 2",
+    ]

@@ -1,13 +1,15 @@
 """A board on USB: a pseudo-terminal that leads to MicroPython's own interpreter. The cable can be pulled."""
 
+import json
 import os
 import select
 import subprocess
 import threading
 from contextlib import suppress
+from itertools import groupby
 from typing import Self
 
-from pigaming_app.hardware.emulator.wifi.boards import HERE, interpreter
+from pigaming_app.hardware.emulator.wifi.boards import HERE, WIRING, Shares, interpreter
 
 PROMPT = b">>> "
 CHUNK = 64  # bytes of a USB packet
@@ -17,12 +19,19 @@ LOOK = 0.02  # s between two looks whether the cable is still there
 class UsbBoard:
     """A context manager. `port`: its present device; `sent`: bytes to the board since it was plugged in.
 
-    Its files stay, as on a board with a battery. Raises NoMicroPython.
+    `board`: one of boards.WIRING, whose hardware is then emulated, too: `pins` holds the values at its pins, one set
+    after another, `motors` the voltages of its wheels. Its files stay, as on a board with a battery. Raises
+    NoMicroPython.
     """
 
+    def __init__(self, board: str = "") -> None:
+        self._board = board
+        self.pins: list[dict[str, int]] = []
+
     def __enter__(self) -> Self:
-        command = ["node", str(HERE / "usb.mjs"), str(interpreter())]
-        self._node = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0)
+        command = ["node", str(HERE / "usb.mjs"), str(interpreter()), self._board]
+        pipe = subprocess.PIPE
+        self._node = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, bufsize=0)
         self._master, self.sent, self.port = -1, 0, ""
         self._lock = threading.Lock()
         self._reader: threading.Thread | None = None
@@ -31,6 +40,8 @@ class UsbBoard:
         while PROMPT not in heard:
             heard += self._node.stdout.read(CHUNK) or b""
         threading.Thread(target=self._down, name="usb down", daemon=True).start()
+        self._watcher = threading.Thread(target=self._watch, name="usb pins", daemon=True)
+        self._watcher.start()
         self.plug()
         return self
 
@@ -38,9 +49,16 @@ class UsbBoard:
         self.pull()
         self._node.kill()
         self._node.wait()
-        for pipe in (self._node.stdin, self._node.stdout):
+        self._watcher.join()
+        for pipe in (self._node.stdin, self._node.stdout, self._node.stderr):
             assert pipe
             pipe.close()
+
+    @property
+    def motors(self) -> list[Shares]:
+        """The voltages of left and right wheel, as shares of the battery's, each change once."""
+        left, right = WIRING[self._board]
+        return [shares for shares, _ in groupby((left.share(pins), right.share(pins)) for pins in self.pins)]
 
     def plug(self, cut_after: int | None = None) -> None:
         """Plug the cable in; a new device appears. `cut_after`: bytes after which it is pulled again."""
@@ -64,6 +82,12 @@ class UsbBoard:
         if master >= 0:
             os.close(self._slave)
             os.close(master)
+
+    def _watch(self) -> None:
+        """Note what happens at the pins."""
+        assert self._node.stderr
+        for line in self._node.stderr:
+            self.pins.append(json.loads(line))
 
     def _up(self, master: int, cut_after: int | None) -> None:
         """From the computer to the board."""

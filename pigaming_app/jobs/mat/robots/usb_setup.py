@@ -12,12 +12,20 @@ from pigaming_app.jobs.terminal.options import flag, integer, option, word
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
 from pigaming_app.jobs.terminal.typed import typed
 from pigaming_app.storage.messages import OperatorError
-from pigaming_app.storage.settings import Settings, folders
+from pigaming_app.storage.safe_files import NotSaved
+from pigaming_app.storage.settings import FILE, Settings, folders
 from pigaming_app.ui.i18n import english
+from pigaming_app.ui.web import wifi
 
 JOINS = 40.0  # s for a board to start and to join the network
 TICK = 0.1  # s
-BOARDS = ("pico_w", "esp32", "pololu_2040")
+BOARDS = ("pico_w", "esp32", "pololu_2040", "microbit", "cutebot", "maqueen", "relay")
+TURNS = {
+    "left": "left wheel ahead",
+    "right": "right wheel ahead",
+    "back": "both wheels back",
+    "lamp": "lamp",
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,11 +34,15 @@ class UsbSetupOptions:
 
     robot: int = option("with setup: its number, as on its marker; default 1", integer(1, ROBOTS), 1, metavar="ROBOT")
     network: str | None = option(
-        "with setup: the name of the Wi-Fi, for boards that have it; its password is asked", word, metavar="NAME"
+        "with setup: the name of the Wi-Fi, for boards that have it; default the one before", word, metavar="NAME"
     )
+    password: bool = flag("with setup: ask for the password of the Wi-Fi again")
     board: str | None = option(
-        "with setup: the board, if it is not recognised; its file board.py becomes ours again", choices=BOARDS
+        "with setup: the board, if it is not recognised, or what a micro:bit is plugged into; relay: the one that "
+        "stays at the computer; its file board.py becomes ours again",
+        choices=BOARDS,
     )
+    on_blocks: bool = flag("with setup: then turn the wheels of the robot, which stands on blocks, over the cable")
     no_wait: bool = flag("with setup: do not wait until the robot is in the network")
 
 
@@ -42,27 +54,63 @@ def set_up(options: Any, words: Sequence[str]) -> int:
     if len(words) > 2:
         raise Refusal("robots setup: one word more, a port: robots setup /dev/ttyACM0")
     require("hardware")
-    network = options.network or ""
     settings, _ = Settings.load(folders().config)
     arena, key = arena_id(settings), wifi_key(settings)
+    board = options.board or ""
     with refused(OperatorError):
         port = words[1] if len(words) > 1 else board_setup.only_port()
-        password = typed(f"Password of {network}: ", "robots setup") if network else ""
-        print(f"{port}: robot {options.robot}", flush=True)
+        network, password = _wifi(options)
+        print(f"{port}: {'relay' if board == 'relay' else f'robot {options.robot}'}", flush=True)
         kind = board_setup.set_up(
             port,
-            options.board or "",
+            board,
             lambda board: board_setup.files_of(board, options.robot, arena, key, network, password),
             lambda name, new: print(f"  {name:12} {'written' if new else 'as it was'}", flush=True),
         )
-    print(f"{kind} is robot {options.robot}")
-    wifi = board_setup.KINDS[kind].radio == board_setup.WIFI
-    if wifi and not options.no_wait:
-        print(f"and in the network: {_address(options.robot)}")
-    if not wifi:
-        print(f"Next, with its XBee at this computer: main.py robots --radio-setup {options.robot}")
-    print(f"Then, on blocks: main.py robots --radio {'udp' if wifi else 'xbee'} --wheels {options.robot}")
+        print(f"{kind} is {'ready: leave it here' if kind == 'relay' else f'robot {options.robot}'}", flush=True)
+        if options.on_blocks and kind != "relay":
+            millivolts = board_setup.try_on_blocks(port, board, lambda name: print(f"  {TURNS[name]}", flush=True))
+            print(f"  battery {f'{millivolts / 1000:.1f} V' if millivolts else 'not measured'}")
+    _print_next(options, kind)
     return 0
+
+
+def _print_next(options: Any, kind: str) -> None:
+    """Print what comes next for a board of this kind. Raises Refusal if it is not in the network."""
+    from pigaming_app.hardware.commissioning.board_setup import KINDS, MICROBIT, WIFI, XBEE
+
+    radio = {WIFI: "udp", XBEE: "xbee", MICROBIT: "relay"}[KINDS[kind].radio]
+    if radio == "udp" and not options.no_wait:
+        print(f"and in the network: {_address(options.robot)}")
+    if radio == "xbee":
+        print(f"Next, with its XBee at this computer: main.py robots --radio-setup {options.robot}")
+    if kind == "relay":
+        print("Next, the micro:bits of the robots: main.py robots setup --robot 1")
+    else:
+        print(f"Then, on blocks: main.py robots --radio {radio} --wheels {options.robot}")
+
+
+def _wifi(options: Any) -> tuple[str, str]:
+    """Name and password of the Wi-Fi, typed once, and kept; where, is printed. Raises Refusal if it cannot be."""
+    settings, _ = Settings.load(folders().config)
+    before = settings.phones_wifi, settings.phones_wifi_key
+    if options.network:
+        if len(options.network) > wifi.NAME:
+            raise Refusal(f"--network: a name has at most {wifi.NAME} letters")
+        wifi.rename(settings, options.network)
+    known, name = wifi.password(settings, wifi.PATIENT), settings.phones_wifi
+    if options.password or (options.network and not known):
+        password = typed(f"Password of {name}: ", "robots setup")
+        if len(password) > wifi.LONGEST:
+            raise Refusal(f"robots setup: a password has at most {wifi.LONGEST} letters")
+        if wifi.keep(settings, password):
+            print("The password is in the system's keyring.")
+        elif password:
+            print(f"No keyring: the password stands as plain text in {folders().config / FILE}.")
+    if before != (settings.phones_wifi, settings.phones_wifi_key):
+        with refused(NotSaved):
+            wifi.save(settings)
+    return name, wifi.password(settings, wifi.PATIENT)
 
 
 def _address(robot: int) -> str:
@@ -80,5 +128,5 @@ def _address(robot: int) -> str:
             raise Refusal(english().long_sentence(session.fault))
     raise Refusal(
         f"robot {robot} has not joined the network within {JOINS:.0f} s: is the name right, the password, 2.4 GHz? "
-        "Repeat the command."
+        "Repeat the command, with --password to type it again."
     )

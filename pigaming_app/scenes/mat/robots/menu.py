@@ -1,29 +1,22 @@
 """Operator menu for robots on a mat: camera, corners, markers."""
 
-import logging
 from collections.abc import Callable
 
 import pygame
 
-from pigaming_app.hardware.session.guide import SHEET
-from pigaming_app.hardware.vision.markers import OpenCVMissing
 from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.scene import Context, Push, Scene, StackOperation
+from pigaming_app.scenes.mat.paper.sheet_file import write_sheet
 from pigaming_app.scenes.mat.robots.sketches import sketch
 from pigaming_app.scenes.mat.session import session_if_any
 from pigaming_app.scenes.pages.settings_page import SettingsPage
-from pigaming_app.storage.safe_files import write_atomic
-from pigaming_app.storage.settings import folders
 from pigaming_app.ui.draw import FOCUS
 from pigaming_app.ui.draw.layers import LitImage, paragraph
-from pigaming_app.ui.i18n import english, with_english
 from pigaming_app.ui.input.events import Button, InputEvent
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
 ROWS = ("guide", "robots", "board", "radio", "calibrate", "check", "things", "blocks", "pin", "sheet")
 ROS_ROWS = ("robots", "pin")  # a ROS network has cameras and radios of its own
-
-log = logging.getLogger("pigaming")
 
 
 class RobotsMenu(SettingsPage):
@@ -50,7 +43,7 @@ class RobotsMenu(SettingsPage):
     def activate(self, name: str, event: InputEvent) -> StackOperation:
         self.context.sounds.play("accept")
         if name == "sheet":
-            self.show_message(self._write())
+            self.show_message(write_sheet(self))
             return None
         return Push(self._page(name))
 
@@ -78,7 +71,7 @@ class RobotsMenu(SettingsPage):
         from pigaming_app.scenes.mat.things.arena_page import ArenaPage
 
         pages: dict[str, Callable[[Context], Scene]] = {
-            "guide": lambda context: GuidePage(context, self._page, self._write),
+            "guide": lambda context: GuidePage(context, self._page, lambda: write_sheet(self)),
             "robots": FleetPage,
             "board": SetUpPage,
             "radio": RadioPage,
@@ -88,16 +81,3 @@ class RobotsMenu(SettingsPage):
             "pin": CornerPinPage,
         }
         return pages[name](self.context)
-
-    def _write(self) -> str:
-        """Save the marker sheet to the user's folder. Returns where it is, or why it is not."""
-        from pigaming_app.scenes.mat.paper.marker_sheet import sheet
-
-        path, words = folders().data / SHEET, self.context.words
-        notes = with_english(words.language, "sheet.print", "sheet.cut")
-        try:
-            drawn = sheet(notes=notes, block_notes=with_english(words.language, "sheet.blocks"))
-        except OpenCVMissing as missing:
-            log.warning("%s", english().long_sentence(missing.message))
-            return words.sentence(missing.message)
-        return words("robots.written", path=path) if self.save(lambda: write_atomic(path, drawn)) else self.message

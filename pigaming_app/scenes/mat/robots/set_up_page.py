@@ -1,6 +1,10 @@
-"""Set-up of a robot: the board on USB gets its number, the arcade's key, the Wi-Fi if it has one, and its program."""
+"""Set-up of a robot: the board on USB gets its number, the arcade's key, the Wi-Fi if it has one, and its program.
+
+Then it is tried on blocks, over the same cable, and its marker is written for a printer.
+"""
 
 import threading
+from collections.abc import Callable
 
 import pygame
 
@@ -9,36 +13,39 @@ from pigaming_app.hardware.commissioning.board_setup import KINDS, SetupFailed
 from pigaming_app.hardware.session.store import arena_id, wifi_key
 from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.scene import Context, Push, StackOperation
+from pigaming_app.scenes.mat.paper.sheet_file import write_sheet
 from pigaming_app.scenes.mat.robots.sketches import sketch
 from pigaming_app.scenes.pages.settings_page import SettingsPage
-from pigaming_app.scenes.pages.wifi import WIFI, wifi_typing, wifi_value
+from pigaming_app.scenes.pages.wifi import WIFI, wifi_line, wifi_typing, wifi_value
 from pigaming_app.sim.world import ROBOTS
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.ui.draw import BODY, GREEN, MIST
 from pigaming_app.ui.draw.layers import LEFT, RIGHT, LitImage, paragraph, text
+from pigaming_app.ui.i18n import numeral
 from pigaming_app.ui.input.events import InputEvent
+from pigaming_app.ui.web import wifi
 from pigaming_app.ui.widgets.setting_row import SettingValue
 
-ROWS = ("robot", *WIFI, "board", "begin")
-STEPS_Y, STEP = 720, 46  # px: the files that were written
+ROWS = ("robot", *WIFI, "board", "begin", "blocks", "sheet")
+STEPS_Y, STEP, WIDTH = 852, 46, 1160  # px: of what was done
+COLUMNS = {"begin": 4, "blocks": 2}  # of what was done, by row
+
+Note = Callable[[str], None]
 
 
 class BoardWork(threading.Thread):
-    """Sets a board up. `done`: names of the files that are in place; `fault`: why it failed, or None."""
+    """Work on the board on USB, of a row. `done`: what was done, so far; then `result`, or why it failed: `fault`."""
 
-    def __init__(self, robot: int, board: str, arena: int, key: bytes, network: str, password: str) -> None:
+    def __init__(self, row: str, action: Callable[[Note], str | int]) -> None:
         super().__init__(name="board set-up", daemon=True)
-        self.robot, self.board = robot, board
+        self.row, self._action = row, action
         self.done: list[str] = []
-        self.ready = False
+        self.result: str | int | None = None
         self.fault: OperatorMessage | None = None
-        self._files = lambda kind: board_setup.files_of(kind, robot, arena, key, network, password)
 
     def run(self) -> None:
         try:
-            port = board_setup.only_port()
-            board_setup.set_up(port, self.board, self._files, lambda name, new: self.done.append(name))
-            self.ready = True
+            self.result = self._action(self.done.append)
         except SetupFailed as failed:
             self.fault = failed.message
         except Exception:  # of the library: the page goes on
@@ -60,20 +67,29 @@ class SetUpPage(SettingsPage):
 
     @property
     def busy(self) -> bool:
-        """True while a board is being set up."""
+        """True while there is work on a board."""
         return self.work is not None and self.work.is_alive()
+
+    def label(self, name: str) -> str:
+        return self.context.words("robots.sheet") if name == "sheet" else super().label(name)
+
+    def line(self, name: str) -> str:
+        if name == "sheet":
+            return self.context.words("robots.sheet_line")
+        return wifi_line(self, name) if name in WIFI else super().line(name)
 
     def value(self, name: str) -> SettingValue:
         words = self.context.words
         if name == "robot":
             return SettingValue("arrows", tuple(str(i + 1) for i in range(ROBOTS)), self.robot - 1, endless=True)
         if name == "board":
-            kinds = ("", *KINDS)
-            shown = (words("board.automatic"), "Pico W", "ESP32", "Pololu 2040")
-            return SettingValue("arrows", shown, kinds.index(self.board), endless=True)
-        if name == "begin":
+            named = (words("board.relay") if key == "relay" else kind.name for key, kind in KINDS.items())
+            return SettingValue(
+                "arrows", (words("board.automatic"), *named), ("", *KINDS).index(self.board), endless=True
+            )
+        if name in COLUMNS:
             return self.action("board.working" if self.busy else "board.start")
-        return wifi_value(self, name)
+        return self.action("robots.write") if name == "sheet" else wifi_value(self, name)
 
     def apply(self, name: str, chosen: int) -> None:
         if name == "robot":
@@ -82,17 +98,17 @@ class SetUpPage(SettingsPage):
             self.board = ("", *KINDS)[chosen]
 
     def activate(self, name: str, event: InputEvent) -> StackOperation:
-        """Type name or password of the Wi-Fi, or begin."""
+        """Type name or password of the Wi-Fi, write the markers, or begin work on the board."""
         if self.busy:
             self.context.sounds.play("refused")
             return None
         self.context.sounds.play("accept")
         if name in WIFI:
             return Push(wifi_typing(self, name))
-        settings = self.context.settings
-        arena, key = arena_id(settings), wifi_key(settings)
-        wifi = settings.phones_wifi, settings.phones_wifi_key
-        self.work = BoardWork(self.robot, self.board, arena, key, *wifi)
+        if name == "sheet":
+            self.show_message(write_sheet(self))
+            return None
+        self.work = BoardWork(name, self._set_up() if name == "begin" else self._try_on_blocks())
         self.work.start()
         return None
 
@@ -101,20 +117,24 @@ class SetUpPage(SettingsPage):
         work = self.work
         if work and not work.is_alive():
             self.work = None
-            if work.ready:
-                self.context.sounds.play("ready")
-                self.show_message(self.context.words("board.done", robot=work.robot))
-                self.robot = work.robot % ROBOTS + 1
-            elif work.fault:
+            if work.fault:
                 self.context.sounds.play("error")
                 self.show_message(self.context.words.sentence(work.fault), wrong=True)
+            elif work.result is not None:
+                self.context.sounds.play("ready")
+                self.show_message(self._told(work.result))
+                if work.row == "begin" and work.result != "relay":
+                    self.robot = self.robot % ROBOTS + 1
             self.rewarm()
         return None
 
     def paint(self, screen: pygame.Surface) -> None:
         super().paint(screen)
-        for i, name in enumerate(self.work.done if self.work else ()):
-            text(name, BODY, GREEN, "body", "l").draw(screen, LEFT + 40 + 300 * (i % 5), STEPS_Y + STEP * (i // 5))
+        if self.work:
+            columns = COLUMNS[self.work.row]
+            for i, name in enumerate(self.work.done):
+                x, y = LEFT + 40 + WIDTH // columns * (i % columns), STEPS_Y + STEP * (i // columns)
+                text(name, BODY, GREEN, "body", "l").draw(screen, x, y)
 
     def draw_foot(self, screen: pygame.Surface) -> None:
         """Draw the message in place of the prompts: a fault may need two lines."""
@@ -127,3 +147,30 @@ class SetUpPage(SettingsPage):
 
     def picture(self, name: str, chosen: int) -> LitImage:
         return sketch("board")
+
+    def _set_up(self) -> Callable[[Note], str]:
+        """The set-up of the board as the rows have it; its value is the kind of board."""
+        settings, robot, board = self.context.settings, self.robot, self.board
+        arena, key = arena_id(settings), wifi_key(settings)
+
+        def files(kind: str) -> dict[str, bytes]:
+            password = wifi.password(settings, wifi.PATIENT)
+            return board_setup.files_of(kind, robot, arena, key, settings.phones_wifi, password)
+
+        return lambda note: board_setup.set_up(board_setup.only_port(), board, files, lambda name, new: note(name))
+
+    def _try_on_blocks(self) -> Callable[[Note], int]:
+        """The test of the board; its value is the battery's voltage, mV."""
+        words, board = self.context.words, self.board
+        return lambda note: board_setup.try_on_blocks(
+            board_setup.only_port(), board, lambda turn: note(words(f"board.turn_{turn}"))
+        )
+
+    def _told(self, result: str | int) -> str:
+        words = self.context.words
+        if isinstance(result, int):
+            return words(
+                "board.tried",
+                volts=f"{words.decimal(numeral(result / 1000, 1))} V" if result else words("board.unmeasured"),
+            )
+        return words("board.done_relay") if result == "relay" else words("board.done", robot=self.robot)

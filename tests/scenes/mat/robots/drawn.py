@@ -92,7 +92,7 @@ def guide(arcade: Arcade) -> GuidePage:
     session: Any = RealSession(arcade.context.settings)
     arcade.context.mat = SessionMat(arcade.context, session)
     menu = RobotsMenu(arcade.context)
-    page = GuidePage(arcade.context, menu._page, menu._write)
+    page = GuidePage(arcade.context, menu._page, lambda: "")
     page.steps |= {name: GuideStep(name, True) for name in ("robots", "sheet", "pin")}
     other = OperatorMessage("other_display", theirs="2: 3840 × 2160, in a window", ours="1: 1920 × 1080")
     page.steps["calibrate"] = GuideStep("calibrate", False, other)

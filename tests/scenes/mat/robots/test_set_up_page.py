@@ -2,6 +2,8 @@
 
 import time
 from collections.abc import Iterator
+from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -9,11 +11,14 @@ from pigaming_app.hardware.commissioning import board_setup
 from pigaming_app.hardware.commissioning.board_setup import BoardOnUsb, SetupFailed
 from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython, interpreter
 from pigaming_app.hardware.emulator.wifi.usb import UsbBoard
+from pigaming_app.hardware.session.guide import SHEET
 from pigaming_app.scenes.mat.robots.menu import RobotsMenu
 from pigaming_app.scenes.mat.robots.set_up_page import SetUpPage
 from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.storage.messages import OperatorMessage
+from pigaming_app.storage.settings import folders
 from pigaming_app.ui.input.events import Button
+from pigaming_app.ui.web import wifi
 from tests.scenes.arcade import Arcade
 
 
@@ -24,8 +29,8 @@ def opened(arcade: Arcade) -> SetUpPage:
     return arcade.shown(SetUpPage)
 
 
-def waited(arcade: Arcade, page: SetUpPage) -> None:
-    page.focus.move_to("begin")
+def waited(arcade: Arcade, page: SetUpPage, row: str = "begin") -> None:
+    page.focus.move_to(row)
     arcade.press(Button.FIRE)
     end = time.monotonic() + 60.0
     while page.work:
@@ -44,6 +49,41 @@ def test_the_wifi_is_that_of_the_phones(arcade: Arcade) -> None:
         typing.type(letter)
     arcade.press(Button.START)
     assert arcade.context.settings.phones_wifi == "Hof 3"
+
+
+@pytest.mark.parametrize("keyring", ["tests.ui.web.keyrings.Drawer", "keyring.backends.fail.Keyring"])
+def test_where_the_password_is_kept_stands_beside_it(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, keyring: str
+) -> None:
+    pytest.importorskip("keyring", reason="the extra `keyring` is not installed")
+    monkeypatch.setenv("PYTHON_KEYRING_BACKEND", keyring)
+    monkeypatch.setenv("KEYRING_DRAWER", str(tmp_path / "drawer"))
+    wifi._keyring.cache_clear()
+    arcade.context.settings.phones_wifi = "Hof am See"
+    page, words = opened(arcade), arcade.context.words
+    page.focus.move_to("wifi_key")
+    arcade.press(Button.FIRE)
+    typing = arcade.shown(TextPage)
+    arcade.wait(0.5)
+    for letter in "geheim":
+        typing.type(letter)
+    arcade.press(Button.START)
+    there = wifi.has_keyring()
+    assert there is ("Drawer" in keyring)
+    assert page.line("wifi_key").endswith(words("phones.keyring" if there else "phones.plain"))
+    assert page.message == ("" if there else words("phones.plain"))
+    assert arcade.context.settings.phones_wifi_key == ("" if there else "geheim")
+    assert page.value("wifi_key").options == ("******",)
+    wifi._keyring.cache_clear()
+
+
+def test_the_marker_sheet_is_written_from_here(arcade: Arcade) -> None:
+    pytest.importorskip("cv2", reason="the extra `hardware` is not installed")
+    page = opened(arcade)
+    page.focus.move_to("sheet")
+    arcade.press(Button.FIRE)
+    assert (folders().data / SHEET).read_bytes().startswith(b"%PDF")
+    assert str(folders().data / SHEET) in page.message
 
 
 def test_without_a_board_the_page_tells_what_to_do(arcade: Arcade, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -90,4 +130,30 @@ def test_a_board_becomes_robot_two_and_the_next_one_three(
     assert page.robot == 3
     usb.plug()
     with BoardOnUsb(usb.port) as board:
-        assert board._ask("import config\nprint(config.ROBOT, config.NETWORK, config.PASSWORD)") == "2 Hof geheim"
+        assert board.ask("import config\nprint(config.ROBOT, config.NETWORK, config.PASSWORD)") == "2 Hof geheim"
+
+
+@pytest.mark.long
+def test_a_microbit_becomes_robot_one_and_is_tried_on_blocks_without_a_choice(
+    arcade: Arcade, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    try:
+        interpreter()
+    except NoMicroPython as reason:
+        pytest.skip(str(reason))
+    monkeypatch.setattr(board_setup, "TURN_MS", 100)
+    monkeypatch.setattr(board_setup, "RELAY_ENDS", 0.0)
+    page, words = opened(arcade), arcade.context.words
+    with UsbBoard("microbit") as usb:
+        found = [SimpleNamespace(device=usb.port, vid=board_setup.DAPLINK)]
+        monkeypatch.setattr("serial.tools.list_ports.comports", lambda: found)
+        waited(arcade, page)
+        assert page.message == words("board.done", robot=1)
+        waited(arcade, page, "blocks")
+        assert page.message == words("board.tried", volts=words("board.unmeasured"))
+        assert len([turn for turn in usb.motors if turn != (0.0, 0.0)]) == 3
+    page.focus.move_to("board")
+    for _ in board_setup.KINDS:
+        arcade.press(Button.RIGHT)
+    assert page.board == "relay"
+    assert page._told(page.board) == words("board.done_relay")

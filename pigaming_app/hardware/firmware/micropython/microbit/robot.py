@@ -1,8 +1,9 @@
 """Robot of PiGaming on a micro:bit V2: obeys drive packets, reports, and stops by itself.
 
-It is the only file on the micro:bit; `main.py robots --microbit 2` prints it with the numbers of robot 2, and with
-`--chassis cutebot` or `maqueen` for one of these instead of a DRV8833. A scheduled
-function stops the motors 200 ms after the last new command; the chip's watchdog restarts a program that hangs.
+It is the only file on the micro:bit: `main.py robots setup` writes it, `main.py robots --microbit 2` prints it with the
+numbers of robot 2, and with `--chassis cutebot` or `maqueen` for one of these instead of a DRV8833. A scheduled
+function stops the motors 200 ms after the last new command; the chip's watchdog restarts a program that hangs. Its last
+line starts it, so that a part of the file does nothing.
 docs/hardware.md, section Protocol, has the packets.
 """
 
@@ -165,17 +166,18 @@ def main():
 
 
 def run(robot):
-    """Drive and report."""
+    """Drive and report. The watchdog, which nothing stops, starts with the first command; USB may interrupt before."""
     radio.config(channel=ARENA % 84, group=ARENA // 84, length=32, queue=8, power=7)
     radio.on()
-    mem32[RELOAD_VALUE] = WATCHDOG_MS * 32768 // 1000
-    mem32[START] = 1
-    shown = None
+    shown, watched = None, False
     while True:
         packet = radio.receive_bytes()
         while packet is not None:
             robot.obey(packet, time.ticks_ms())
             packet = radio.receive_bytes()
+        if not watched and not robot.stopped:
+            mem32[RELOAD_VALUE], watched = WATCHDOG_MS * 32768 // 1000, True
+            mem32[START] = 1
         now = time.ticks_ms()
         robot.work(now)
         report = robot.report(now)
