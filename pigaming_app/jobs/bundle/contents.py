@@ -12,9 +12,9 @@ from pigaming_app.boot.start import OPTIONAL
 
 EXCLUDED = (  # large libraries that no job of a bundle needs, but an installed package could import
     "IPython", "PIL.ImageTk", "PIL._avif", "PIL._imagingcms", "PIL._imagingft", "PIL._webp", "PyInstaller", "_pytest",
-    "gymnasium", "hatchling", "hypothesis", "matplotlib", "mypy", "numpy.f2py", "onnxruntime", "pandas", "pettingzoo",
-    "pydoc_data", "pygments", "pymunk", "pytest", "ray", "readline", "scipy", "setuptools", "soundfile",
-    "stable_baselines3", "tkinter", "torch", "yaml",
+    "cffi", "gymnasium", "hatchling", "hypothesis", "matplotlib", "mypy", "numpy.f2py", "onnxruntime", "pandas",
+    "pettingzoo", "pycparser", "pydoc_data", "pygments", "pymunk", "pytest", "ray", "readline", "scipy", "setuptools",
+    "soundfile", "stable_baselines3", "tkinter", "torch", "yaml",
 )  # fmt: skip
 PACKAGES = sorted(path.parent for path in ROOT.glob("pigaming_*/__init__.py"))  # this one, and games beside it
 ASSET_FOLDERS = ("arenas", "benchmark", "brains", "desk", "fonts", "new_game", "people", "phones", "sounds", "text")
