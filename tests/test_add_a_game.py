@@ -54,6 +54,7 @@ def test_tag_is_played_by_its_rules(tag: Path) -> None:
     assert len({*scores}) > 1, "it was passed on"
 
 
+@pytest.mark.again
 @pytest.mark.long(first=True)
 def test_every_command_of_the_page_runs_and_the_network_becomes_a_level(tag: Path, tmp_path: Path) -> None:
     assert len(COMMANDS) == 11

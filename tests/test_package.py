@@ -160,7 +160,7 @@ def test_the_wheel_declares_version_extras_and_program(environment):
     (installed,) = metadata.distributions(name="pigaming-app", path=[str(site_packages(environment))])
     assert installed.version == pigaming_app.__version__
     extras = {"train", "bench", "hardware", "gym", "onnx", "ray", "plots", "sounds", "pictures", "test"}
-    extras |= {"bundle", "events", "phones"}
+    extras |= {"bundle", "events", "phones", "keyring"}
     assert set(installed.metadata.get_all("Provides-Extra", [])) == extras
     assert {(point.group, point.name, point.value) for point in installed.entry_points} == {
         ("console_scripts", "pigaming", "pigaming_app.jobs.cli:main"),

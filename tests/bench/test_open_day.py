@@ -281,6 +281,7 @@ print(now(), again.best(table, 1)[0].when.replace(tzinfo=None), problems)
     assert done.stdout.strip() == "2026-06-20 12:30:00 2026-06-20 11:30:00 []"
 
 
+@pytest.mark.again
 @pytest.mark.long
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="signals of POSIX, virtual pads")
 def test_a_miniature_day_with_a_kill(tmp_path: Path) -> None:

@@ -127,7 +127,7 @@ def test_a_full_disk_takes_no_byte_until_it_has_room_again(tmp_path: Path) -> No
 
 
 @pytest.mark.long
-@pytest.mark.again  # a whole week takes minutes: `.ci/run` plays the miniature day
+@pytest.mark.again  # a whole week takes minutes
 @LINUX
 def test_a_miniature_week(tmp_path: Path) -> None:
     pytest.importorskip("aiohttp", reason="the extra `phones` is not installed")

@@ -14,7 +14,6 @@ from pigaming_app.sim.contact import in_wall
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_football.overlaps import is_free
-from tests.cases import repeated
 from tests.football.pitch import ARENAS, goals_of, match, put_ball, put_robot, setup
 from tests.matches import run
 
@@ -161,9 +160,10 @@ def test_each_level_beats_the_one_below(lower, upper):
 
 
 @needs_numba
+@pytest.mark.again
 @pytest.mark.long
 @pytest.mark.parametrize("level", ["level1", "level3", "level5"])
-@pytest.mark.parametrize("arena", repeated(["classic", "bumpers", "small_goals"]))
+@pytest.mark.parametrize("arena", ["classic", "bumpers", "small_goals"])
 def test_sides_are_even_and_goals_neither_rare_nor_cheap(arena, level):
     setups = [setup(arena, minutes=AS_PLAYED, seed=seed) for seed in range(100)]
     batch = Batch(setups, [BRAINS["football"][level]] * 4, True)

@@ -192,9 +192,10 @@ def test_a_scene_that_has_left_is_freed_in_the_next_frame(
     assert alive == [True, True, True, False, False]
 
 
+@pytest.mark.again
 @pytest.mark.long
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="counts the files of /proc")
-@pytest.mark.parametrize(("presses", "each"), repeated([(700, 1), (10_000, 12)]))
+@pytest.mark.parametrize(("presses", "each"), [(700, 1), (10_000, 12)])
 def test_open_files_threads_and_memory_stay_level_over_presses_on_all_screens(presses: int, each: int) -> None:
     command = [sys.executable, "-m", "tests.bench.presses", str(presses), str(each)]
     done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)

@@ -24,7 +24,7 @@ UNITS = tuple(f"tests/{room}" for room in (
     "sim", "games", "ai/brain", "ai/pitanks", "ai/factory", "ai/race", "ai/learning/test_q_learner.py", "storage",
     "test_layers.py",
 ))  # fmt: skip
-CORES = os.cpu_count() or 1
+WORKERS = (os.cpu_count() or 1) + 1  # one more than cores: tests often wait for a clock or another process
 NOTHING = 5  # exit code of pytest without a test
 # No window and no sound; bytecode is written even where the caller forbids it, because tests start many processes.
 ENVIRONMENT = {
@@ -32,7 +32,7 @@ ENVIRONMENT = {
     "SDL_AUDIODRIVER": "dummy",
     "PYGAME_HIDE_SUPPORT_PROMPT": "1",
     "PYTHONDONTWRITEBYTECODE": "",
-    "OPENCV_FOR_THREADS_NUM": "1",  # there is a worker for every core
+    "OPENCV_FOR_THREADS_NUM": "1",  # there are workers for all cores
 }
 
 
@@ -72,7 +72,7 @@ def run(options: TestOptions) -> int:
     for_pytest = (*marked, *options.for_pytest, *units)
     with ThreadPoolExecutor(1) as executor:
         results = executor.map(_run, tools.items())
-        code = _long_proofs(for_pytest) if options.long else _pytest(CORES, for_pytest)
+        code = _long_proofs(for_pytest) if options.long else _pytest(WORKERS, for_pytest)
         failed = [_report(result) for result in results]
     return code or int(any(failed))
 
@@ -83,7 +83,7 @@ def _long_proofs(for_pytest: Sequence[str]) -> int:
     beside, alone = (
         (*for_pytest[:at], f"({for_pytest[at]}) and {mark}", *for_pytest[at + 1 :]) for mark in ("not alone", "alone")
     )
-    codes = {_pytest(CORES + 1, beside), _pytest(0, alone)}  # one more worker: they often wait for another process
+    codes = {_pytest(WORKERS, beside), _pytest(0, alone)}
     return max(codes - {NOTHING} or codes)
 
 

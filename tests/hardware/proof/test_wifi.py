@@ -30,6 +30,7 @@ def test_robots_are_paired_and_a_whole_match_is_played_to_its_end(game):
     assert not run.alarms
 
 
+@pytest.mark.again  # also in bench robots
 @pytest.mark.alone
 def test_boards_stop_when_the_whole_arcade_is_stopped_or_killed():
     stops = robots_arcade.by_wifi(print)

@@ -19,6 +19,7 @@ import pytest
 from pigaming_app import ROOT, __version__
 from pigaming_app.boot.version import commit
 from pigaming_app.games.engine_hash import engine_hash
+from pigaming_app.games.registry import games
 from pigaming_app.jobs.bundle.build import is_bundle
 
 MAX_BYTES = 450_000_000
@@ -173,7 +174,7 @@ def test_learning_is_compiled_in_it_and_kept_compiled_in_the_users_folder(inside
 
 @pytest.mark.parametrize("brain", sorted(path.stem for path in (ROOT / "assets" / "brains").glob("*.npz")))
 def test_every_shipped_network_and_table_plays_in_it(inside: list[str], brain: str) -> None:
-    game = "race" if brain == "race" else "pitanks"
+    game = brain if brain in games() else "pitanks"
     file = f"/opt/pigaming/_internal/assets/brains/{brain}.npz"
     assert duel(inside, game, file, "level1")
 
@@ -185,6 +186,7 @@ def duel(inside: list[str], game: str, *players: str) -> dict[str, object]:
     return found
 
 
+@pytest.mark.again
 def test_emulated_robots_drive_under_the_emulated_camera(inside: list[str]) -> None:
     seats = ("--seats", "level3,level3", "--real", "1,2", "--minutes", "0.05")
     ended = run(inside, "play", "pitanks", "--emulate", "--headless", *seats)

@@ -56,10 +56,8 @@ def needs(found: str | None, packages: str) -> Any:
 
 
 FAMILIES = [
-    pytest.param(  # plays in test_browser.py, too
-        chromium_browsing, id="chromium", marks=[needs(chromium(), "chromium"), pytest.mark.again]
-    ),
-    pytest.param(firefox_browsing, id="firefox", marks=[needs(firefox(), "firefox-esr"), pytest.mark.again]),
+    pytest.param(chromium_browsing, id="chromium", marks=needs(chromium(), "chromium")),
+    pytest.param(firefox_browsing, id="firefox", marks=needs(firefox(), "firefox-esr")),
     pytest.param(webkit_browsing, id="webkit", marks=needs(webkit(), "webkit2gtk-driver xvfb")),
 ]
 
@@ -70,6 +68,7 @@ def free_port() -> int:
         return int(one.getsockname()[1])
 
 
+@pytest.mark.again  # Chromium plays in test_browser.py, too
 @pytest.mark.parametrize("family", FAMILIES)
 def test_a_phone_goes_its_whole_way(
     family: Callable[[], AbstractAsyncContextManager[Any]],

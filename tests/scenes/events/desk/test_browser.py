@@ -13,6 +13,7 @@ from pigaming_app.events.journal import Paused
 from pigaming_app.events.spec import Format
 from pigaming_app.ui.i18n import LANGUAGES
 from pigaming_app.ui.web.server import PageServer
+from tests.cases import repeated
 from tests.events.examples import ranked
 from tests.scenes.events.desk.examples import PIN, cup, desk_on, new_event
 from tests.scenes.phones.browser import Browser, Page, browsing, chromium, running_browser
@@ -132,7 +133,7 @@ def test_a_form_of_another_site_changes_nothing(tmp_path: Path, browser: str) ->
     assert path.read_bytes() == before
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", repeated(LANGUAGES))
 def test_every_page_fits_every_screen(tmp_path: Path, browser: str, language: str) -> None:
     path = new_event(tmp_path, *LONG_NAMES, form=Format.KNOCKOUT, title="W" * 60)
     update(path, lambda event: event.record(ranked(event.open[0], *event.open[0].entrants)))

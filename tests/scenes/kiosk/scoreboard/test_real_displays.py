@@ -57,6 +57,7 @@ def lit(dump: Path, size: tuple[int, int]) -> Callable[[], float]:
     return share
 
 
+@pytest.mark.again
 def test_the_second_screen_of_the_command_line_fills_the_second_display(
     tmp_path: Path, screens: tuple[str, tuple[Callable[[], float], ...]]
 ) -> None:

@@ -31,7 +31,6 @@ from pigaming_app.sim.things.spec import ThingSpec, Use
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from tests.cases import repeated
 from tests.scenes.arcade import Arcade
 from tests.scenes.mat.robots.test_real_match import FPS, match_for, opened
 from tests.scenes.mat.robots.test_recording import MatSession
@@ -137,8 +136,9 @@ def test_results_among_things_are_no_records_and_a_rematch_keeps_the_things(simu
     assert again.robots.things == match.robots.things != ()
 
 
+@pytest.mark.again
 @pytest.mark.long(first=True)
-@pytest.mark.parametrize(("game", "seconds"), repeated([("pitanks", 5.0), *((game, 60.0) for game in BOXES)]))
+@pytest.mark.parametrize(("game", "seconds"), [("pitanks", 5.0), *((game, 60.0) for game in BOXES)])
 def test_a_match_among_scanned_things_has_no_false_alarm_and_stops_when_one_is_pushed(
     arcade: Arcade, cleared: EmulatedSession, game: str, seconds: float
 ) -> None:
