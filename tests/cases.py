@@ -1,4 +1,4 @@
-"""Sampling of long parametrisations: a part runs in `test`, the rest in `test --long`, a part of that in `.ci/run`."""
+"""Sampling of long parametrisations: a part runs in `test`, the rest in `test --long`."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -7,13 +7,13 @@ import pytest
 
 
 def one_in(count: int, cases: Iterable[Any]) -> list[Any]:
-    """Values for `parametrize`: every `count`-th, from the first, unmarked; the others `long`, each second `again`.
+    """Values for `parametrize`: every `count`-th, from the first, unmarked; the others `long` and `again`.
 
     A tuple holds the values of several arguments.
     """
     values = [case if isinstance(case, tuple) else (case,) for case in cases]
     marks = (pytest.mark.long, pytest.mark.again)
-    return [pytest.param(*value, marks=marks[: (i % count > 0) * (1 + i % 2)]) for i, value in enumerate(values)]
+    return [pytest.param(*value, marks=marks if i % count else ()) for i, value in enumerate(values)]
 
 
 def repeated(cases: Iterable[Any]) -> list[Any]:

@@ -124,7 +124,7 @@ def test_a_match_is_possible(game: str, seed: int) -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("first", repeated(range(0, 1000, 100)))
-@pytest.mark.parametrize("game", KINDS)
+@pytest.mark.parametrize("game", repeated(KINDS))
 def test_a_thousand_seeds_can_be_played(game: str, first: int) -> None:
     sizes = {size_of(game, seed) for seed in range(first, first + 100)}
     assert KINDS[game].sizes in (None, sizes)

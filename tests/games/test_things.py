@@ -138,7 +138,7 @@ def test_a_race_is_driven_round_things_in_nearly_the_same_time():
 
 @pytest.mark.long
 @pytest.mark.parametrize("turn", repeated(range(4)))
-@pytest.mark.parametrize("name", arenas("race"))
+@pytest.mark.parametrize("name", repeated(arenas("race")))
 def test_every_driver_finishes_among_random_things(name, turn):
     played, k = 0, arenas("race").index(name)
     brain = ("hand1", "hand3", "level2", "level5")[(k + turn) % 4]

@@ -62,6 +62,7 @@ def test_compiled_and_plain_play_agree_to_the_last_bit(name, game):
         plain.action_space.seed(1)
         assert np.array_equal(plain.reset(seed=3)[0], fast.reset(seed=3)[0])
         for _ in range(130):
+            assert np.array_equal(plain.action_masks(), fast.action_masks())
             action = plain.action_space.sample()
             expected, found = plain.step(action), fast.step(action)
             assert all(np.array_equal(a, b) for a, b in zip(expected[:4], found[:4], strict=True))

@@ -79,23 +79,3 @@ def test_masks_are_those_of_every_match_and_agent():
         assert masks[:, -3].tolist() == [True, True, False, k > 3]
     with pytest.raises(ValueError, match=r"^action_masks: sticks have no choices"):
         gymnasium.make("PiTanks-v0", compiled=False, continuous=True).unwrapped.action_masks()
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("name", ["PiTanks-v0", pytest.param("RobotRace-v0", marks=LATER)])
-def test_both_bodies_rule_out_the_same(name):
-    options = {
-        "agents": 2,
-        "opponents": ("random",),
-        "arena": "all",
-    }  # compiled once, with test_environments.py
-    plain, fast = (gymnasium.make_vec(name, 6, compiled=c, **options) for c in (False, True))
-    plain.action_space.seed(1)
-    for env in (plain, fast):
-        env.reset(seed=2)
-    for _ in range(50):
-        assert np.array_equal(plain.action_masks(), fast.action_masks())
-        action = plain.action_space.sample()
-        plain.step(action)
-        fast.step(action)
-    assert not plain.action_masks().all()

@@ -26,7 +26,7 @@ SAFE = pygame.Rect(60, 16, 1800, 1048)  # slightly more than the safe area of me
 Painting = Callable[..., Steps[pygame.Surface]]
 SMALLEST = 9 * 1920 / 1024  # px, minimum height of capitals: 9 px in a window of 1024 x 768
 KEPT = [f"pigaming_app.ui.{name}" for name in ("i18n", "draw.theme", "widgets.word_filter")]  # texts and fonts
-SIGNED_ZERO = re.compile(r"(?<![\d.,])[+−-]0(?![.,]?\d*[1-9])(?!\d)")
+SIGNED_ZERO = re.compile(r"(?<![\w.,])[+−-]0(?![.,]?\d*[1-9])(?!\d)")
 NEAR = 3  # px, minimum distance between a text and an outline
 
 

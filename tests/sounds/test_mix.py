@@ -18,6 +18,7 @@ from pigaming_app.scenes.bench.frame_times import AllEffects
 from pigaming_app.scenes.views.registry import SCREENS
 from pigaming_app.sim.world import WIDTH
 from pigaming_app.ui.sounds import MIN_REPEAT, stereo
+from tests.cases import repeated
 from tests.matches import match_of
 from tests.sounds.meter import RATE, Samples, decoded
 from tests.sounds.test_effects import GROUP
@@ -88,7 +89,7 @@ def played(match: Match, seconds: float) -> Iterator[Cue]:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("game", games().values(), ids=lambda game: game.name)
+@pytest.mark.parametrize("game", repeated(games().values()), ids=lambda game: game.name)
 def test_no_match_of_four_ais_clips(game: Game) -> None:
     for variant in game.variants:
         match = match_of(game.name, "level5 level5 level4 level4", variant=variant)

@@ -12,6 +12,7 @@ from assets.sounds.effects import PLAYERS
 from assets.sounds.score import Part, Score
 from assets.sounds.synth import RATE, pitch
 from pigaming_app.games.registry import games
+from tests.cases import repeated
 from tests.sounds.meter import Samples, decoded, measured
 
 SCORES = {path.stem.removeprefix("theme_"): path for folder in render.SCORES for path in folder.glob("theme_*.toml")}
@@ -74,7 +75,7 @@ def test_a_theme_is_as_loud_as_the_others(group: str, name: str) -> None:
     assert measured(heard(group, name)) == pytest.approx(render.GROUPS[group], abs=1.0)
 
 
-@pytest.mark.parametrize("name", sorted(SCORES))
+@pytest.mark.parametrize("name", repeated(sorted(SCORES)))
 @pytest.mark.usefixtures("mixer")
 @pytest.mark.long
 def test_the_files_hold_what_the_script_renders(name: str) -> None:

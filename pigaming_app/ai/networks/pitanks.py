@@ -85,7 +85,8 @@ def encode(match: PiTanks, seat: int, senses: PiTanksNetworkSenses, inputs: Inpu
     me = match.robots[seat]
     ahead_x, ahead_y = cos(me.heading), sin(me.heading)
     encode_self(match, seat, inputs)
-    inputs[HABITS], inputs[HABITS + 1] = whole(senses.thrift), whole(2.0 * senses.delay)
+    thrift = 0.0 if is_overtime(match) else senses.thrift  # two that save their shots would never end it
+    inputs[HABITS], inputs[HABITS + 1] = whole(thrift), whole(2.0 * senses.delay)
     inputs[PLACE] = whole(2.0 * me.x / WIDTH - 1.0)
     inputs[PLACE + 1] = whole(2.0 * me.y / HEIGHT - 1.0)
     inputs[PLACE + 2], inputs[PLACE + 3] = whole(ahead_x), whole(ahead_y)

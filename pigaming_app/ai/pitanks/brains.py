@@ -19,7 +19,7 @@ HANDICAPS = tuple(
     {"delay": 0.4, "error": 0.3, "thrift": thrift, "speed": speed, "reluctance": reluctance, "turns": TURNS}
     for thrift, speed, reluctance in (
         (1.0, 0.65, 3.8),
-        (1.0, 0.9, 2.0),
+        (1.0, 0.95, 2.7),
         (0.94, 0.95, 0.7),
         (0.78, 1.0, 0.5),
         (0.66, 1.0, 0.0),

@@ -11,7 +11,7 @@ from pigaming_app.sim.world import HZ
 
 MINUTES, DEFAULT_MINUTES = (1, 2, 3, 5), 2
 KNOCKOUT, PARTY_PROTECTION = round(0.8 * HZ), 2 * HZ
-OVERTIME = 15.0  # s, at most
+OVERTIME = 30.0  # s, at most
 VARIANTS = Variant.by_name(
     Variant("party", MINUTES, DEFAULT_MINUTES, overtime=OVERTIME),
     Variant("pickups", MINUTES, DEFAULT_MINUTES),

@@ -50,7 +50,7 @@ class Rigged:
         self.seen.append(([kind.name for kind in kinds], [setup.seed for setup in setups]))
 
     def play(self, ticks):
-        assert ticks == (2 * 60 + 15) * 50, "with the overtime of party"
+        assert ticks == (2 * 60 + 30) * 50, "with the overtime of party"
 
     def ticks(self):
         return 1

@@ -1,6 +1,6 @@
 """Tables of people as models: their traits, their wins against the levels, and what these hang on."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import fields
 
 from pigaming_app.ai.brain.effort import AUTO
@@ -29,7 +29,7 @@ UNITS = {
     "turbo": "turbo and mines",
 }
 EQUAL = ("level3", "level5")  # of all four seats
-LEANT = (("beginner", "level1"), ("player", "level3"))  # whose wins are measured with other traits
+LEANT = {"beginner": "level1", "player": "level3"}  # against whom wins with other traits count
 
 
 def traits() -> str:
@@ -101,28 +101,27 @@ def percent(place: Place | Series) -> str:
 
 def sensitivity(share: float) -> list[list[str]]:
     """Wins in PiTanks with one trait of all people scaled by 0.7 and by 1.3."""
-    return _leant("pitanks", LEANT, share)
+    return _leant([("pitanks", name) for name in LEANT], [f"`{name}` against `{LEANT[name]}`" for name in LEANT], share)
 
 
-def beginner_sensitivity(share: float) -> list[list[str]]:
-    """The same in the other games, of beginners against level 1."""
+def sensitivity_elsewhere(name: str) -> Callable[[float], list[list[str]]]:
+    """The same of one person in the other games."""
     others = [game for game in GAMES if game != "pitanks"]
-    head = [f"{GAMES[game]}, × {factor}" for game in others for factor in (0.7, 1.3)]
-    tables = [_leant(game, LEANT[:1], share)[1:] for game in others]
-    return [
-        ["", *head],
-        *([rows[0][0], *(cell for row in rows for cell in row[1:])] for rows in zip(*tables, strict=True)),
-    ]
+
+    def table(share: float) -> list[list[str]]:
+        return _leant([(game, name) for game in others], [GAMES[game] for game in others], share)
+
+    return table
 
 
-def _leant(game: str, leant: Sequence[tuple[str, str]], share: float) -> list[list[str]]:
+def _leant(columns: Sequence[tuple[str, str]], titles: Sequence[str], share: float) -> list[list[str]]:
+    """Wins by trait. `columns`: game and person."""
     count, minutes = some(400, share)
-    trial = Trial(game, count, minutes=minutes)
-    head = [f"`{name}` against `{level}`, × {factor}" for name, level in leant for factor in (0.7, 1.3)]
-    rows = [["", *head]]
+    rows = [["", *(f"{title}, × {factor}" for title in titles for factor in (0.7, 1.3))]]
     for trait in NUMBERS:
         row = [UNITS[trait].partition(",")[0]]
-        for name, level in leant:
-            row += [percent(places(trial, [name], [level], f"{trait}={factor}")[0]) for factor in (0.7, 1.3)]
+        for game, name in columns:
+            trial = Trial(game, count, minutes=minutes)
+            row += [percent(places(trial, [name], [LEANT[name]], f"{trait}={factor}")[0]) for factor in (0.7, 1.3)]
         rows.append(row)
     return rows

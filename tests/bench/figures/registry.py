@@ -59,12 +59,15 @@ MEASURED = {
     "sensitivity": Measured(
         PEOPLE, f"{MAIN} people pitanks level1 --people beginner --scale reaction=0.7 --seed 0", people.sensitivity, 10
     ),
-    "beginner sensitivity": Measured(
-        PEOPLE,
-        f"{MAIN} people GAME level1 --people beginner --scale reaction=0.7 --seed 0",
-        people.beginner_sensitivity,
-        15,
-    ),
+    **{
+        f"{name} sensitivity": Measured(
+            PEOPLE,
+            f"{MAIN} people GAME {level} --people {name} --scale reaction=0.7 --seed 0",
+            people.sensitivity_elsewhere(name),
+            15,
+        )
+        for name, level in people.LEANT.items()
+    },
     "exploits": Measured(OPPONENTS, f"{MAIN} exploits GAME --hands HANDS --matches 200", exploits.wins, 30),
     "network": Measured(
         NETWORKS, f"{BENCH}network_wins {networks.GUNNER} --matches {networks.EACH}", networks.wins, 10

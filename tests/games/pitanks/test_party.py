@@ -240,12 +240,12 @@ def test_a_sole_leader_wins_on_time():
     assert match.tick == match.rules.ticks
 
 
-def test_a_level_match_goes_on_for_fifteen_seconds_and_is_then_a_tie():
-    match = ticks(level([3, 3, 2]), 15 * HZ)
+def test_a_level_match_goes_on_for_thirty_seconds_and_is_then_a_tie():
+    match = ticks(level([3, 3, 2]), 30 * HZ)
     assert not match.over
     ticks(match, 1)
     assert match.over
-    assert match.tick == match.rules.ticks + 15 * HZ
+    assert match.tick == match.rules.ticks + 30 * HZ
     assert scores(match) == [3, 3, 2, 0]
 
 
@@ -285,9 +285,9 @@ def test_a_match_tells_overtime_and_its_time():
         assert match.seconds_left == pytest.approx(3.0 - match.seconds)
         match.tick()
     assert match.seconds == pytest.approx(3.0)
-    assert match.seconds_left == pytest.approx(15.0)
+    assert match.seconds_left == pytest.approx(30.0)
     finished(match)
-    assert match.seconds == pytest.approx(18.0)
+    assert match.seconds == pytest.approx(33.0)
     assert match.seconds_left == 0.0
     assert match.outcome().winners == ()
     assert verify(decode(encode(match), "overtime"))
@@ -299,7 +299,7 @@ def test_a_hit_that_ends_the_match_leaves_time():
     match.tick()
     assert match.over
     assert match.outcome().winners == (0,)
-    assert match.seconds_left == pytest.approx(3.0 + 15.0 - match.seconds)
+    assert match.seconds_left == pytest.approx(3.0 + 30.0 - match.seconds)
 
 
 def test_brains_see_light_knock_out_bounty_finale_and_overtime():
@@ -313,7 +313,7 @@ def test_brains_see_light_knock_out_bounty_finale_and_overtime():
     assert (obs.finale, obs.overtime) == (0, 0)
     match = ticks(level([3, 3, 2], minutes=0.5), 1)
     observe(match, 2, PiTanksSenses(), obs)
-    assert (obs.finale, obs.overtime, obs.seconds_left) == pytest.approx((0, 1, 15.0))
+    assert (obs.finale, obs.overtime, obs.seconds_left) == pytest.approx((0, 1, 30.0))
     assert [other.worth for other in obs.others[1:]] == [0, 0]
     observe(match, 0, PiTanksSenses(), obs)
     assert obs.others[0].worth == 1

@@ -13,6 +13,7 @@ from pigaming_app.hardware.proof.trials import ButtonMasher, play
 from pigaming_app.hardware.session.store import save_tops, tops_by_radio
 from pigaming_app.sim.world import HEIGHT, ROBOTS, WIDTH
 from pigaming_app.storage.settings import Settings, folders
+from tests.cases import one_in
 from tests.hardware.mat import EVEN, Mat
 
 BODY = 47.5  # mm
@@ -51,7 +52,7 @@ def test_robots_that_respond_as_declared_keep_their_speed():
     assert all(robot.command is None or tuple(robot.command) == (0.0, 0.0) for robot in mat.robots)
 
 
-@pytest.mark.parametrize(("late", "known"), [(0.2, 0.15), pytest.param(0.3, 0.22, marks=pytest.mark.long)])
+@pytest.mark.parametrize(("late", "known"), one_in(2, [(0.2, 0.15), (0.3, 0.22)]))
 def test_robots_that_respond_later_than_is_known_are_slowed_until_it_holds(late, known):
     """This mat predicts by the known delay, along a straight line: worse than any tracker."""
     mat = Mat(train=EVEN)

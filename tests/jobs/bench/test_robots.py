@@ -14,7 +14,7 @@ from pigaming_app.jobs.bench import robots as bench_robots
 from pigaming_app.jobs.bench.robots import TARGETS, MatMatch, jobs, on_mat, reached
 from pigaming_app.jobs.cli import main
 from tests.ai.networks.random_network import random_network
-from tests.cases import one_in, repeated
+from tests.cases import one_in
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,8 @@ def test_a_match_of_networks_on_the_mat_plays_to_its_end(game, ground, tmp_path)
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("arena", repeated(["labyrinth", "trenches"]))
+@pytest.mark.again
+@pytest.mark.parametrize("arena", ["labyrinth", "trenches"])
 def test_knocked_out_robots_keep_out_of_the_walls_on_the_mat(ground, monkeypatch, arena):
     """They reverse blindly; the virtual walls stop them."""
     seen = {"hits": 0}

@@ -12,6 +12,7 @@ from pigaming_app.scenes.views.view import ShownEffects
 from pigaming_app.sim.world import DT
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
+from tests.cases import repeated
 from tests.scenes.views.flashing import CELL, Cells, luminance, most_flashes
 
 RATE = 25.0  # pictures a second: each second tick
@@ -39,7 +40,7 @@ def filmed(game: str, variant: str, calm: bool) -> list[Cells]:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("game", games())
+@pytest.mark.parametrize("game", repeated(games()))
 def test_nothing_flashes_more_than_three_times_a_second_in_calm_mode(game: str) -> None:
     for variant in games()[game].variants:
         assert most_flashes(filmed(game, variant, calm=True), RATE) <= 3, variant

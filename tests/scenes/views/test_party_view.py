@@ -115,7 +115,7 @@ def test_the_banner_follows_the_phases_of_the_match(screen):
         (ticks - 20 * HZ, ("finale", 20)),
         (ticks - 1, ("finale", 1)),
         (ticks, ("overtime", CELLS)),
-        (ticks + 8 * HZ, ("overtime", 7)),
+        (ticks + 16 * HZ, ("overtime", 7)),
     ):
         state.tick = tick
         assert view.hud.banner.content(state) == content

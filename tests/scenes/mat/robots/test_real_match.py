@@ -31,7 +31,7 @@ from pigaming_app.ui.draw import GREY
 from pigaming_app.ui.draw.pixels import pixels_of
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from tests.cases import one_in
+from tests.cases import one_in, repeated
 from tests.hardware.sentences import sentence
 from tests.matches import setup_of
 from tests.scenes.arcade import Arcade
@@ -141,7 +141,7 @@ def test_robots_drive_to_their_places_and_play_with_a_disc_under_each(arcade: Ar
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("game", ["pitanks", "factory", "race"])
+@pytest.mark.parametrize("game", repeated(["pitanks", "factory", "race"]))
 def test_a_short_match_of_every_game_is_played_to_its_end(arcade: Arcade, game: str) -> None:
     match = opened(arcade, game, "level3 level1 level3 level1", 0.05, (0, 2))
     play(arcade, 1.0)
