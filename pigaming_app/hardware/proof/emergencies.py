@@ -23,6 +23,7 @@ WIFI_FAULTS = ("radio dead", "robot mute", "robot off", "battery empty", "all-st
 LISTEN = 3  # s, within which robots announce themselves and report
 ENOUGH = 0.6  # s of observation after the fault is reported
 BREAKDOWNS = ("pinned", "motor_dead", "motors_swapped", "motors_reversed", "motor_reversed")  # mechanical faults
+EFFECT = 10.0, 0.1  # mm and rad off the commanded pose: swapped wheels have none on a straight way
 NOTICED = 2.0  # s within which a mechanical fault must be noticed
 MISWIRED = ("lids_swapped", "motors_swapped", "motors_reversed", "motor_reversed")  # faults that lead out of the arena
 STANDING, MARGIN = 1.5, 5.0  # s at rest before a miswired robot drives; px at which virtual walls stop a robot
@@ -84,8 +85,9 @@ EMERGENCIES: Mapping[str, Emergency] = {
 
 
 class Breakdown(NamedTuple):
-    """Result of a mechanical fault: seconds until the motors were off, and how far the robot came off the way that it
-    was commanded, mm."""
+    """Result of a mechanical fault: seconds from its first effect, EFFECT, until the motors were off, and how far the
+    robot came off the way that it was commanded, mm.
+    """
 
     seconds: float
     mm: float
@@ -124,18 +126,19 @@ def break_down(trail: FigureEight, name: str, robot: int) -> Breakdown:
     arena, body = trail.bed.arena, trail.bed.arena.robots[robot]
     twin = EmulatedRobot(body.body, body.x, body.y, body.heading, Random(0))
     twin.left_speed, twin.right_speed = body.left_speed, body.right_speed
-    roll, way, away = body.roll, [(body.x, body.y)], 0.0
+    roll, way, away, began = body.roll, [(body.x, body.y)], 0.0, inf
 
     def both() -> None:
-        nonlocal away
+        nonlocal away, began
         twin.left, twin.right = body.left, body.right
         twin.roll()
         roll()
         way.append((twin.x, twin.y))
         away = max(away, min(hypot(body.x - x, body.y - y) for x, y in way))
+        if hypot(body.x - twin.x, body.y - twin.y) > EFFECT[0] or abs(body.heading - twin.heading) > EFFECT[1]:
+            began = min(began, arena.clock())
 
     arena.faults.switch(name, True, robot)
-    began = arena.clock()
     vars(body)["roll"] = both
     try:
         for _ in range(round(NOTICED * HZ)):
