@@ -9,7 +9,7 @@ import asyncio
 import base64
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,7 @@ import cv2
 
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
+from pigaming_app.hardware.commissioning.pairing import Pairing, PairingCase
 from pigaming_app.hardware.control.real_plant import RealPlant
 from pigaming_app.hardware.control.rig import UNMEASURED
 from pigaming_app.hardware.drivers.driver import LinkSite
@@ -37,6 +38,7 @@ from pigaming_app.hardware.proof.trials import ButtonMasher, entered
 from pigaming_app.hardware.session.emulated import calibrated
 from pigaming_app.hardware.session.lighting import Lighting
 from pigaming_app.hardware.session.robot_session import new_rig
+from pigaming_app.hardware.vision import camera as camera_reader
 from pigaming_app.hardware.vision import discovery
 from pigaming_app.hardware.vision.camera import Camera
 from pigaming_app.hardware.vision.phone import PhoneCapture
@@ -135,15 +137,27 @@ class Stage:
         self.rig = new_rig(camera, link, self.ground, arena.clock, [UNMEASURED] * ROBOTS)
         self.rig.start()
 
-    def play(self, lock: "Any", minutes: float) -> Any:
-        """A match; `lock(True)` locks the phone, which happens twice. Returns it at its end."""
+    def play(self, lock: Callable[[bool], None], minutes: float) -> Match:
+        """Pair the robots, as the wizard does, which measures the delay of the phone's camera; then play a match.
+
+        `lock(True)` locks the phone, which happens twice. Returns the match at its end.
+        """
+        self._wait(lambda: len(self.rig.link.telemetry) == ROBOTS)
+        pairing = Pairing(self.rig)
+        self._wait(pairing.tick)
+        assert [finding.case for finding in pairing.findings] == [PairingCase.FITS] * ROBOTS, pairing.findings
         match = Match(setup_of(GAME, "human human human human", "", minutes), lambda world: RealPlant(world, self.rig))
         plant: Any = match.plant
         for seat in range(ROBOTS):
             match.sit(seat, ButtonMasher(seat))
             robot = match.state.robots[seat]
             self.arena.place(seat, (robot.x, robot.y, robot.heading))
-        self._until(plant.take_places, plant)
+
+        def placed() -> bool:
+            self._clear(plant)
+            return bool(plant.take_places())
+
+        self._wait(placed)
         self.lighting.show(busy=True)
         locks = [share * 60.0 * minutes for share in LOCKED_AT]
         while not match.over:
@@ -159,7 +173,7 @@ class Stage:
             self._pass()
         return match
 
-    def _lock(self, lock: Any, plant: RealPlant) -> None:
+    def _lock(self, lock: Callable[[bool], None], plant: RealPlant) -> None:
         began = self.arena.clock()
         lock(True)
         end = began + OUT
@@ -174,11 +188,10 @@ class Stage:
     def _drives(self) -> bool:
         return self.arena.clock() - max(self.arena.last_driven) < 0.05
 
-    def _until(self, done: Any, plant: RealPlant) -> None:
+    def _wait(self, done: Callable[[], object]) -> None:
         end = self.arena.clock() + 90.0
         while not done():
-            assert self.arena.clock() < end, (plant.places, plant.faults)
-            self._clear(plant)
+            assert self.arena.clock() < end
             self._pass()
 
     def _clear(self, plant: RealPlant) -> None:
@@ -243,6 +256,8 @@ def played(stage: Stage, kept: Path, browser: str, monkeypatch: pytest.MonkeyPat
         for _ in range(20):
             await show(page, blank)
         pace = stage.choose_pace((time.monotonic() - began) / 20)
+        for name in ("STALE", "RETRY"):  # waits in real time
+            monkeypatch.setattr(camera_reader, name, getattr(camera_reader, name) / pace)
         await page.ask("Page.navigate", url="about:blank")
         page = await browser.phone(served.host.url, source=SOURCE.replace("PACE", f"{pace}"))
         await page.until("typeof window.film === 'function'")
@@ -271,6 +286,7 @@ def played(stage: Stage, kept: Path, browser: str, monkeypatch: pytest.MonkeyPat
             for task in tasks:
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
+            print(browser.errors)
         assert match.over
 
     try:
