@@ -23,7 +23,7 @@ WIFI_FAULTS = ("radio dead", "robot mute", "robot off", "battery empty", "all-st
 LISTEN = 3  # s, within which robots announce themselves and report
 ENOUGH = 0.6  # s of observation after the fault is reported
 BREAKDOWNS = ("pinned", "motor_dead", "motors_swapped", "motors_reversed", "motor_reversed")  # mechanical faults
-EFFECT = 10.0, 0.1  # mm and rad off the commanded pose: swapped wheels have none on a straight way
+EFFECT = 10.0  # mm from where an obedient robot is: swapped wheels have no effect on a straight way
 NOTICED = 2.0  # s within which a mechanical fault must be noticed
 MISWIRED = ("lids_swapped", "motors_swapped", "motors_reversed", "motor_reversed")  # faults that lead out of the arena
 STANDING, MARGIN = 1.5, 5.0  # s at rest before a miswired robot drives; px at which virtual walls stop a robot
@@ -135,7 +135,7 @@ def break_down(trail: FigureEight, name: str, robot: int) -> Breakdown:
         roll()
         way.append((twin.x, twin.y))
         away = max(away, min(hypot(body.x - x, body.y - y) for x, y in way))
-        if hypot(body.x - twin.x, body.y - twin.y) > EFFECT[0] or abs(body.heading - twin.heading) > EFFECT[1]:
+        if hypot(body.x - twin.x, body.y - twin.y) > EFFECT:
             began = min(began, arena.clock())
 
     arena.faults.switch(name, True, robot)
