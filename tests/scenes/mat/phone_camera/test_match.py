@@ -1,8 +1,9 @@
 """A whole match whose camera is a phone in a real browser: Chromium, fed with the pictures of the emulated arena.
 
-Its fake camera is a canvas on which every picture of the renderer is drawn when it was exposed. From there on all is
-real: the page, its encoders, HTTPS, and the clocks of both sides. The arena's time passes at a pace that this computer
-holds; the page's clock follows it, so that delays are those of a phone that is so much quicker. `-s` prints figures.
+Its fake camera is a canvas on which every picture of the renderer is drawn, with the time of its exposure by the
+system's clock, as phones tell it (`captureTime`). From there on all is real: the page, its encoders, HTTPS, and the
+clocks of both sides. The arena's time passes at a pace that this computer holds; the page's clock follows it, so that
+delays are those of a phone that is so much quicker. `-s` prints figures.
 """
 
 import asyncio
@@ -67,15 +68,17 @@ const pace = PACE, real = performance.now.bind(performance);
 const asked = HTMLVideoElement.prototype.requestVideoFrameCallback;
 performance.now = () => pace * real();
 HTMLVideoElement.prototype.requestVideoFrameCallback = function (use) {
-    return asked.call(this, (now, about) => use(pace * now, { presentationTime: pace * about.presentationTime }));
+    const captured = () => pace * (window.captured - performance.timeOrigin);
+    return asked.call(this, (now) => use(pace * now, { captureTime: captured() }));
 };
 if (navigator.mediaDevices) navigator.mediaDevices.getUserMedia = async () => {
     const canvas = document.createElement("canvas"), ink = canvas.getContext("2d", { alpha: false });
     [canvas.width, canvas.height] = [1280, 720];
     const stream = canvas.captureStream(0), track = stream.getVideoTracks()[0];
-    window.film = async (jpeg) => {
+    window.film = async (jpeg, captured) => {
         const bytes = Uint8Array.from(atob(jpeg), (letter) => letter.charCodeAt(0));
         ink.drawImage(await createImageBitmap(new Blob([bytes], { type: "image/jpeg" })), 0, 0);
+        window.captured = captured;
         track.requestFrame();
         return true;
     };
@@ -128,7 +131,7 @@ class Stage:
             if frame is None:
                 await asyncio.sleep(0.001)
             else:
-                await show(page, frame.image)
+                await show(page, frame.image, (self.arena.clock() - frame.captured) / self.passing.pace)
 
     def open(self, camera: Camera) -> None:
         arena = self.arena
@@ -217,11 +220,15 @@ class Stage:
             time.sleep(0.001)
 
 
-async def show(page: Page, image: Any) -> None:
+async def show(page: Page, image: Any, age: float = 0.0) -> None:
+    """Put a picture that was exposed `age` s ago on the canvas, with its time, as cameras of phones have it."""
+    captured = 1000.0 * (time.time() - age)
     ok, jpeg = cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, 92])
     assert ok
     await page.ask(
-        "Runtime.evaluate", expression=f"film('{base64.b64encode(jpeg.tobytes()).decode()}')", awaitPromise=True
+        "Runtime.evaluate",
+        expression=f"film('{base64.b64encode(jpeg.tobytes()).decode()}', {captured})",
+        awaitPromise=True,
     )
 
 
