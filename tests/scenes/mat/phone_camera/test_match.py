@@ -112,7 +112,7 @@ class Stage:
         self.passing = SlowArena(self.arena)
         self.late: list[tuple[float, float, float]] = []  # s of the clock; mm; rad: errors of all robots' poses
         self.stops: list[float] = []  # s
-        self.deepest, self.alarms = -math.inf, 0
+        self.deepest, self.alarms, self.over = -math.inf, 0, False
 
     def choose_pace(self, film_seconds: float) -> float:
         """A pace that this computer holds, where a picture takes so many s to reach the page."""
@@ -126,7 +126,7 @@ class Stage:
 
     async def film(self, page: Page) -> None:
         """Show each picture to the page as soon as it was exposed."""
-        while True:
+        while not self.over:
             frame = await asyncio.to_thread(self.arena.camera.newest)
             if frame is None:
                 await asyncio.sleep(0.001)
@@ -275,7 +275,7 @@ def played(stage: Stage, kept: Path, browser: str, monkeypatch: pytest.MonkeyPat
             asked.result()
 
         async def watch() -> None:
-            while True:
+            while not stage.over:
                 await asyncio.sleep(0.2)
                 if served.feed.live:
                     rates.append(served.feed.rate)
@@ -290,9 +290,8 @@ def played(stage: Stage, kept: Path, browser: str, monkeypatch: pytest.MonkeyPat
                     match = await asyncio.to_thread(stage.play, lock, minutes)
                 finally:
                     stage.rig.close()
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
+            stage.over = True
+            await asyncio.gather(*tasks)
         assert match.over
 
     try:
