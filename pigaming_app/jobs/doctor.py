@@ -47,6 +47,10 @@ DEVICES = {  # state and advice where it is missing
     "pads": ("note", "it works as a plain joystick; a mapping in SDL_GAMECONTROLLERCONFIG names its buttons"),
     "fonts": ("problem", REINSTALL),
 }
+UNTOLD = {  # about cameras, by system
+    "win32": "Windows does not name them; exposures are in powers of two",
+    "darwin": "macOS does not name them, nor tell or set their exposure",
+}
 
 
 @dataclass(frozen=True)
@@ -75,7 +79,7 @@ def run(options: JsonOption) -> int:
 
 def report() -> list[Line]:
     """All findings. It never raises: a failed check becomes a line."""
-    return [*_system(), *_packages(), *_files(), *_assets(), *_devices(), _engine()]
+    return [*_system(), *_packages(), *_files(), *_assets(), *_devices(), _cameras(), _engine()]
 
 
 def _system() -> Iterator[Line]:
@@ -236,6 +240,21 @@ def _devices() -> Iterator[Line]:
             none = "none; the keyboard will do" if what == "pads" else "none"
             text = "; ".join(part for part in (found, wrong) if part) or none
             yield Line(what, state if wrong else "ok", text.rstrip("."), advice if wrong else "")
+
+
+def _cameras() -> Line:
+    """Cameras for real robots, and what this system does not tell about them, or lets programs set."""
+    try:
+        from pigaming_app.hardware.vision.discovery import cameras
+    except ImportError as error:
+        return Line("cameras", "note", f"not looked for: {error}")
+    if sys.platform.startswith("linux"):
+        found = ", ".join(f"{camera.number} ({camera.name})" for camera in cameras())
+        return Line("cameras", "ok", found or "none; only real robots need one")
+    advice = "the wizard tries numbers 0 to 2"
+    if sys.platform == "darwin":
+        advice += "; set 1/60 s and a fixed focus in the camera's own program"
+    return Line("cameras", "note", UNTOLD.get(sys.platform, "this system does not name them"), advice)
 
 
 def _probed() -> dict[str, tuple[str, str]]:

@@ -11,6 +11,7 @@ from importlib import import_module
 import pytest
 
 from pigaming_app.hardware.emulator.faults import FAULTS
+from pigaming_app.hardware.proof.emergencies import EMERGENCIES
 from pigaming_app.jobs.cli import Parser
 from pigaming_app.jobs.registry import jobs
 from pigaming_app.jobs.terminal.options import declare_job
@@ -111,6 +112,16 @@ def test_messages_are_those_of_the_program() -> None:
     named = [words for cell in cells for words in re.findall(r"\*([^*]+)\*", cell)]
     assert len(named) > 50
     assert [words for words in named if not any(is_text(words, text) for text in known)] == []
+
+
+def test_every_fault_that_is_proven_stands_in_the_table_with_what_to_do() -> None:
+    table = PAGE.partition("## Troubleshooting")[2].partition("\n## ")[0]
+    rows = [[cell.strip() for cell in row.split("|")[1:-1]] for row in table.splitlines() if row.startswith("| ")][1:]
+    english = tomllib.loads((ROOT / "assets/text/en.toml").read_text(encoding="utf-8"))["faults"]
+    shown = [words for cell, *_ in rows for words in re.findall(r"\*([^*]+)\*", cell)]
+    reports = {name for emergency in EMERGENCIES.values() for name in emergency.reports} | {"disobeys"}
+    assert [name for name in sorted(reports) if not any(is_text(words, english[name]) for words in shown)] == []
+    assert [row for row in rows if len(row) != 3 or not all(row)] == []
 
 
 def test_tests_and_faults_exist() -> None:

@@ -12,6 +12,7 @@ import pytest
 from pigaming_app import __version__
 from pigaming_app.boot import version
 from pigaming_app.boot.interpreter import StartError
+from pigaming_app.hardware.vision import discovery
 from pigaming_app.jobs import doctor
 from pigaming_app.jobs.cli import main
 from pigaming_app.storage.pin import PinFile
@@ -172,3 +173,25 @@ def test_it_warns_when_visitors_can_leave_a_kiosk(monkeypatch, home, platform, d
     assert found.state == state
     assert all(word in found.found for word in words)
     assert bool(found.advice) == (state != "ok")
+
+
+@pytest.mark.parametrize(
+    ("system", "state", "words"),
+    [
+        ("linux", "ok", "2 (Eye of the mat)"),
+        ("darwin", "note", "set their exposure"),
+        ("win32", "note", "powers of two"),
+        ("freebsd", "note", "does not name them"),
+    ],
+)
+def test_cameras_are_named_and_what_a_system_does_not_tell_of_them(monkeypatch, tmp_path, system, state, words):
+    camera = tmp_path / "video2"
+    camera.mkdir()
+    (camera / "name").write_text("Eye of the mat\n")
+    (camera / "index").write_text("0\n")
+    monkeypatch.setattr(discovery, "DEVICES", tmp_path)
+    monkeypatch.setattr(sys, "platform", system)
+    line = doctor._cameras()
+    assert (line.what, line.state) == ("cameras", state)
+    assert words in line.found
+    assert bool(line.advice) is (state == "note")

@@ -9,8 +9,10 @@ import pytest
 from pigaming_app import links
 from pigaming_app.games import setup
 from pigaming_app.games.registry import games
+from pigaming_app.hardware.proof.figures import DRIVERS
+from pigaming_app.hardware.proof.showings import SHOWINGS
 from pigaming_app.jobs.bench import figures
-from pigaming_app.jobs.bench.robots import TARGETS
+from pigaming_app.jobs.bench.robots import BY_DRIVER, SHOWING, TARGETS
 from pigaming_app.scenes.bench import frame_times
 from tests.bench.detection import Sample
 from tests.bench.figures import as_markdown, on_page, pattern, robots, write
@@ -35,7 +37,8 @@ def _small(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(setup, "MIN_MINUTES", LEAST)
     monkeypatch.setattr(figures, "PLAIN_TICKS", 100)
     monkeypatch.setattr(frame_times, "FIRST", 1)
-    monkeypatch.setattr(robots, "measure", lambda: dict(TARGETS))
+    groups = {SHOWING: dict.fromkeys(SHOWINGS, TARGETS), BY_DRIVER: dict.fromkeys(DRIVERS, TARGETS)}
+    monkeypatch.setattr(robots, "measured", lambda: TARGETS | groups)
     monkeypatch.setattr(robots, "found", lambda *look: [Sample(16, 23.0, 1.4, 1 / 60, True)])
 
 

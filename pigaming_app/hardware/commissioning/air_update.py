@@ -7,7 +7,7 @@ right. Otherwise the robot returns to the program before. Robots that were drive
 import hashlib
 from collections.abc import Callable, Mapping
 
-from pigaming_app.hardware.commissioning.board_setup import AIR_FILES
+from pigaming_app.hardware.commissioning.boards.wifi import AIR_FILES
 from pigaming_app.hardware.radio.wifi import WifiNetwork
 from pigaming_app.hardware.robot_kinds import PROGRAM
 from pigaming_app.storage.messages import OperatorError, OperatorMessage

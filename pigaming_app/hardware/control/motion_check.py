@@ -21,13 +21,16 @@ from pigaming_app.sim.drivetrain import Drivetrain
 from pigaming_app.sim.plant import Twist
 from pigaming_app.sim.world import HEIGHT, RADIUS, WIDTH
 
-SHORT, LONG = 0.15, 0.4  # s, windows of comparison: for a robot astray, and for one that is stuck
+SHORT, LONG = 0.15, 0.33  # s, windows of comparison: for a robot astray, and for one that is stuck
 LATENESS = (-0.03, 0.0, 0.03, 0.07)  # s, tolerated delays on top of the drivetrain's dead time
 STRONGEST = 1.5  # tolerated gain of a wheel
 SLACK, SHARE = 4.0, 0.2  # px, and share of the faster wheel's travel: errors of poses and wheel base, and slip
 UNEVEN = 0.15  # tolerated difference of the wheels, as a share of their travel, with gains estimated by the tracker
+EVEN, KNOWN = 0.05, 2.0  # that of a robot whose wheels have differed by less on average, for so many s of driving
+AVERAGED = 3.0  # s over which it is averaged
 SIDEWAYS = 7.0  # px in SHORT, beyond any motion by wheels
 WEAK = 40.0  # px/s, tolerated loss to friction on top of the deadband
+AGAINST = 8.0  # weight of a turn against the command, beyond what uneven wheels explain
 CLEAR, STANDS = 8.0, 0.2  # px, least expected travel in LONG, and the share of it below which a wheel is stuck
 SOON = 0.08  # s, window of comparison for a robot that leaves the arena
 STRONG, NUDGE = 1.3, 3.0  # factor of the commanded outward travel, and px, beyond which a robot leaves by itself
@@ -81,6 +84,7 @@ class RobotMotionCheck:
         self._poses: deque[PoseSample] = deque()
         self._delays = self._tolerated(0.0)  # s
         self._ends: list[tuple[float, ...]] = []  # travel at the newest pose, px, for each delay
+        self._uneven = self._known = 0.0  # mean turn beyond the commanded one, as a share of the travel; s of it
 
     def expect_lateness(self, late: float) -> None:
         """Tolerate a delay that was measured on top of the robot's dead time, s, e.g. of a slow network."""
@@ -150,7 +154,7 @@ class RobotMotionCheck:
         leaving = self._leaves(self._since(SOON), newest)
         held = self._since(LONG)
         stuck = newest.time - held.time if self._stuck(held, newest) else 0.0
-        seconds = old.astray + dt if astray else 0.0 if astray is False else max(0.0, old.astray - EASE * dt)
+        seconds = max(0.0, old.astray - EASE * dt) if astray is None else astray and old.astray + astray * dt
         self.contradiction = MotionMismatch(seconds, stuck, leaving)
 
     def _since(self, seconds: float) -> PoseSample:
@@ -158,8 +162,10 @@ class RobotMotionCheck:
         until = self._poses[-1].time - seconds + 1e-6
         return next((pose for pose in reversed(self._poses) if pose.time <= until), self._poses[0])
 
-    def _astray(self, since: PoseSample, now: PoseSample) -> bool | None:
-        """True if no tolerated wheel moves like this; None if hardly any motion was expected or observed."""
+    def _astray(self, since: PoseSample, now: PoseSample) -> float | None:
+        """How fast evidence grows that no tolerated wheel moves like this: 0 if one does, 1, or AGAINST; None if hardly
+        any motion was expected or observed.
+        """
         left, right, side = self._travelled(since, now)
         options = self._expected(since)
         longest = max(abs(travel) for option in options for travel in option[:2])
@@ -169,8 +175,19 @@ class RobotMotionCheck:
         for wheel, travel in enumerate((left, right)):
             expected = [option[wheel] for option in options]
             if not STRONGEST * min(0.0, *expected) - slack <= travel <= STRONGEST * max(0.0, *expected) + slack:
-                return True
-        return abs(side) > SIDEWAYS + SHARE * longest or _turned_against(left, right, options)
+                return 1.0
+        if _turned_against(left, right, options, self._learn_uneven(left - right, options[1], now)):
+            return AGAINST
+        return float(abs(side) > SIDEWAYS + SHARE * longest)
+
+    def _learn_uneven(self, turn: float, expected: Sequence[float], now: PoseSample) -> bool:
+        """Note how a robot turns beyond what is expected, px; True if its wheels are known to be even."""
+        even = self._known > KNOWN and abs(self._uneven) < EVEN
+        travel, dt = expected[0] + expected[1], now.time - self._poses[-2].time
+        if abs(travel) > 6.0 * SLACK:
+            self._uneven += ((turn - expected[0] + expected[1]) / travel - self._uneven) * min(1.0, dt / AVERAGED)
+            self._known += dt
+        return even
 
     def _stuck(self, since: PoseSample, now: PoseSample) -> bool:
         """True if a wheel stands although even the weakest tolerated one would have turned."""
@@ -239,12 +256,15 @@ class RobotMotionCheck:
         )
 
 
-def _turned_against(left: float, right: float, options: Sequence[tuple[float, ...]]) -> bool:
+def _turned_against(left: float, right: float, options: Sequence[tuple[float, ...]], even: bool) -> bool:
     """True if the robot turned against its command by more than uneven wheels explain. Travel in px."""
+    share, slack = (EVEN, 0.4 * SLACK) if even else (UNEVEN, SLACK)
+    if even and len(options) == len(LATENESS):
+        options = options[:-1]  # one that is known is not so late
     turns = [option[0] - option[1] for option in options]
     low, high = min(turns), max(turns)
     if low * high <= 0.0:
         return False
     sign, clear = (1.0, low) if low > 0.0 else (-1.0, -high)
-    uneven = UNEVEN * max(abs(option[0]) + abs(option[1]) for option in options)
-    return clear > 2.0 * SLACK and sign * (left - right) < -SLACK - uneven
+    uneven = share * max(abs(option[0]) + abs(option[1]) for option in options)
+    return clear > 2.0 * slack and sign * (left - right) < -slack - uneven

@@ -12,6 +12,7 @@ from enum import IntEnum
 from typing import NamedTuple
 
 IN_A_HAND, BEYOND = ("size", "tilted"), "outside"  # why a marker was rejected: see Tracker.rejections
+ASTRAY, STUCK = 0.4, 0.329  # s of motion without a command, and at rest despite one; see motion_check
 CALM = 0.5  # s for which a condition must be clear before its fault ends
 
 
@@ -63,7 +64,7 @@ class SafetyRule:
 
 def _disobeys(health: Health) -> bool:
     """True if motion contradicts the commands; a robot at rest without recent reports may just be switched off."""
-    return health.leaving or health.astray > 0.4 or (health.stuck > 0.399 and health.silence < 0.35)
+    return health.leaving or health.astray > ASTRAY or (health.stuck > STUCK and health.silence < 0.35)
 
 
 def _empty(health: Health) -> bool:

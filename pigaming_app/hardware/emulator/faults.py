@@ -47,6 +47,7 @@ FAULTS = {
     "motors_swapped": "the motors of the robot are connected to each other's outputs",
     "motors_reversed": "both motors of the robot have reversed polarity",
     "motor_reversed": "the left motor of the robot has reversed polarity",
+    "motor_dead": "the left motor of the robot has lost a wire",
 }
 CAMERA = {"camera_frozen": "frozen", "camera_stuck": "stuck", "camera_gone": "gone"}
 RADIO = {"radio_dead": "dead", "radio_unplugged": "unplugged"}
@@ -110,6 +111,8 @@ class FaultInjector:
             target.pinned = on
         elif name == "motors_swapped":
             target.swapped = on
+        elif name == "motor_dead":
+            target.polarity = [0.0 if on else 1.0, 1.0]
         elif name in ("motors_reversed", "motor_reversed"):
             target.polarity = [-1.0 if on else 1.0, -1.0 if on and name == "motors_reversed" else 1.0]
 

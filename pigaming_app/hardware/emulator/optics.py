@@ -17,7 +17,7 @@ Map = NDArray[np.float32]
 CANVAS = (1920, 1080)  # px of the projected image
 SENSOR = (1920, 1080)  # px of the camera
 CORNERS = np.array([[-1274.0, -715.0], [1271.5, -719.0], [1277.0, 718.0], [-1275.0, 714.0]])  # mm, of the image
-LAMP = np.array([-120.0, -500.0, 2700.0])  # mm, position of the projector
+LAMP = np.array([-120.0, -500.0, 2700.0])  # mm, usual position of the projector
 COARSE = 4  # px between the rays solved by iteration
 
 
@@ -37,9 +37,11 @@ class TrueLens:
 class Optics:
     """The maps between canvas, mat and sensor."""
 
-    def __init__(self, lens: TrueLens | None = None, corners: Floats = CORNERS) -> None:
-        """`corners`: of the projected image, or of a printed one, mm on the mat, (4, 2)."""
-        self.lens = lens or TrueLens()
+    def __init__(self, lens: TrueLens | None = None, corners: Floats = CORNERS, lamp: Floats = LAMP) -> None:
+        """`corners`: of the projected image, or of a printed one, mm on the mat, (4, 2); `lamp`: place of the
+        projector, or of its image in a mirror, mm. Things are lit as from LAMP.
+        """
+        self.lens, self.lamp = lens or TrueLens(), lamp
         self.turn = _look_at(self.lens)
         rim = np.array([[0, 0], [CANVAS[0], 0], CANVAS, [0, CANVAS[1]]]) - 0.5  # integers are pixel centres
         self.to_mat = _homography(rim, corners)
@@ -52,7 +54,8 @@ class Optics:
 
     def canvas(self, mat: Floats, height: float = 0.0) -> Floats:
         """Points (n, 2) in mm, `height` mm above the mat, to the canvas px that light them."""
-        return _mapped(self.to_canvas, LAMP[:2] + (mat - LAMP[:2]) * (LAMP[2] / (LAMP[2] - height)))
+        lamp = self.lamp
+        return _mapped(self.to_canvas, lamp[:2] + (mat - lamp[:2]) * (lamp[2] / (lamp[2] - height)))
 
     def sensor(self, mat: Floats, height: float = 0.0) -> Floats:
         """Points (n, 2) in mm, `height` mm above the mat, to camera px."""
@@ -68,7 +71,22 @@ class Optics:
 
     def lit_by(self, height: float) -> tuple[Map, Map]:
         """For every px of the sensor, the canvas px that lights its point on the plane at `height` mm: x and y."""
-        return _lit_by(self.lens, self.turn.tobytes(), self.to_canvas.tobytes(), height)
+        return _lit_by(self.lens, self.turn.tobytes(), self.to_canvas.tobytes(), self.lamp.tobytes(), height)
+
+    def beam(self, height: float) -> Map | None:
+        """For every px of the sensor, the light of projected white on the plane at `height` mm, 1 in the middle of the
+        mat; None from LAMP, which is taken for even.
+
+        By geometry: light falls with the square of the distance, and by the cosine of its angle, which is the height
+        over the distance.
+        """
+        if np.array_equal(self.lamp, LAMP):
+            return None
+        x, y = self.plane(height, slice(0, SENSOR[1]), slice(0, SENSOR[0]))
+        over, down, up = (float(place) for place in self.lamp)
+        near = over * over + down * down + up * up
+        away = (x - np.float32(over)) ** 2 + (y - np.float32(down)) ** 2 + np.float32((up - height) ** 2)
+        return np.asarray((np.float32(near) / away) ** np.float32(1.5), dtype=np.float32)
 
 
 def _look_at(lens: TrueLens) -> Floats:
@@ -94,16 +112,19 @@ def _distorted(lens: TrueLens, rays: Floats) -> Floats:
 
 
 @lru_cache(maxsize=4)
-def _lit_by(lens: TrueLens, turn: bytes, to_canvas: bytes, height: float) -> tuple[Map, Map]:
+def _lit_by(lens: TrueLens, turn: bytes, to_canvas: bytes, place: bytes, height: float) -> tuple[Map, Map]:
     """Like `Optics.lit_by`, shared by all arenas with the same lens."""
     rays, up = _rays(lens, turn), np.float32(lens.eye[2] - height)
     x, y = lens.eye[0] + rays[..., 0] * up, lens.eye[1] + rays[..., 1] * up
-    return canvas_px(np.frombuffer(to_canvas).reshape(3, 3), x, y, np.float32(LAMP[2] / (LAMP[2] - height)))
+    lamp = np.frombuffer(place)
+    return canvas_px(np.frombuffer(to_canvas).reshape(3, 3), x, y, np.float32(lamp[2] / (lamp[2] - height)), lamp)
 
 
-def canvas_px(to_canvas: Floats, x: Map, y: Map, grow: np.float32 | Map) -> tuple[Map, Map]:
-    """The canvas px that light these points, (x, y) of each; `grow`: by how far the lamp's rays lead on to the mat."""
-    lamp, h = LAMP.astype(np.float32), to_canvas.astype(np.float32)
+def canvas_px(to_canvas: Floats, x: Map, y: Map, grow: np.float32 | Map, place: Floats = LAMP) -> tuple[Map, Map]:
+    """The canvas px that light these points, (x, y) of each; `grow`: by how far the rays of the lamp at this `place`
+    lead on to the mat.
+    """
+    lamp, h = place.astype(np.float32), to_canvas.astype(np.float32)
     x, y = lamp[0] + (x - lamp[0]) * grow, lamp[1] + (y - lamp[1]) * grow
     below = h[2, 0] * x + h[2, 1] * y + h[2, 2]
     return (h[0, 0] * x + h[0, 1] * y + h[0, 2]) / below, (h[1, 0] * x + h[1, 1] * y + h[1, 2]) / below

@@ -98,7 +98,7 @@ class SceneRenderer:
         random = np.random.default_rng(seed)
         self._noise = np.clip(np.rint(random.normal(0.0, noise, (1400, 2300))), -127, 127).astype(np.int8)
         self._solid: tuple[Prism, ...] = ()
-        self._mat = _cloth(random)
+        self._cloth = self._mat = _cloth(random)
         self.look_through(optics)
         self._shade = _vignette()
         self._room: Image | None = None
@@ -108,6 +108,7 @@ class SceneRenderer:
         """Replace the optics, for a camera that was moved."""
         self.optics = optics
         self._floor, self._lids = optics.lit_by(0.0), optics.lit_by(LID_HEIGHT)
+        self._beams = optics.beam(0.0), optics.beam(LID_HEIGHT)
         self._lights: tuple[Image | None, dict[tuple[bool, ImageRegion], Image]] = None, {}  # of a projected picture
         self.furnish(self._solid)
 
@@ -116,7 +117,7 @@ class SceneRenderer:
         self._screen = television.seen(self.optics)
 
     def lay_paper(self, paper: Image, mm: float) -> None:
-        """Lay printed paper on the mat, grey, with its middle on that of the mat; `mm`: of one of its px."""
+        """Lay printed paper on the mat in place of what lay there, grey, middle on middle; `mm`: of one of its px."""
         import cv2
 
         x, y = self.optics.plane(0.0, *WHOLE.cut())
@@ -125,7 +126,7 @@ class SceneRenderer:
         footprint = self.optics.lens.eye[2] / self.optics.lens.focal / mm  # paper px in a px of the camera
         soft = cv2.GaussianBlur(paper, (0, 0), max(0.3, 0.4 * footprint))
         ink = cv2.remap(soft, *at, cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT, borderValue=255.0)
-        self._mat = np.asarray(self._mat * (ink / np.float32(255.0)), dtype=np.float32)
+        self._mat = np.asarray(self._cloth * (ink / np.float32(255.0)), dtype=np.float32)
         self.furnish(self._solid)
 
     def furnish(self, things: Sequence[Prism]) -> None:
@@ -274,6 +275,8 @@ class SceneRenderer:
             x, y = self._lids if height else self._floor
             shown = cv2.remap(scene.image, x[window.cut()], y[window.cut()], cv2.INTER_LINEAR)
             lights[key] = np.asarray(cv2.GaussianBlur(shown, (5, 5), BLUR))
+            if (beam := self._beams[height > 0.0]) is not None and self._screen is None:
+                lights[key] = np.asarray(cv2.multiply(lights[key], beam[window.cut()], dtype=cv2.CV_8U))
         return lights[key]
 
     def _room_light(self, turn: float) -> Floats:

@@ -10,6 +10,9 @@ from operator import add, eq, gt, ne, sub
 from random import Random
 from typing import Self
 
+from pigaming_app.hardware.emulator.arena import EmulatedArena
+from pigaming_app.hardware.emulator.radio import EmulatedRadio, RadioChannel
+
 STEP = 0.002  # s
 DELAY = 0.09  # s on the way to a robot, or back
 INIT, LOCAL = 0xFFFF, 0xFFFE  # numbers of events: the program's start; the first event of the robot itself
@@ -27,6 +30,9 @@ EVENTS_5: tuple[str, ...] = (
     "acc", "mic", "sound.finished", "temperature", "rc5", "motor", "timer0", "timer1",
 )  # fmt: skip
 SIZE, PROGRAM, STACK = 600, 1534, 32  # words
+FASTEST = 500  # target of a motor that turns at full speed
+CELLS = 1.3  # voltage of the arena's robots, of four cells, in that of a Thymio's only one
+VBAT = 198.9  # units of each word of `_vbat` in a volt, by the firmware's behavior.c
 
 
 def _signed(word: int) -> int:
@@ -173,7 +179,7 @@ class Dongle:
     """Robots on a dongle, whose port is a SerialPort; `loss`: share of the messages that do not arrive."""
 
     def __init__(self, numbers: tuple[int, ...], seed: int = 1, thymio: type[EmulatedThymio] = EmulatedThymio) -> None:
-        self.now, self.loss = 0.0, 0.0
+        self.now, self.loss, self.mute = 0.0, 0.0, set[int]()
         self.robots = [thymio(number, self._sender(number)) for number in sorted(numbers)]
         self.on = [True] * len(numbers)
         self._to: deque[tuple[float, int, bytes]] = deque()  # s, robot, message
@@ -220,7 +226,7 @@ class Dongle:
 
     def _sender(self, number: int) -> Callable[[int, bytes], None]:
         def send(kind: int, data: bytes) -> None:
-            if self._random.random() >= self.loss:
+            if number not in self.mute and self._random.random() >= self.loss:
                 self._back.append((self.now + DELAY, struct.pack("<HHH", len(data), number, kind) + data))
 
         return send
@@ -251,3 +257,37 @@ class Dongle:
 
     def close(self) -> None:
         """No effect: the robots stay."""
+
+
+class ThymioRadio(EmulatedRadio):
+    """Four Thymios on a dongle in place of the radio of an emulated arena, whose motors they drive."""
+
+    def __init__(self, arena: EmulatedArena, seed: int = 1) -> None:
+        super().__init__(arena.firmwares, RadioChannel(), arena.clock, seed)
+        self._arena = arena
+        self.dongle = Dongle(tuple(range(10, 10 + len(arena.robots))), seed)
+
+    @property
+    def in_waiting(self) -> int:
+        self._require_port()
+        return self.dongle.in_waiting
+
+    def read(self, size: int = 1) -> bytes:
+        self._require_port()
+        return self.dongle.read(size)
+
+    def write(self, data: bytes) -> int:
+        self._require_port()
+        return self.dongle.write(data)
+
+    def step(self) -> None:
+        dongle, arena = self.dongle, self._arena
+        dongle.loss = 1.0 if self.dead else self.extra_loss
+        dongle.mute = {one.number for one, other in zip(dongle.robots, arena.firmwares, strict=True) if other.mute}
+        dongle.advance(STEP)
+        for robot, (body, thymio) in enumerate(zip(arena.robots, dongle.robots, strict=True)):
+            if body.alive != dongle.on[robot]:
+                dongle.switch(robot, body.alive)
+            thymio["_vbat"] = thymio.variables[thymio.places["_vbat"] + 1] = round(VBAT * body.battery / CELLS)
+            left, right = dongle.motors(robot) if body.alive else (0, 0)
+            body.left, body.right = left / FASTEST, right / FASTEST

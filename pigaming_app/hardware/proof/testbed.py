@@ -8,12 +8,11 @@ from time import thread_time
 import numpy as np
 
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane
-from pigaming_app.hardware.control.rig import UNMEASURED
 from pigaming_app.hardware.emulator.camera import FrameTiming
 from pigaming_app.hardware.emulator.radio import MODERATE, RadioChannel
 from pigaming_app.hardware.emulator.wifi.air import WifiChannel
-from pigaming_app.hardware.robot_kinds import DEFAULT, RobotKind
-from pigaming_app.hardware.session.emulated import EmulatedSession
+from pigaming_app.hardware.proof.showings import SHOWINGS, NoLight, Showing, ShowingSession
+from pigaming_app.hardware.session.emulated import XBEES, EmulatedFleet
 from pigaming_app.hardware.session.lighting import Lighting
 from pigaming_app.hardware.signals import CameraFrame, Fix
 from pigaming_app.hardware.tracking.tracker import Tracker
@@ -42,7 +41,7 @@ class TimedTracker(Tracker):
 class Testbed:
     """A calibrated arena with a rig. `drops`: share of lost frames; `ground`: skips the calibration if given.
 
-    `wifi`: see EmulatedSession. `kind`: of the robots, with the `dead_time`, s, that their driver declares.
+    `wifi`, `fleet`: see EmulatedSession.
     """
 
     def __init__(
@@ -53,11 +52,13 @@ class Testbed:
         channel: RadioChannel = MODERATE,
         ground: GroundPlane | None = None,
         wifi: WifiChannel | None = None,
-        kind: RobotKind = DEFAULT,
-        dead_time: float = UNMEASURED.dead_time,
+        fleet: EmulatedFleet = XBEES,
+        showing: Showing = SHOWINGS["projector"],
     ) -> None:
-        self.lighting = Lighting(seed)
-        self.session = EmulatedSession(
+        self.showing, self.body_mm = showing, fleet.kind.radius_mm
+        self.lighting = NoLight(seed) if showing.paper else Lighting(seed)
+        self.session = ShowingSession(
+            showing,
             seed,
             False,
             lighting=self.lighting,
@@ -67,9 +68,7 @@ class Testbed:
             ground=ground,
             tracker=TimedTracker,
             wifi=wifi,
-            wheels=(kind.wheel_mm, kind.base_mm),
-            kind=kind,
-            dead_time=dead_time,
+            fleet=fleet,
         )
         self.rig = self.session.open()
         self.arena, self.ground = self.session.arena, self.session.ground

@@ -10,14 +10,11 @@ from random import Random
 from typing import Any, NamedTuple
 
 from pigaming_app.hardware.control.real_plant import RealPlant
-from pigaming_app.hardware.emulator.robots import RADIUS as BODY
 from pigaming_app.hardware.proof.testbed import Testbed
 from pigaming_app.sim.action import set_action
 from pigaming_app.sim.plant import Sighting, Twist
 from pigaming_app.sim.sweep import offset_from_wall
 from pigaming_app.sim.world import DT, HEIGHT, HZ, RADIUS, ROBOTS, WIDTH, World
-
-SPEED = 350.0  # mm/s
 
 
 @dataclass(frozen=True)
@@ -31,10 +28,14 @@ class TrackingResult:
 
 
 class FigureEight:
-    """Four robots that drive figures of eight, one per quarter of the arena, by closed-loop control."""
+    """Four robots that drive figures of eight, one per quarter of the arena, by closed-loop control.
 
-    def __init__(self, bed: Testbed) -> None:
+    `speed`: mm/s; 0: that of the bed's way of showing.
+    """
+
+    def __init__(self, bed: Testbed, speed: float = 0.0) -> None:
         bed.session.find()
+        self.speed = speed or bed.showing.speed
         self.bed, self.world = bed, World()
         for robot in self.world.robots:
             robot.present = 1
@@ -55,7 +56,7 @@ class FigureEight:
                 break
             self._phase[robot] += 0.02
         aside = (atan2(y - seen.y, x - seen.x) - seen.heading + pi) % tau - pi
-        return SPEED / self.bed.ground.mm, max(-3.0, min(3.0, 4.0 * aside))
+        return self.speed / self.bed.ground.mm, max(-3.0, min(3.0, 4.0 * aside))
 
     def _figure(self, robot: int) -> tuple[float, float]:
         middle_x, middle_y = 400.0 + 800.0 * (robot in (1, 2)), 225.0 + 450.0 * (robot in (2, 3))
@@ -64,7 +65,7 @@ class FigureEight:
 
 
 def follow(trail: FigureEight, seconds: float) -> TrackingResult:
-    """Measure tracking for `seconds` at 0.35 m/s, after two seconds of acceleration."""
+    """Measure tracking for `seconds`, after two seconds of acceleration."""
     bed, misses = trail.bed, []
     for _ in range(2 * HZ):
         trail.tick()
@@ -130,7 +131,7 @@ def play(bed: Testbed, match: Any, seconds: float) -> MatchResult:
             raise RuntimeError(f"not all took their places: {plant.places}, {plant.faults}")
     bed.lighting.show(busy=True)
     deepest, ticks, paused = 0.0, 0, 0
-    body = BODY / bed.ground.mm
+    body = bed.body_mm / bed.ground.mm
     longest = seconds + match.game.variants[match.setup.variant].overtime
     while not match.over:
         if plant.safety.pauses:

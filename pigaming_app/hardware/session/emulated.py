@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from functools import partial
 from math import inf
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -11,15 +11,13 @@ from pigaming_app.hardware.calibration.boards import BOARD, HELD_OUT
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
 from pigaming_app.hardware.calibration.procedure import Calibration
 from pigaming_app.hardware.calibration.solver import with_verification
-from pigaming_app.hardware.control.rig import UNMEASURED, Rig, unmeasured
-from pigaming_app.hardware.drivers.driver import LinkSite
-from pigaming_app.hardware.drivers.ours import UDP
-from pigaming_app.hardware.drivers.registry import DRIVERS
+from pigaming_app.hardware.control.rig import Rig, unmeasured
+from pigaming_app.hardware.drivers.driver import LinkSite, RobotDriver
+from pigaming_app.hardware.drivers.ours import OURS, UDP
 from pigaming_app.hardware.emulator.arena import SHOWS_AFTER, STARTS, EmulatedArena
 from pigaming_app.hardware.emulator.camera import FrameTiming
-from pigaming_app.hardware.emulator.radio import MODERATE, RadioChannel
+from pigaming_app.hardware.emulator.radio import MODERATE, EmulatedRadio, RadioChannel
 from pigaming_app.hardware.emulator.realtime import PacedArena
-from pigaming_app.hardware.emulator.robots import BASE, FULL_SPEED
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.emulator.things.prism import Prism
 from pigaming_app.hardware.emulator.things.random_scene import some_things
@@ -50,15 +48,25 @@ FURNITURE = 5  # things put on an empty mat, to be scanned
 SEARCH = 10.0  # timeout for finding all robots, s
 
 
+class EmulatedFleet(NamedTuple):
+    """Four emulated robots of one driver and kind. `radio`: that of robots with programs of their own; None: XBees."""
+
+    driver: RobotDriver = OURS["api2"]
+    kind: RobotKind = DEFAULT
+    radio: Callable[[EmulatedArena], EmulatedRadio] | None = None
+
+
+XBEES = EmulatedFleet()
+
+
 class EmulatedSession(RobotSession):
     """The emulated arena of a seed. `live`: it runs in real time; else its time passes only in `advance`.
 
     `projection` is `Canvas.projection` and selects the calibration saved by the wizard; if it returns None, the
     session uses `ground`, or else a calibration made with the arena. `lighting` lights the mat where no window calls
     `show`. `timing`, `channel` and `exposure_jitter` (size of exposure steps, as a share) set the quality of
-    camera and radio. With `wifi` the robots are boards on such a network and run their own program, else they have
-    XBees. `wheels`: see EmulatedArena; `kind` and `dead_time` (s): what the robots are taken for. `things`: number of
-    random real things on the mat, at most 8; the wizard takes them away.
+    camera and radio. With `wifi` the robots are boards on such a network and run their own program, else they are
+    the `fleet`. `things`: number of random real things on the mat, at most 8; the wizard takes them away.
     """
 
     emulated = True
@@ -76,12 +84,10 @@ class EmulatedSession(RobotSession):
         tracker: type[Tracker] | None = None,
         wifi: WifiChannel | None = None,
         things: int = 0,
-        wheels: tuple[float, float] = (FULL_SPEED, BASE),
-        kind: RobotKind = DEFAULT,
-        dead_time: float = UNMEASURED.dead_time,
+        fleet: EmulatedFleet = XBEES,
     ) -> None:
         self.seed, self.live, self.projection, self.lighting = seed, live, projection, lighting
-        self._wifi, self._wheels, self._kind, self._dead_time = wifi, wheels, kind, dead_time
+        self._wifi, self._fleet = wifi, EmulatedFleet(OURS[UDP], OURS[UDP].kind) if wifi else fleet
         self._timing, self._channel, self._exposure_jitter, self._tracker = timing, channel, exposure_jitter, tracker
         self._refresh: int | None = None  # usual interval of complete renders, while every one is complete
         self._count = things
@@ -136,12 +142,13 @@ class EmulatedSession(RobotSession):
             if self._things and not arena.things:
                 arena.furnish(self._things)
             self._now, self.mm, self.quality, self.printed = arena.clock(), ground.mm, ground.quality, ground.printed
-            name, network = (UDP, partial(self._wifi_network, self._wifi)) if self._wifi else ("api2", None)
+            driver, kind = self._fleet.driver, self._fleet.kind
+            network = partial(self._wifi_network, self._wifi) if self._wifi else None
             site = LinkSite(arena.arena_id, arena.clock, "EMU0", open_port=lambda _: arena.radio.open, network=network)
-            link = DRIVERS[name].open(site)
+            link = driver.open(site)
             camera = EmulatedCalibrationSite(self.seed, self.live, arena).open(0, kept=ground.quality.kept)
-            declared = unmeasured(self._kind, ground.mm, self._dead_time)
-            self._rig = new_rig(camera, link, ground, arena.clock, [declared] * ROBOTS, self._tracker)
+            trains = [unmeasured(kind, ground.mm, driver.dead_time)] * ROBOTS
+            self._rig = new_rig(camera, link, ground, arena.clock, trains, self._tracker, usual=kind)
             if self._time is not None:
                 self._rig.start()
                 self._time.watched, self._time.limit = True, self._now + AHEAD
@@ -213,20 +220,27 @@ class EmulatedSession(RobotSession):
         passing, self._time = self._time, None
         if passing is not None:
             passing.close()
-        if self._arena is not None and self.network is not None:
+        if self._arena is not None:
             self._arena.radio.end()
 
+    def _bare_arena(self, **about: Any) -> EmulatedArena:
+        """A new arena; `about`: see EmulatedArena."""
+        return EmulatedArena(self.seed, **about)
+
+    def _calibrated(self, arena: EmulatedArena) -> GroundPlane:
+        return calibrated(arena)
+
     def _new_arena(self) -> EmulatedArena:
-        refresh = WHOLE if self.live else QUICK
-        arena = EmulatedArena(
-            self.seed,
-            self._timing or FrameTiming(FPS),
-            self._channel or MODERATE,
-            refresh,
-            self._exposure_jitter,
-            wheels=self._wheels,
+        arena = self._bare_arena(
+            timing=self._timing or FrameTiming(FPS),
+            channel=self._channel or MODERATE,
+            refresh=WHOLE if self.live else QUICK,
+            exposure_jitter=self._exposure_jitter,
+            wheels=(self._fleet.kind.wheel_mm, self._fleet.kind.base_mm),
         )
-        self._made = self._made or calibrated(arena)
+        if self._fleet.radio is not None:
+            arena.radio = self._fleet.radio(arena)
+        self._made = self._made or self._calibrated(arena)
         if self._count:
             self._things = some_things(self.seed, self._count, arena.optics, STARTS)
             arena.furnish(self._things)

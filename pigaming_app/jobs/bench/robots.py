@@ -4,31 +4,35 @@ Robots are tracked at 0.35 m/s by a 1080p camera at 30 and at 60 frames/s with a
 the table occurs once; twenty minutes of all games are played with random button mashing, one match of PiTanks and of
 each plug-in by its best level, and 2 % of packets and frames lost; whole arcades fail or are killed (see
 robots_arcade); and things on the mat are scanned, from above and by a tilted camera of 720p. Of several runs the worst
-counts, except for times of computation, where the best counts: other programs can only add to them.
+counts, except for times of computation, where the best counts: other programs can only add to them. `showing` and
+`drivers` have figures of their own for each way of showing and each driver, see `proof.figures`.
 """
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from dataclasses import replace
 from importlib.util import find_spec
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from pigaming_app.ai.registry import make_brain
-from pigaming_app.games.arenas import arenas
+from pigaming_app.games.arenas import arenas, load
+from pigaming_app.games.arenas import on_mat as on_mat_of
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.hardware.calibration.ground_plane import CalibrationError, GroundPlane
+from pigaming_app.hardware.commissioning.speed_trial import SpeedTrial
 from pigaming_app.hardware.control.real_plant import RealPlant
-from pigaming_app.hardware.control.rig import UNMEASURED
-from pigaming_app.hardware.drivers.ours import OURS
 from pigaming_app.hardware.emulator.radio import RadioChannel
 from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython
-from pigaming_app.hardware.proof import emergencies, things
+from pigaming_app.hardware.proof import emergencies, figures, things
 from pigaming_app.hardware.proof import trials as proving
 from pigaming_app.hardware.proof.emergencies import EMERGENCIES, StopResult
+from pigaming_app.hardware.proof.fleets import bed_of
+from pigaming_app.hardware.proof.showings import SHOWINGS
 from pigaming_app.hardware.proof.testbed import Testbed, one_core
 from pigaming_app.hardware.proof.trials import ButtonMasher, FigureEight, MatchResult, TrackingResult
+from pigaming_app.hardware.session.robot_session import RobotsUnavailable
 from pigaming_app.jobs.bench import wifi
 from pigaming_app.jobs.bench.processes import processes
 from pigaming_app.sim.world import ROBOTS
@@ -36,16 +40,18 @@ from pigaming_app.storage.plugins.parts import plugins
 from pigaming_app.ui.i18n import english
 
 Result = TypeVar("Result")
+Figures = dict[str, Any]  # floats, and groups of them
 Run = tuple[float, int]  # frames/s, seed
 RATES = (30.0, 60.0)  # frames/s
 SECONDS = 20.0  # of tracking
 MATCHES, MINUTES = 10, 2.0
+TRIED = 20.0  # s, a round of a test drive
 BEST = "level5"
 SCENES = {False: range(1, 9), True: range(1, 6)}  # seeds of the scenes of things, by a tilted camera
 LOST = 0.02  # share of packets, and of frames, in a match
 TARGETS = {  # upper limits, but for frames_complete
-    "pose_rmse_mm": 3.0,
-    "pose_rmse_deg": 1.5,
+    "pose_rmse_mm": 2.0,
+    "pose_rmse_deg": 1.0,
     "tracker_ms": 4.0,
     "frames_complete": 0.995,
     "calibration_mean_mm": 1.5,
@@ -63,7 +69,12 @@ TARGETS = {  # upper limits, but for frames_complete
     "things_false": 0.0,
     "things_seconds": 2.0,
     "things_stall_ms": 50.0,
+    "false_robots": 0.0,
+    "breakdown_ms": 600.0,
+    "breakdown_mm": 120.0,
+    "outside_mm": 60.0,
 }
+SHOWING, BY_DRIVER = "showing", "drivers"  # groups of figures
 
 
 class Unproven(Exception):
@@ -72,8 +83,9 @@ class Unproven(Exception):
 
 class MatMatch(NamedTuple):
     """One match on the mat. `brain`: of all robots; None: random button mashing. `carried`: the robots are set down on
-    their places, else they drive there. `variant`: None for the game's default. `driver`: theirs, for speed and dead
-    time."""
+    their places, else they drive there. `variant`: None for the game's default. `driver`: theirs, of FLEETS. `late`: s
+    by which they respond later than it declares; `tried`: they drove a test drive before.
+    """
 
     game: str
     arena: str
@@ -84,15 +96,19 @@ class MatMatch(NamedTuple):
     carried: bool = False
     variant: str | None = None
     driver: str = "api2"
+    late: float = 0.0
+    tried: bool = False
 
 
-def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]:
-    """All figures by name; `note` receives a line for each finding. Raises Unproven."""
+def measure(note: Callable[[str], None] = lambda line: None) -> Figures:
+    """All figures by name, those of a group by its names; `note` receives a line for each finding. Raises Unproven."""
     with processes(2, one_core) as pool:
         followed = {(fps, seed): pool.submit(follow_alone, seed, fps) for seed in (1, 2) for fps in RATES}
         stopped = {fps: pool.submit(all_emergencies, int(fps), fps) for fps in RATES}
         calibrated = [pool.submit(calibration, seed) for seed in (1, 2, 3)]
         scanned = {tilted: pool.submit(things.trial, seeds, tilted) for tilted, seeds in SCENES.items()}
+        shown = {name: pool.submit(figures.of_showing, name) for name in SHOWINGS}
+        driven = {name: pool.submit(figures.of_driver, name) for name in figures.DRIVERS}
         on_wifi = wifi.submit(pool, note)
         played = [(job, pool.submit(on_mat, job)) for job in jobs()]
         tracks = _tracks(followed, note)
@@ -100,6 +116,7 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
         scans = _scans(scanned, note)
         matches = [_match(job, future, note) for job, future in played]
         boards = [_result(future, "calibrating") for future in calibrated]
+        by_showing, by_driver = _group(SHOWING, shown, note), _group(BY_DRIVER, driven, note)
     try:
         wifi_stops = wifi.collect(on_wifi, note)
     except RuntimeError as reason:
@@ -119,15 +136,21 @@ def measure(note: Callable[[str], None] = lambda line: None) -> dict[str, float]
         **arcade_figures(serial, wifi_arcades),
         **scans,
         **({"wifi_worst_stop_ms": 1e3 * max(wifi_stops.values())} if wifi_stops else {}),
+        SHOWING: by_showing,
+        BY_DRIVER: by_driver,
     }
 
 
-def reached(figures: dict[str, float]) -> dict[str, bool]:
-    """True for each figure that meets its target."""
-    return {
-        key: value >= TARGETS[key] if key == "frames_complete" else value <= TARGETS[key]
-        for key, value in figures.items()
-    }
+def reached(found: Mapping[str, Any], group: str = "") -> dict[str, bool]:
+    """True for each figure that meets its target; those of a group are named `GROUP.NAME.FIGURE`."""
+    result = dict[str, bool]()
+    for key, value in found.items():
+        if isinstance(value, Mapping):
+            result |= reached(value, f"{group}{key}.")
+        else:
+            limit = TARGETS[key]
+            result[group + key] = value >= limit if key == "frames_complete" else value <= limit
+    return result
 
 
 def jobs() -> list[MatMatch]:
@@ -155,11 +178,13 @@ def on_mat(job: MatMatch, ground: GroundPlane | None = None) -> MatchResult:
     one, two, three, four = (Seat(job.brain or "random", team) for team in rules.teams)
     goal = max(rules.goals, default=0)
     setup = Setup(job.game, job.arena, (one, two, three, four), job.minutes, job.seed, rules.name, goal)
-    driver, channel = OURS[job.driver], RadioChannel(loss=LOST, duplicates=LOST / 2, broken=LOST / 4)
-    later = max(0.0, driver.dead_time - UNMEASURED.dead_time)
-    channel = replace(channel, soonest=channel.soonest + later, latest=channel.latest + later)
-    bed = Testbed(job.seed, job.fps, LOST, channel, ground, kind=driver.kind, dead_time=driver.dead_time)
-    match = Match(setup, lambda world: RealPlant(world, bed.rig))
+    channel = RadioChannel(loss=LOST, duplicates=LOST / 2, broken=LOST / 4)
+    channel = replace(channel, soonest=channel.soonest + job.late, latest=channel.latest + job.late)
+    bed = bed_of(job.driver, job.seed, ground, job.fps, LOST, channel)
+    if job.tried:
+        try_speeds(bed)
+    arena = on_mat_of(job.game, load(job.game, job.arena), (), bed.rig.radius_in_play(range(ROBOTS)))
+    match = Match(setup, lambda world: RealPlant(world, bed.rig), arena)
     for seat in range(ROBOTS):
         seed = ROBOTS * job.seed + seat
         match.sit(seat, make_brain(job.game, job.brain, seed) if job.brain else ButtonMasher(seed))
@@ -167,6 +192,17 @@ def on_mat(job: MatMatch, ground: GroundPlane | None = None) -> MatchResult:
             robot = match.state.robots[seat]
             bed.arena.place(seat, (robot.x, robot.y, robot.heading))
     return proving.play(bed, match, 60.0 * job.minutes)
+
+
+def try_speeds(bed: Testbed) -> None:
+    """A test drive of all robots, as the wizard asks for. Raises RuntimeError if they are too late at any speed."""
+    bed.session.find()
+    drive = SpeedTrial(bed.rig, range(ROBOTS), TRIED)
+    while not drive.tick():
+        bed.tick()
+    if drive.late or drive.held_up:
+        raise RuntimeError(f"the test drive failed: {drive.late}")
+    bed.lighting.show(busy=False)
 
 
 def follow_alone(seed: int, fps: float) -> TrackingResult:
@@ -275,6 +311,24 @@ def arcade_figures(serial: Mapping[str, float], on_wifi: Mapping[str, float]) ->
     """The figure of the worst failure of a whole arcade, from stopping times in s; none without any."""
     stops = [*serial.values(), *on_wifi.values()]
     return {"arcade_worst_stop_ms": 1e3 * max(stops)} if stops else {}
+
+
+def _group(
+    group: str, submitted: Mapping[str, Future[figures.Figures]], note: Callable[[str], None]
+) -> dict[str, figures.Figures]:
+    """Figures of each way of showing, or each driver; those without MicroPython are left out. Raises Unproven."""
+    found = dict[str, figures.Figures]()
+    for name, future in submitted.items():
+        try:
+            found[name] = _result(future, f"{group}, {name}")
+        except RobotsUnavailable as reason:
+            note(f"{name} was not tried: {english().sentence(reason.message)}")
+            continue
+        except NoMicroPython as reason:
+            note(f"{name} was not tried: {reason}")
+            continue
+        note(f"{name}: " + ", ".join(f"{key} {value:.4g}" for key, value in found[name].items()))
+    return found
 
 
 def _result(future: Future[Result], name: str) -> Result:

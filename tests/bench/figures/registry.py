@@ -78,5 +78,7 @@ MEASURED = {
     "shipped": Measured(THESIS, SEEDS, seeds.shipped, 1),
     "detection": Measured(HARDWARE, "python3 -X pigaming -m tests.bench.detection", robots.detected, 2),
     "markers": Measured(HARDWARE, "python3 -X pigaming -m tests.bench.marker_ids", robots.markers, 2),
-    "robots": Measured(HARDWARE, f"{MAIN} bench robots", robots.proof, 8),
+    "robots": Measured(HARDWARE, f"{MAIN} bench robots", robots.proof, 20),
+    "showings": Measured(HARDWARE, f"{MAIN} bench robots", robots.showings, 20),
+    "drivers": Measured(HARDWARE, f"{MAIN} bench robots", robots.drivers, 20),
 }

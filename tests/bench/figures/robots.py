@@ -1,7 +1,10 @@
 """Tables of robots on the emulated mat, and of their markers."""
 
+from functools import cache
+from typing import Any
+
 from pigaming_app.hardware.vision.markers import ROBOT_IDS
-from pigaming_app.jobs.bench.robots import TARGETS, measure
+from pigaming_app.jobs.bench.robots import BY_DRIVER, SHOWING, TARGETS, measure
 from tests.bench import detection, marker_ids
 
 PROOF = {  # figures of `bench robots`: name, unit, and the factor that leads to it
@@ -23,6 +26,21 @@ PROOF = {  # figures of `bench robots`: name, unit, and the factor that leads to
     "things_tilted_mean_mm": ("the same at 720p, tilted by 25°: mean", "mm", 1),
     "things_tilted_worst_mm": ("720p, tilted: worst point", "mm", 1),
 }
+SHOWN = {  # figures of each way of showing, and of each driver: heads of columns, and the factor that leads to them
+    "pose_rmse_mm": ("position, RMSE, mm", 1),
+    "pose_rmse_deg": ("heading, °", 1),
+    "frames_complete": ("robots found, %", 100),
+    "calibration_mean_mm": ("calibration, mean, mm", 1),
+    "false_robots": ("false robots in 5,000 hostile pictures", 1),
+}
+DRIVEN = {
+    "pose_rmse_mm": ("position, RMSE, mm", 1),
+    "pose_rmse_deg": ("heading, °", 1),
+    "worst_stop_ms": ("slowest stop, electrical, ms", 1),
+    "breakdown_ms": ("mechanical, ms", 1),
+    "breakdown_mm": ("off its way by then, mm", 1),
+    "outside_mm": ("out of the arena, miswired, mm", 1),
+}
 WIDTHS = (1920, 1280, 1120, 960)  # px, of the picture
 LOOKS = {  # defocus, px, and exposure, s
     "focused": (0.0, 1 / 60),
@@ -37,11 +55,40 @@ LOOKS = {  # defocus, px, and exposure, s
 def proof(share: float) -> list[list[str]]:
     """The proof of the robot loop; it has no smaller form."""
     assert share > 0.0
-    found, rows = measure(), [["", "measured", "limit"]]
+    found, rows = measured(), [["", "measured", "limit"]]
     for name, (title, unit, factor) in PROOF.items():
         sign = "≥" if name == "frames_complete" else "≤"
         value = f"{factor * found[name]:.3g} {unit}" if name in found else "not measured"
         rows.append([title, value.strip(), f"{sign} {factor * TARGETS[name]:g} {unit}".strip()])
+    return rows
+
+
+@cache
+def measured() -> dict[str, Any]:
+    """All figures of `bench robots`, measured once."""
+    return measure()
+
+
+def showings(share: float) -> list[list[str]]:
+    """Figures of each way of showing; it has no smaller form."""
+    assert share > 0.0
+    return grouped(measured()[SHOWING], SHOWN)
+
+
+def drivers(share: float) -> list[list[str]]:
+    """Figures of each driver; it has no smaller form."""
+    assert share > 0.0
+    return grouped(measured()[BY_DRIVER], DRIVEN)
+
+
+def grouped(found: dict[str, dict[str, float]], columns: dict[str, tuple[str, int]]) -> list[list[str]]:
+    """A row for each name, and one of the limits."""
+    rows = [["", *(title for title, _ in columns.values())]]
+    for name, figures in found.items():
+        cells = (f"{factor * figures[key]:.3g}" if key in figures else "–" for key, (_, factor) in columns.items())
+        rows.append([f"`{name}`", *cells])
+    signs = {key: "≥" if key == "frames_complete" else "≤" for key in columns}
+    rows.append(["limit", *(f"{signs[key]} {factor * TARGETS[key]:g}" for key, (_, factor) in columns.items())])
     return rows
 
 

@@ -12,8 +12,9 @@ from pigaming_app.hardware.calibration.drift import DriftMonitor
 from pigaming_app.hardware.calibration.ground_plane import read, to_toml
 from pigaming_app.hardware.emulator.arena import ARENA_AT
 from pigaming_app.hardware.emulator.camera import TRAITS
+from pigaming_app.hardware.proof.showings import print_calibration
 from pigaming_app.hardware.signals import CameraFrame
-from tests.hardware.paper import MM, calibrate, floor_picture, printed_arena
+from tests.hardware.paper import MM, floor_picture, printed_arena
 from tests.hardware.sentences import sentence
 
 GRID = np.array([(x, y) for x in range(0, 1601, 200) for y in range(0, 901, 150)], dtype=np.float64)
@@ -39,7 +40,7 @@ def errors(arena, ground, height):
 def made():
     """An arena with a printed floor, and its calibration."""
     arena = printed_arena(2)
-    return arena, calibrate(arena)
+    return arena, print_calibration(arena)
 
 
 def test_a_calibration_by_printed_markers_is_true_all_over_the_arena(made):
@@ -54,7 +55,7 @@ def test_a_calibration_by_printed_markers_is_true_all_over_the_arena(made):
 )
 def test_so_is_one_from_the_side_or_by_the_corners_alone(view, hidden):
     arena = printed_arena(2, TRAITS[view], covered(*hidden))
-    assert_true(arena, calibrate(arena))
+    assert_true(arena, print_calibration(arena))
 
 
 def assert_true(arena, work):
@@ -81,7 +82,7 @@ def drift_mm(arena, ground):
 
 
 def test_without_a_corner_there_is_none_and_the_sentence_says_why():
-    work = calibrate(printed_arena(2, floor=covered((1840, 996))))
+    work = print_calibration(printed_arena(2, floor=covered((1840, 996))))
     assert work.ground is None
     assert sentence(work.fault).startswith("The camera sees 3 of the 4 printed corner markers")
 

@@ -7,7 +7,9 @@ from functools import cache
 
 import pytest
 
-from pigaming_app.hardware.commissioning.board_setup import MAIN, PART, BoardOnUsb, SetupFailed, files_of
+from pigaming_app.hardware.commissioning.board_setup import files_of, kind_of
+from pigaming_app.hardware.commissioning.boards.kind import MAIN, SetupFailed
+from pigaming_app.hardware.commissioning.boards.usb import PART, BoardOnUsb
 from pigaming_app.hardware.emulator.wifi.usb import UsbBoard
 
 FILES = files_of("pico_w", 2, 4711, bytes(range(16)), 'Schule "Süd"', "geheim\\\\ 'x'")
@@ -122,7 +124,7 @@ def test_boards_are_told_apart_by_what_they_print(
 ) -> None:
     told = {"name": "micropython", "version": [1, 24], "platform": platform, "wifi": wifi, "machine": machine}
     monkeypatch.setattr(BoardOnUsb, "ask", lambda board, program: json.dumps(told))
-    assert BoardOnUsb("any").kind() == kind
+    assert kind_of(BoardOnUsb("any")) == kind
 
 
 def test_a_port_without_a_board_is_refused(usb: UsbBoard) -> None:
@@ -132,7 +134,7 @@ def test_a_port_without_a_board_is_refused(usb: UsbBoard) -> None:
 
 
 def test_an_old_micropython_is_refused(usb: UsbBoard, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pigaming_app.hardware.commissioning.board_setup.OLDEST", (99, 0))
+    monkeypatch.setattr("pigaming_app.hardware.commissioning.boards.kind.OLDEST", (99, 0))
     with pytest.raises(SetupFailed) as failed, BoardOnUsb(usb.port) as board:
-        board.kind()
+        kind_of(board)
     assert failed.value.message.key == "board_old"

@@ -19,7 +19,12 @@ from types import SimpleNamespace
 import pytest
 
 from pigaming_app.hardware.commissioning import board_setup
-from pigaming_app.hardware.commissioning.board_setup import DAPLINK, MAIN, BoardOnUsb, SetupFailed, files_of
+from pigaming_app.hardware.commissioning.board_setup import files_of, kind_of
+from pigaming_app.hardware.commissioning.boards import microbit
+from pigaming_app.hardware.commissioning.boards import usb as boards_usb
+from pigaming_app.hardware.commissioning.boards.kind import MAIN, SetupFailed
+from pigaming_app.hardware.commissioning.boards.microbit import END_RELAY
+from pigaming_app.hardware.commissioning.boards.usb import BoardOnUsb
 from pigaming_app.hardware.emulator.wifi.usb import UsbBoard
 from pigaming_app.hardware.robot_kinds import microbit_program
 
@@ -34,13 +39,13 @@ emulated = pytest.mark.usefixtures("micropython")
 @pytest.fixture(autouse=True)
 def _soon(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(board_setup, "AGAIN", 0.1)
-    monkeypatch.setattr(board_setup, "RELAY_ENDS", 0.0)
+    monkeypatch.setattr(microbit, "RELAY_ENDS", 0.0)
     monkeypatch.setattr(board_setup, "TURN_MS", 250)
 
 
 def plug_in(monkeypatch: pytest.MonkeyPatch, *ports: str) -> None:
     """Ports that are those of micro:bits."""
-    found = [SimpleNamespace(device=port, vid=DAPLINK, pid=0x0204) for port in ports]
+    found = [SimpleNamespace(device=port, vid=microbit.VENDOR, pid=0x0204) for port in ports]
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: found)
 
 
@@ -162,17 +167,17 @@ def test_a_microbit_of_the_first_version_is_refused(
     told = f'{{"name": "micropython", "version": {version}, "platform": "microbit", "wifi": 0, "machine": ""}}'
     monkeypatch.setattr(BoardOnUsb, "ask", lambda board, program: told)
     if not key:
-        assert BoardOnUsb("any").kind() == "microbit"
+        assert kind_of(BoardOnUsb("any")) == "microbit"
         return
     with pytest.raises(SetupFailed) as failed:
-        BoardOnUsb("any").kind()
+        kind_of(BoardOnUsb("any"))
     assert failed.value.message.key == key
 
 
-@pytest.mark.parametrize("vendor", [DAPLINK, 0x2E8A])
+@pytest.mark.parametrize("vendor", [microbit.VENDOR, 0x2E8A])
 def test_a_microbit_without_micropython_has_a_sentence_of_its_own(monkeypatch: pytest.MonkeyPatch, vendor: int) -> None:
     """Another program answers nothing, whatever it is sent: among that are the bytes that end a relay."""
-    monkeypatch.setattr(board_setup, "SILENT", 0.3)
+    monkeypatch.setattr(boards_usb, "SILENT", 0.3)
     master, slave = pty.openpty()
     tty.setraw(slave)
     port, sent = os.ttyname(slave), bytearray()
@@ -193,8 +198,8 @@ def test_a_microbit_without_micropython_has_a_sentence_of_its_own(monkeypatch: p
         os.close(slave)
         other.join()
         os.close(master)
-    assert failed.value.message.key == ("board_microbit" if vendor == DAPLINK else "board_silent")
-    assert (board_setup.END_RELAY in sent) is (vendor == DAPLINK)
+    assert failed.value.message.key == ("board_microbit" if vendor == microbit.VENDOR else "board_silent")
+    assert (END_RELAY in sent) is (vendor == microbit.VENDOR)
 
 
 BOARDS = {  # chosen board, battery in mV, pin of the lamp

@@ -113,6 +113,12 @@ def test_a_robot_that_drives_the_wrong_way_is_stopped_after_half_a_second():
     assert run.mat.robots[0].command in (None, WheelCommand(0.0, 0.0))
 
 
+def test_a_robot_that_turns_against_its_command_is_stopped_sooner():
+    """A turn the wrong way is no weak wheel: with the weight of other motion it takes 0.3 s longer."""
+    run = Wired([(800.0, 450.0, 0.0), (800.0, 750.0, 0.0), *ASIDE], "swapped").drive(ahead(200.0, 2.5), 2.0)
+    assert 0.7 < run.named <= 1.0
+
+
 @pytest.mark.parametrize(("left", "right"), [(0.7, 0.7), (1.3, 1.3), (0.75, 1.25), (1.2, 0.8)])
 @pytest.mark.parametrize(("lag", "dead_time"), one_in(2, [(0.12, 0.06), (0.05, 0.02)]))
 def test_weak_uneven_and_late_robots_are_no_false_alarm(left, right, lag, dead_time):

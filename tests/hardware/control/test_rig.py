@@ -9,6 +9,7 @@ import pytest
 
 from pigaming_app.hardware.control.kinematics import IDEAL, LEVELS, Kinematics
 from pigaming_app.hardware.control.rig import UNMEASURED
+from pigaming_app.hardware.control.safety import STUCK
 from pigaming_app.hardware.radio.packets import DEADMAN
 from pigaming_app.hardware.signals import CameraFrame, WheelCommand
 from pigaming_app.hardware.tracking.motion_model import WheelCorrection
@@ -182,12 +183,12 @@ def test_commands_that_are_lost_on_the_air_explain_a_robot_that_stands(monkeypat
             found.append(health[0].stuck)
         return found[-1], max(found)
 
-    assert stuck(1.2)[0] > 0.399
+    assert stuck(1.2)[0] > STUCK
     held.silent = True
     assert stuck(1.0)[0] == 0.0
     held.silent = False
     assert stuck(0.3) == (0.0, 0.0), "what was lost explains nothing, but is no evidence either"
-    assert stuck(0.9)[0] > 0.399, "commands reach it again, and it still stands"
+    assert stuck(0.9)[0] > STUCK, "commands reach it again, and it still stands"
     held.flags = DEADMAN
     assert stuck(0.1)[0] == 0.0
     held.flags = 0

@@ -5,7 +5,7 @@ Skipped without Node.js and npm.
 
 import pytest
 
-from pigaming_app.hardware.commissioning.board_setup import END_RELAY
+from pigaming_app.hardware.commissioning.boards.microbit import END_RELAY
 from pigaming_app.hardware.emulator.wifi.boards import MicrobitConfig
 from pigaming_app.hardware.emulator.wifi.relay import MicrobitAir
 from pigaming_app.hardware.radio.link import Link

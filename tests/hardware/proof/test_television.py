@@ -1,64 +1,23 @@
 """Robots on a television that lies flat, emulated: lamps mirrored in its glass, less light at an angle, flicker."""
 
-from math import hypot
-from typing import Any
-
 import numpy as np
 import pytest
 
 pytest.importorskip("cv2")
 
-from pigaming_app.hardware.emulator.arena import EmulatedArena
-from pigaming_app.hardware.emulator.camera import CameraTraits, FrameTiming
 from pigaming_app.hardware.emulator.optics import Optics, TrueLens
-from pigaming_app.hardware.emulator.radio import MODERATE
-from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
 from pigaming_app.hardware.emulator.television import MirroredLamp, Television
-from pigaming_app.hardware.proof import testbed, trials
-from pigaming_app.hardware.proof.testbed import TimedTracker
+from pigaming_app.hardware.proof import testbed
+from pigaming_app.hardware.proof.showings import LAMPS, SHOWINGS
 from pigaming_app.hardware.proof.trials import FigureEight, follow
-from pigaming_app.hardware.session.emulated import QUICK, EmulatedSession, calibrated
-from pigaming_app.hardware.session.lighting import Lighting
 
-INCHES = 65.0
-WIDE, HIGH = (INCHES * 25.4 * side / hypot(16.0, 9.0) for side in (16.0, 9.0))  # mm: 1439 x 809
+FLAT = SHOWINGS["television"]  # 65 inches
 ABOVE = TrueLens((40.0, 150.0, 1450.0), (5.0, 16.0), 0.021)
-ASIDE = TrueLens((40.0, 900.0, 1350.0), (5.0, 40.0), 0.021)  # 33 degrees off the vertical
-LAMPS = (MirroredLamp(-300.0, 120.0, 1200.0, 90.0, 300.0), MirroredLamp(420.0, 60.0, 1200.0, 70.0, 220.0))
-SLOWER = 200.0  # mm/s: as fast in px as on a mat
-ROOM = 2.0  # share of the emulator's room light: the lids have no other
+ASIDE = FLAT.lens  # 33 degrees off the vertical
 
 
-class TelevisionSession(EmulatedSession):
-    """Emulated robots on a television."""
-
-    lens, television, readout = ABOVE, Television(), 0.0
-
-    def _new_arena(self):
-        traits = CameraTraits(lens=self.lens, readout=self.readout)
-        corners = np.array([(-WIDE, -HIGH), (WIDE, -HIGH), (WIDE, HIGH), (-WIDE, HIGH)]) / 2.0
-        arena = EmulatedArena(
-            self.seed, FrameTiming(30.0), MODERATE, QUICK, traits=traits, optics=Optics(self.lens, corners)
-        )
-        arena.camera.painter.ambient = ROOM
-        arena.lay_television(self.television)
-        if self._made is None:
-            self._made = calibrated(arena, EmulatedCalibrationSite(arena=arena))
-        return arena
-
-
-class Bed(testbed.Testbed):
-    """The testbed on a television."""
-
-    tracker: Any
-
-    def __init__(self, seed, lens, television, readout):
-        self.lighting = Lighting(seed)
-        self.session = TelevisionSession(seed, False, lighting=self.lighting, tracker=TimedTracker)
-        self.session.lens, self.session.television, self.session.readout = lens, television, readout
-        self.rig = self.session.open()
-        self.arena, self.ground = self.session.arena, self.session.ground
-        self.tracker, self.link = self.rig.tracker, self.rig.link
+def bed_on(lens: TrueLens, television: Television, readout: float = 0.0) -> testbed.Testbed:
+    return testbed.Testbed(5, 30.0, showing=FLAT._replace(lens=lens, television=television, readout=readout))
 
 
 @pytest.mark.long
@@ -73,8 +32,7 @@ class Bed(testbed.Testbed):
     ids=["mirrored lamps and flicker", "at an angle", "flicker and a rolling shutter"],
 )
 def test_robots_are_followed_on_a_television(lens, television, readout, monkeypatch):
-    monkeypatch.setattr(trials, "SPEED", SLOWER)
-    bed = Bed(5, lens, television, readout)
+    bed = bed_on(lens, television, readout)
     eight, way = FigureEight(bed), np.zeros(4)
     tick, last = eight.tick, np.array(bed.arena.poses())
 
@@ -91,7 +49,7 @@ def test_robots_are_followed_on_a_television(lens, television, readout, monkeypa
     assert run.rmse_deg <= 1.0
     assert run.complete >= 0.98
     assert not eight.plant.faults
-    assert way.min() > 0.7 * SLOWER * 5.0  # they drive: two seconds, then three
+    assert way.min() > 0.7 * FLAT.speed * 5.0  # they drive: two seconds, then three
 
 
 @pytest.mark.long
@@ -106,9 +64,7 @@ def test_robots_are_followed_on_a_television(lens, television, readout, monkeypa
     ids=["flicker", "at an angle", "mirrored lamps"],
 )
 def test_the_wizard_measures_the_light_of_a_television_and_its_flicker(lens, television, light, advice):
-    session = TelevisionSession(5, False)
-    session.lens, session.television = lens, television
-    quality = session.ground.quality
+    quality = bed_on(lens, television).ground.quality
     assert light[0] < quality.light < light[1]
     assert (quality.advice and quality.advice.key) == advice
     assert quality.sufficient

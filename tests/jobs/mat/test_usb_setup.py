@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from pigaming_app.hardware.commissioning import board_setup
-from pigaming_app.hardware.commissioning.board_setup import BoardOnUsb
+from pigaming_app.hardware.commissioning.boards.usb import BoardOnUsb
 from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython, interpreter
 from pigaming_app.hardware.emulator.wifi.usb import UsbBoard
 from pigaming_app.jobs.mat.robots import RobotsOptions, usb_setup

@@ -19,8 +19,8 @@ LARGEST = 512  # bytes of a message
 class MicrobitAir:
     """Relay (board 0), robots 1 to `robots`, the radio between them, and the relay's USB line, a SerialPort.
 
-    `dead`: nothing gets through the air; `loss`: share of the messages that each board misses; `aired`: messages of the
-    relay. Time passes in `advance`. Raises NoMicroPython.
+    `dead`: nothing gets through the air; `loss`: share of the messages that each board misses; `mute`: boards whose
+    messages get lost; `aired`: messages of the relay. Time passes in `advance`. Raises NoMicroPython.
     """
 
     def __init__(
@@ -31,7 +31,7 @@ class MicrobitAir:
         for end in self.sockets:
             end.bind((LOOPBACK, 0))
             end.setblocking(False)
-        self.now, self.dead, self.loss = 0.0, False, 0.0
+        self.now, self.dead, self.loss, self.mute = 0.0, False, 0.0, set[int]()
         self.aired: list[bytes] = []
         self._sent, self._reports = [0] * len(self.sockets), b""
         self._random = Random(f"micro:bits {seed}")
@@ -69,7 +69,7 @@ class MicrobitAir:
         if board == 0:
             self.aired.append(data)
         for other in range(len(self.sockets)):
-            if other != board and not self.dead and self._random.random() >= self.loss:
+            if other != board and not self.dead and board not in self.mute and self._random.random() >= self.loss:
                 self.put(other, data)
 
     # ---- SerialPort

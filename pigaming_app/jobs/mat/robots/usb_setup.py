@@ -77,7 +77,8 @@ def set_up(options: Any, words: Sequence[str]) -> int:
 
 def _print_next(options: Any, kind: str) -> None:
     """Print what comes next for a board of this kind. Raises Refusal if it is not in the network."""
-    from pigaming_app.hardware.commissioning.board_setup import KINDS, MICROBIT, WIFI, XBEE
+    from pigaming_app.hardware.commissioning.board_setup import KINDS
+    from pigaming_app.hardware.commissioning.boards.kind import MICROBIT, WIFI, XBEE
 
     radio = {WIFI: "udp", XBEE: "xbee", MICROBIT: "relay"}[KINDS[kind].radio]
     if radio == "udp" and not options.no_wait:

@@ -9,7 +9,8 @@ from collections.abc import Callable
 import pygame
 
 from pigaming_app.hardware.commissioning import board_setup
-from pigaming_app.hardware.commissioning.board_setup import KINDS, SetupFailed
+from pigaming_app.hardware.commissioning.board_setup import KINDS
+from pigaming_app.hardware.commissioning.boards.kind import SetupFailed
 from pigaming_app.hardware.session.store import arena_id, wifi_key
 from pigaming_app.scenes.flow.access import Right
 from pigaming_app.scenes.flow.scene import Context, Push, StackOperation

@@ -45,6 +45,7 @@ TITLE_Y, HINTS_Y = 42, 102  # px
 BESIDE = 150  # px from an outline to its caption
 CARRIED = ("lost", "held", "outside")  # faults that are normal while robots are carried to their places
 MISSING = 1.5  # s before a missing robot is reported
+READ = 4.0  # s for which each of two sentences about stops is shown
 
 
 class TakePlaces:
@@ -101,7 +102,8 @@ class TakePlaces:
             progress = words("mat.there", there=there, all=len(places))
             text(progress, LABEL, FOCUS, "head", "r", 560).draw(screen, 1744, TITLE_Y)
         self.prompts.draw(screen)
-        text(words("mat.all_stop"), 34, MIST, "body", "c", 1500).draw(screen, 960, 1060)
+        stops = "mat.all_stop" if self.clock % (2.0 * READ) < READ else "mat.switches"
+        text(words(stops), 34, MIST, "body", "c", 1500).draw(screen, 960, 1060)
         for i, fault in enumerate(self._faults()[:2]):
             cause = cause_of(self.plant.rig, fault.name)
             sentence = words.sentence(cause) if cause else fault_sentence(fault, words, "")

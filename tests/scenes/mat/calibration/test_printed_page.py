@@ -8,6 +8,7 @@ pytest.importorskip("pypdfium2")
 from pigaming_app.hardware.calibration.boards import ARENA_AT
 from pigaming_app.hardware.calibration.site import Measurements
 from pigaming_app.hardware.emulator.site import EmulatedCalibrationSite
+from pigaming_app.hardware.proof.showings import ShowingSession
 from pigaming_app.hardware.session import store
 from pigaming_app.scenes.mat.calibration.printed_page import PrintedPage
 from pigaming_app.scenes.mat.calibration.result_page import ResultPage
@@ -18,7 +19,7 @@ from pigaming_app.scenes.play.scene import match_of
 from pigaming_app.ui.draw import GREY, PLAYERS
 from pigaming_app.ui.input.controls import Controls
 from pigaming_app.ui.input.events import Button
-from tests.hardware.paper import PrintedSession, printed_arena
+from tests.hardware.paper import printed, printed_arena
 from tests.matches import setup_of
 from tests.scenes.arcade import Arcade
 from tests.scenes.operated import Operated
@@ -56,7 +57,7 @@ def test_an_arena_too_small_for_its_robots_is_refused_with_the_smallest():
 @pytest.mark.long
 @pytest.mark.again
 def test_robots_are_seen_on_the_screen_and_nothing_is_lit_for_the_camera(arcade: Arcade):
-    session = PrintedSession(3, live=False)
+    session = ShowingSession(printed(), 3, live=False)
     arcade.context.mat = SessionMat(arcade.context, session)
     match = match_of(arcade.context, setup_of("pitanks", "level3 level3", "", 0.5, 3, "pickups"), [], (0, 1))
     assert isinstance(match, RealMatch)

@@ -4,15 +4,11 @@ The certificate is checked: Chromium accepts no other key. Times are compared wi
 the browser's own clock, and no ping is involved in it.
 """
 
-import asyncio
-import base64
-import hashlib
 import math
 import time
-from collections.abc import Callable, Coroutine, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from random import Random
-from typing import Any
 
 import numpy as np
 import pytest
@@ -21,8 +17,6 @@ pytest.importorskip("cv2")
 pytest.importorskip("cryptography")
 
 import cv2
-from cryptography import x509
-from cryptography.hazmat.primitives.serialization import Encoding, PublicFormat
 
 from pigaming_app.hardware.calibration.ground_plane import GroundPlane
 from pigaming_app.hardware.emulator.arena import EmulatedArena
@@ -32,13 +26,12 @@ from pigaming_app.hardware.session.emulated import calibrated
 from pigaming_app.hardware.vision import discovery
 from pigaming_app.hardware.vision.camera import Camera
 from pigaming_app.hardware.vision.markers import WEARERS, MarkerDetector
-from pigaming_app.hardware.vision.phone import PhoneCapture, PhoneFeed
-from pigaming_app.scenes.mat.phone_camera.host import CERTIFICATE, PhoneCameraHost
+from pigaming_app.hardware.vision.phone import PhoneCapture
 from pigaming_app.storage.settings import PHONE
 from pigaming_app.ui.i18n import english
+from tests.scenes.mat.phone_camera.served import Served, data_folder, trusting, until
 from tests.scenes.mat.phone_camera.time_code import drawn_at, film_of
-from tests.scenes.phones.browser import Browser, browsing, chromium, running_browser
-from tests.scenes.phones.touch_page import LONG
+from tests.scenes.phones.browser import Browser, chromium, running_browser
 
 pytestmark = [
     pytest.mark.long,
@@ -86,43 +79,18 @@ def film(tmp_path_factory: pytest.TempPathFactory) -> Film:
 
 @pytest.fixture(scope="module")
 def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The data folder, with the certificate."""
-    folder = tmp_path_factory.mktemp("data")
-    host = PhoneCameraHost(lambda: folder, PhoneFeed(), 0)
-    host.follow(True, "127.0.0.1", english())
-    host.close()
-    return folder
+    return data_folder(tmp_path_factory.mktemp("data"))
 
 
 @pytest.fixture(scope="module")
 def browser(film: Film, kept: Path) -> Iterator[str]:
-    key = x509.load_pem_x509_certificate((kept / CERTIFICATE).read_bytes()).public_key()
-    spki = hashlib.sha256(key.public_bytes(Encoding.DER, PublicFormat.SubjectPublicKeyInfo)).digest()
     with running_browser(
-        f"--ignore-certificate-errors-spki-list={base64.b64encode(spki).decode()}",
+        trusting(kept),
         "--use-fake-ui-for-media-stream",
         "--use-fake-device-for-media-stream=fps=30",
         f"--use-file-for-fake-video-capture={film.path}",
     ) as address:
         yield address
-
-
-class Served:
-    """A server for a phone that is the camera, and stories in the browser."""
-
-    def __init__(self, kept: Path, browser: str) -> None:
-        self.feed = PhoneFeed()
-        self.host = PhoneCameraHost(lambda: kept, self.feed, 0)
-        self.host.follow(True, "127.0.0.1", english())
-        self.browser = browser
-
-    def play(self, story: Callable[[Browser], Coroutine[Any, Any, None]]) -> None:
-        async def run() -> None:
-            async with browsing(self.browser) as browser:
-                await story(browser)
-                assert browser.errors == []
-
-        asyncio.run(run())
 
 
 @pytest.fixture
@@ -132,14 +100,6 @@ def served(kept: Path, browser: str, monkeypatch: pytest.MonkeyPatch) -> Iterato
     monkeypatch.setattr(PhoneCapture.__init__, "__defaults__", (False, False, served.feed))
     yield served
     served.host.close()
-
-
-async def until(condition: Callable[[], Any]) -> Any:
-    end = time.monotonic() + LONG
-    while not (found := condition()):
-        assert time.monotonic() < end
-        await asyncio.sleep(0.005)
-    return found
 
 
 def test_poses_are_those_of_the_renderer(served: Served, film: Film) -> None:

@@ -8,7 +8,9 @@ from types import SimpleNamespace
 import pytest
 
 from pigaming_app.hardware.commissioning import board_setup
-from pigaming_app.hardware.commissioning.board_setup import BoardOnUsb, SetupFailed
+from pigaming_app.hardware.commissioning.boards import microbit
+from pigaming_app.hardware.commissioning.boards.kind import SetupFailed
+from pigaming_app.hardware.commissioning.boards.usb import BoardOnUsb
 from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython, interpreter
 from pigaming_app.hardware.emulator.wifi.usb import UsbBoard
 from pigaming_app.hardware.session.guide import SHEET
@@ -142,10 +144,10 @@ def test_a_microbit_becomes_robot_one_and_is_tried_on_blocks_without_a_choice(
     except NoMicroPython as reason:
         pytest.skip(str(reason))
     monkeypatch.setattr(board_setup, "TURN_MS", 100)
-    monkeypatch.setattr(board_setup, "RELAY_ENDS", 0.0)
+    monkeypatch.setattr(microbit, "RELAY_ENDS", 0.0)
     page, words = opened(arcade), arcade.context.words
     with UsbBoard("microbit") as usb:
-        found = [SimpleNamespace(device=usb.port, vid=board_setup.DAPLINK)]
+        found = [SimpleNamespace(device=usb.port, vid=microbit.VENDOR)]
         monkeypatch.setattr("serial.tools.list_ports.comports", lambda: found)
         waited(arcade, page)
         assert page.message == words("board.done", robot=1)
