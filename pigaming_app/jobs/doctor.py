@@ -21,6 +21,7 @@ from pigaming_app.boot.version import commit
 from pigaming_app.jobs.terminal.options import JsonOption
 from pigaming_app.jobs.terminal.refusal import remedy
 from pigaming_app.links import DOWNLOAD
+from pigaming_app.storage.optional import optional
 from pigaming_app.storage.parsing import one_line, parse_json
 from pigaming_app.storage.pin import PinFile
 from pigaming_app.storage.restarts import restarts
@@ -245,11 +246,13 @@ def _devices() -> Iterator[Line]:
 def _cameras() -> Line:
     """Cameras for real robots, and what this system does not tell about them, or lets programs set."""
     try:
-        from pigaming_app.hardware.vision.discovery import cameras
+        discovery = optional("hardware.vision.discovery")
     except ImportError as error:
         return Line("cameras", "note", f"not looked for: {error}")
+    if discovery is None:
+        return Line("cameras", "note", "not looked for: the feature mat is not installed")
     if sys.platform.startswith("linux"):
-        found = ", ".join(f"{camera.number} ({camera.name})" for camera in cameras())
+        found = ", ".join(f"{camera.number} ({camera.name})" for camera in discovery.cameras())
         return Line("cameras", "ok", found or "none; only real robots need one")
     advice = "the wizard tries numbers 0 to 2"
     if sys.platform == "darwin":
