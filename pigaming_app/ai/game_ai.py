@@ -2,11 +2,13 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from math import nan
 from typing import Any
 
 from pigaming_app.ai.brain import kind
 from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_drive
 from pigaming_app.ai.brain.kind import BrainKind, Traits
+from pigaming_app.sim.kernel import kernel
 
 LEVELS = ("level1", "level2", "level3", "level4", "level5")  # in every game; one to five stars on the screen
 
@@ -15,6 +17,28 @@ HELPED_TURN, HELPED_POINT = "helped_turn", "helped_point"  # with steering help
 ONE_BUTTON = "one_button"  # an AI drives; its entry in `driving` shows a stick on pages without a match
 STAND_IN = "level3"  # drives for somebody who is away
 USUAL_DRIVING: Mapping[str, Driving] = {TURN: turn_and_drive, POINT: point_where_to_go, ONE_BUTTON: turn_and_drive}
+
+
+@kernel
+def recall_nothing(mind: Any, since: int) -> None:
+    """Of a game in which a mind remembers no shots."""
+
+
+@kernel
+def see_nothing(mind: Any) -> tuple[float, float]:
+    """Of a game in which nobody aims."""
+    return nan, nan
+
+
+@dataclass(frozen=True)
+class Gun:
+    """Kernels on the mind of `GameAI.person`, by which `people fit` compares shots."""
+
+    recall: Callable[[Any, int], None]  # take the last shot for so many ticks ago
+    sight: Callable[[Any], tuple[float, float]]  # directions to the target and to where a shot would meet it, rad
+
+
+NO_GUN = Gun(recall_nothing, see_nothing)
 
 
 @dataclass(frozen=True)
@@ -30,6 +54,7 @@ class GameAI:
     auto: tuple[BrainKind, BrainKind] | None = None
     lead: Callable[[Any, int], float] | None = None  # kernel: points by which a seat is ahead; default: of the match
     person: Callable[[Traits], BrainKind] | None = None  # what a person sees and wants; `ai/people` adds the hands
+    gun: Gun = NO_GUN  # of the mind of `person`
 
     def __post_init__(self) -> None:
         missing = [name for name in LEVELS if name not in self.kinds]

@@ -8,7 +8,7 @@ continued that one against itself: no person beats it, and a network that has st
 """
 
 from pigaming_app.ai.game_ai import LEVELS as NAMES
-from pigaming_app.ai.game_ai import GameAI
+from pigaming_app.ai.game_ai import GameAI, Gun
 from pigaming_app.ai.networks.files import shipped_brain
 from pigaming_app.ai.pitanks import classic, fsm, gunner
 from pigaming_app.ai.qlearning import table_files
@@ -49,5 +49,6 @@ AI = GameAI(
     rivals=(*NAMES, "q1", "q2", "fsm", "classic"),
     auto=(EASIEST, HARDEST),
     person=gunner.person,
+    gun=Gun(gunner.recall, gunner.sight),
     chauffeur="net",
 )

@@ -9,7 +9,7 @@ does: it aims at where the target is and not where it will be, slows down to aim
 dodges nothing.
 """
 
-from math import cos, sin, sqrt
+from math import cos, nan, sin, sqrt
 from typing import Any
 
 from pigaming_app.ai.brain.kind import BrainKind, NoWeights, Traits
@@ -347,6 +347,21 @@ def person(traits: Traits) -> BrainKind:
         mines=int(traits.turbo),
     )
     return BrainKind("person", GunnerMind, think, reset)
+
+
+@kernel
+def recall(mind: GunnerMind, since: int) -> None:
+    """Take the last shot for `since` ticks ago."""
+    mind.shot = since
+
+
+@kernel
+def sight(mind: GunnerMind) -> tuple[float, float]:
+    """Directions to the target and to where a bullet would meet it, rad; NaN without a target in sight."""
+    if mind.target < 0 or not mind.obs.others[mind.target].clear:
+        return nan, nan
+    other = mind.obs.others[mind.target]
+    return float(mind.obs.heading + other.bearing), float(mind.obs.heading + other.aim)
 
 
 HAND1 = BrainKind("hand1", GunnerMind, think, make_reset(0.40, 0.14, 0.2, 0.8, 1.1, 350.0))

@@ -22,7 +22,9 @@ from pigaming_app.storage.schema import from_json
 SHARES = ("prediction", "tactics")  # traits from 0 to 1; all others count by their logarithms
 FITTED = tuple(name for name in NUMBERS if name != "spread")
 FAR = 3.0  # standard deviations beyond which a statistic tells no more
-PENALTIES = tuple(3.0 * 2.0**i for i in range(10))  # of a regression, one of which is chosen for each trait
+PENALTIES = tuple(0.1 * 3.0**i for i in range(10))  # of a regression, one of which is chosen for each trait
+SHARPNESS = (0.0, 1.0, 2.0, 4.0, 8.0)  # with which a regression prefers what correlates with a trait; also chosen
+FOLDS, LEAST = 6, 0.02  # parts of the people, each left out once for that choice; correlations count as this at least
 POOR, POOR_SHARE = 0.25, 0.2  # errors, in logarithms and of shares, beyond which a trait is not told
 SURE = 1.96  # standard deviations, for 95 %
 MAX_BYTES = 1_000_000
@@ -138,14 +140,39 @@ def _without_outliers(table: Array) -> Array:
 def _regressions(rows: Array, raws: Array) -> Iterator[TraitCalibration]:
     """Of each column of `raws` (people, traits) on the statistics (people, n), and on products of first guesses."""
     base, spread, count = raws.mean(axis=0), raws.std(axis=0), rows.shape[1]
-    guess, without = ridge(rows, (raws - base) / spread)
+    guess, without = preferring(rows, (raws - base) / spread)
     products = _products(without)
-    weights, _ = ridge(np.concatenate([rows, products - products.mean(axis=0)], axis=1), raws - base)
+    weights, _ = preferring(np.concatenate([rows, products - products.mean(axis=0)], axis=1), raws - base)
     base = base - products.mean(axis=0) @ weights[count:]
     for i, own in enumerate(weights.T):
         yield TraitCalibration(
             _short(base[i]), _shortened(guess[:, i]), _shortened(own[:count]), _shortened(own[count:])
         )
+
+
+def preferring(rows: Array, values: Array) -> tuple[Array, Array]:
+    """As `ridge`, with a lower penalty on what correlates with a value, as far as that predicts people left out."""
+    part = np.arange(len(rows)) % FOLDS
+
+    def scaled(kept: Array, column: Array, sharpness: float) -> tuple[Array, Array]:
+        """Weights, and the values of `kept` by all others."""
+        some, known = rows[kept], column[kept]
+        sizes = np.linalg.norm(some, axis=0) * np.linalg.norm(known) + 1e-9
+        scale = np.maximum(np.abs(known @ some) / sizes, LEAST) ** sharpness
+        scale /= np.sqrt(np.mean(scale**2))
+        weights, others = ridge(some * scale, known[:, None])
+        return scale * weights[:, 0], others[:, 0]
+
+    def error(column: Array, sharpness: float) -> float:
+        """Of the people who are left out, in all."""
+        off = [rows[part == i] @ scaled(part != i, column, sharpness)[0] - column[part == i] for i in range(FOLDS)]
+        return float(sum(np.square(one).sum() for one in off))
+
+    best = [min(SHARPNESS, key=lambda sharpness: error(column, sharpness)) for column in values.T]
+    every = np.full(len(rows), True)
+    found = [scaled(every, column, sharpness) for column, sharpness in zip(values.T, best, strict=True)]
+    weights, others = (np.stack(parts, axis=1) for parts in zip(*found, strict=True))
+    return weights, others
 
 
 def ridge(rows: Array, values: Array) -> tuple[Array, Array]:

@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from pigaming_app.ai.people.fit import fire
+from pigaming_app.ai.people.fit.aiming import aims
+from pigaming_app.ai.people.fit.attention import NUMBERS, attention_of, pauses_of
 from pigaming_app.ai.people.fit.differences import (
     FASTEST,
     MODELS,
@@ -128,7 +130,7 @@ def statistics(plays: Sequence[Watched], pointing: bool) -> dict[str, float]:
     shown = [_differing(*pair, period, pointing) for pair in zip(plays, hands, strict=True)]
     off, holding = (np.concatenate(parts) for parts in zip(*shown, strict=True))
     found |= differences(off[:, :MODELS]) | while_holding(off[holding, :MODELS]) | dict(nearest(off[:, REACTIONS]))
-    found |= fire.presses(plays) | fire.releases(plays) | fire.edges(plays)
+    found |= fire.presses(plays) | fire.releases(plays) | fire.edges(plays) | aims(plays)
     found |= _habits(plays)
     return found
 
@@ -150,9 +152,11 @@ def _stick_times(hands: Sequence[HandInputs]) -> Array:
 def _attention(
     plays: Sequence[Watched], hands: Sequence[HandInputs], period: float, pointing: bool
 ) -> dict[str, float]:
+    numbers, errors = attention_of(pauses_of(plays, hands, pointing), period)
+    found = {f"attention_{name}": float(number) for name, number in zip(NUMBERS, numbers, strict=True)}
+    found |= {f"attention_{name}_error": float(error) for name, error in zip(NUMBERS[:2], errors[:2], strict=True)}
     if pointing:
-        return _named("", lapses_of(_stick_times(hands), np.array([], int), period, -3.0))
-    found: dict[str, float] = {}
+        return found | _named("", lapses_of(_stick_times(hands), np.array([], int), period, -3.0))
     for asking in (MODELS, MODELS - 2):
         spans = [_spans(play, hand.decisions, period, asking) for play, hand in zip(plays, hands, strict=True)]
         times, cut = (np.concatenate(parts) for parts in zip(*spans, strict=True))
