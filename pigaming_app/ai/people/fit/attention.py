@@ -182,7 +182,7 @@ def _asking(play: Watched, pointing: bool) -> Array:
     turns = np.abs(wishes[:, :, 1])
     turning: Array = before[:, 1] != 0.0
     if pointing:  # with noise, so that each decision shows that does not leave the stick at rest
-        asked = before.any(axis=1)[:, None] | (np.abs(wishes[:, :, 0]) >= STILL) | (turns >= STILL)
+        asked = before.any(axis=1, keepdims=True) | (np.abs(wishes[:, :, 0]) >= STILL) | (turns >= STILL)
         share = asked.mean(axis=1)
     else:
         wanted = np.where(np.abs(wishes[:, :, 0]) > PRESSED, np.sign(wishes[:, :, 0]), 0.0)
