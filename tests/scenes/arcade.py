@@ -140,7 +140,7 @@ class Arcade:
         for robot, score in zip(scene.match.state.robots, scores, strict=False):
             robot.score = score
         scene.match.state.rules.ticks = scene.match.state.tick + 1
-        self.until(lambda: isinstance(self.stack.top, WinnersMoment))
+        self.until(lambda: isinstance(self.stack.top, WinnersMoment), 60.0)  # with an overtime
         return scene
 
     def skip_moments(self, device: Device = KEYS[0]) -> None:
