@@ -1,9 +1,9 @@
 """Calibrates `people fit`: statistics of people with known traits, and what they tell of the traits.
 
-    .venv/bin/python -m tests.bench.fit_people pitanks turn --people 768 --tested 64 --matches 32 --write
+    .venv/bin/python -m tests.bench.fit_people pitanks turn --people 256 --write
 
 writes assets/people/GAME_DRIVING.json and prints the table of docs/people.md: the error of each trait by minutes of
-play, of people who are not among those of the regression. Needs numba; takes ten minutes on an idle core.
+play, of people who are not among those of the regression. Needs numba; takes a quarter of an hour on an idle core.
 """
 
 import argparse

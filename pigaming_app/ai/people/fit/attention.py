@@ -27,12 +27,16 @@ AFTER = (int(0.4 * HZ), int(0.9 * HZ))  # ticks after a shot in which somebody m
 PACE = 2  # ticks of a step, for speed
 LONGEST = 250  # ticks; of a longer pause only so many count
 FIRE_BY = ((0.01, 0.3, 0.6, 0.99), (3, 5, 8, 15, 40))  # shares of models that disagree with FIRE; ticks since it moved
-NUMBERS = ("odds", "length", "shows", "turning", "asked", "all", "none", "after", "later")
+NUMBERS = (
+    "odds", "length", "shows", "asked", "all", "none", "after", "later",
+    "turning", "spin", "still", "backing", "stop", "back",
+)  # fmt: skip
 """Of a lapse, the logarithms of the odds per tick and of the mean length in ticks; then the log-odds that a decision
-shows: in general, while a turn key is down, for each of the models' log-odds, while all models ask for a change, while
-none does, in the two times AFTER a shot."""
-USUAL = np.array((-7.0, 3.7, 0.0, 0.0, 0.8, 0.0, 0.0, 0.0, 0.0))
-APART = np.array((1.2, 0.7, 0.8, 0.8, 0.4, 0.8, 0.8, 0.8, 0.8))  # standard deviations, before anything is seen
+shows: in general, for each of the models' log-odds, while all models ask for a change, while none does, in the two
+times AFTER a shot; and on keys alone: while a turn key is down, for each 3 rad/s of turn, while no drive key is down,
+while that for backwards is, for the share of the models that would stop, and for that of those that would back up."""
+USUAL = np.array((-7.0, 3.7, 0.0, 0.8, *[0.0] * (len(NUMBERS) - 4)))
+APART = np.array((1.2, 0.7, 0.8, 0.4, *[0.8] * (len(NUMBERS) - 4)))  # standard deviations, before anything is seen
 ODDS, LENGTHS = (-0.7, 0.7), (-0.8, -0.3, 0.2, 0.7, 1.2)  # off USUAL, from the best of which a search begins
 LONGER, AGAIN = (-0.4, -0.15, 0.15, 0.4), 2  # off its end, from where it begins again; how often
 NEARBY, NEAR = 1e-3, 0.04  # steps for slopes; the last step of lapses
@@ -47,7 +51,7 @@ class Pauses:
     start: Array  # (pauses,): the tick of the decision
     length: Array  # (pauses,): ticks to the next decision, or to the end
     ended: Array  # (pauses,): whether by a decision; else the match ends, or the pause is longer than LONGEST
-    asking: Array  # (ticks, 7): of NUMBERS from "shows" on
+    asking: Array  # (ticks, 12): of NUMBERS from "shows" on
     moved: Array  # (ticks,): whether FIRE has gone down or come up in this step
     moves: Array  # (ticks,): the chance of that in such situations
 
@@ -177,23 +181,23 @@ def _steps(ticks: Array) -> Array:
 
 
 def _asking(play: Watched, pointing: bool) -> Array:
-    """What tells whether a decision at each tick would show, (ticks, 7): of NUMBERS from "shows" on."""
+    """What tells whether a decision at each tick would show, (ticks, 12): of NUMBERS from "shows" on."""
     wishes, before = play.wishes[:, :MODELS], np.vstack([np.zeros((1, 2)), play.actions[:-1, :2]])
-    turns = np.abs(wishes[:, :, 1])
-    turning: Array = before[:, 1] != 0.0
+    turns, turning = np.abs(wishes[:, :, 1]), np.abs(before[:, 1])  # of keys: 1 or 0
     if pointing:  # with noise, so that each decision shows that does not leave the stick at rest
         asked = before.any(axis=1, keepdims=True) | (np.abs(wishes[:, :, 0]) >= STILL) | (turns >= STILL)
-        share = asked.mean(axis=1)
+        share, keys = asked.mean(axis=1), np.zeros((6, len(turning)))
     else:
         wanted = np.where(np.abs(wishes[:, :, 0]) > PRESSED, np.sign(wishes[:, :, 0]), 0.0)
-        taps = np.where(turns >= 1.0, 1.0, _below((turns * TAP - SHORTEST) / SWAY)) * ~turning[:, None]
+        taps = np.where(turns >= 1.0, 1.0, _below((turns * TAP - SHORTEST) / SWAY)) * (1.0 - turning)[:, None]
         share = np.where(wanted != before[:, :1], 1.0, taps).mean(axis=1)
+        down = before[:, 0] == 0.0, before[:, 0] < 0.0, (wanted == 0.0).mean(axis=1), (wanted < 0.0).mean(axis=1)
+        keys = np.stack([turning, np.abs(play.poses[:, 1]) / 3.0, *down])
     odds = np.log((0.01 + 0.97 * share) / (0.99 - 0.97 * share))
     shots = np.flatnonzero(np.diff(play.actions[:, 2]) > 0.0) + 1
     since = _since(shots, len(odds), "right")
     after = since < AFTER[0], (since >= AFTER[0]) & (since < AFTER[1])
-    parts = np.ones(len(odds)), turning & (not pointing), odds, odds > 3.0, odds < -4.0, *after
-    return np.stack(parts, axis=1).astype(float)
+    return np.stack([np.ones(len(odds)), odds, odds > 3.0, odds < -4.0, *after, *keys], axis=1).astype(float)
 
 
 def _fire(play: Watched) -> tuple[Array, Array]:

@@ -39,7 +39,7 @@ def played(period, odds, length, minutes, seed):
 
 @pytest.mark.parametrize(("period", "odds", "length"), [(12.0, 0.002, 30.0), (20.0, 0.001, 70.0)])
 def test_lapses_are_found_though_most_decisions_do_not_show(period: float, odds: float, length: float) -> None:
-    play = played(period, odds, length, 30.0, 1)
+    play = played(period, odds, length, 20.0, 1)
     assert len(key_inputs(play).decisions) < 0.6 * len(play.actions) / period
     found, errors = attention_of(pauses_of([play], [key_inputs(play)], False), period)
     assert found[0] == pytest.approx(np.log(odds), abs=3.0 * errors[0])

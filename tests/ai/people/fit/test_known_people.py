@@ -13,7 +13,7 @@ PEOPLE, SEED = 24, 2026
 MATCHES = {"pitanks": 16, "race": 16, "football": 8, "factory": 16}  # about half an hour
 WITHIN = 0.15  # of a trait, or of its whole range where it is a share
 FOUND = {  # traits that half an hour of play tells so well
-    ("pitanks", "turn"): tuple(name for name in FITTED if name not in ("stick", "lapses")),
+    ("pitanks", "turn"): tuple(name for name in FITTED if name != "stick"),
     ("pitanks", "point"): FITTED,
     ("race", "turn"): ("decisions", "timing", "tactics"),
     ("football", "turn"): ("reaction", "decisions", "timing", "tactics"),
