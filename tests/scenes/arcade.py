@@ -12,6 +12,7 @@ from pigaming_app.scenes.guard import Guard
 from pigaming_app.scenes.play.scene import MatchScene
 from pigaming_app.scenes.results.awards.moment import AwardsMoment
 from pigaming_app.scenes.results.winner import WinnersMoment
+from pigaming_app.sim.world import HZ
 from pigaming_app.storage.scores import Scores
 from pigaming_app.storage.settings import Settings
 from pigaming_app.ui.i18n import Words
@@ -139,8 +140,11 @@ class Arcade:
         self.until(lambda: not scene.opening.countdown.locked)
         for robot, score in zip(scene.match.state.robots, scores, strict=False):
             robot.score = score
-        scene.match.state.rules.ticks = scene.match.state.tick + 1
-        self.until(lambda: isinstance(self.stack.top, WinnersMoment), 60.0)  # with an overtime
+        rules = scene.match.state.rules
+        rules.ticks = scene.match.state.tick + 1
+        if hasattr(rules, "overtime"):
+            rules.overtime = min(rules.overtime, 5 * HZ)  # nobody is there to end it
+        self.until(lambda: isinstance(self.stack.top, WinnersMoment))
         return scene
 
     def skip_moments(self, device: Device = KEYS[0]) -> None:
