@@ -15,7 +15,6 @@ from pigaming_app.hardware.robot_kinds import robot_kind
 from pigaming_app.jobs.bench.robots import TARGETS, MatMatch, on_mat
 from pigaming_app.sim.arena import ArenaError
 from pigaming_app.sim.drivetrain import MM
-from tests.cases import repeated
 
 MATCHES, MINUTES = 10, 0.5
 LATE = 0.17, 0.27  # s beyond the 30 ms that an XBee's driver declares; with the latter, a test drive comes first
@@ -40,8 +39,9 @@ def stays_out_of_walls(run: MatchResult) -> bool:
     return run.alarms == 0
 
 
+@pytest.mark.again
 @pytest.mark.long
-@pytest.mark.parametrize("number", repeated(range(MATCHES)))
+@pytest.mark.parametrize("number", range(MATCHES))
 def test_thymios_stay_out_of_walls_and_raise_no_alarm(number: int) -> None:
     """As wide, as slow and as late as they are, with their own program, on a dongle."""
     fitting = places(robot_kind("thymio").radius_mm / MM)
