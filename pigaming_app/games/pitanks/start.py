@@ -48,6 +48,8 @@ def set_rules(rules: PiTanksRules, setup: Setup) -> None:
     if setup.variant in ("party", "pickups"):
         rules.camping = 4 * HZ
         rules.magazine = 5
+    if setup.variant == "pickups":
+        rules.power_life = 5 * HZ
     if setup.variant == "party":
         rules.penalty = 0
         rules.knockout, rules.protection = KNOCKOUT, PARTY_PROTECTION

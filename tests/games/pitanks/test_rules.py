@@ -243,14 +243,15 @@ def holding(power, poses=FACING, walls=(), **more):
 
 
 @pytest.mark.parametrize("kind", range(6), ids=POWERS)
-def test_a_pickup_is_taken_by_touch_and_lasts_eight_seconds(kind):
-    match = pitanks(FACING, variant="pickups")
+@pytest.mark.parametrize(("variant", "seconds"), [("party", 8), ("pickups", 5)])
+def test_a_pickup_is_taken_by_touch_and_lasts(variant, seconds, kind):
+    match = pitanks(FACING, variant=variant)
     pickup = match.pickups[0]
     pickup.alive, pickup.kind, pickup.x, pickup.y = 100, kind, 400.0 + RADIUS + 39.0, 450.0
     ticks(match, 1)
     assert pickup.alive == 0
-    assert match.tanks[0].powers[kind] == 8 * HZ
-    ticks(match, 8 * HZ)
+    assert match.tanks[0].powers[kind] == seconds * HZ
+    ticks(match, seconds * HZ)
     assert match.tanks[0].powers[kind] == 0
 
 
