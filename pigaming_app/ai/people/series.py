@@ -9,7 +9,7 @@ from pigaming_app.ai.auto import Estimate
 from pigaming_app.ai.brain.effort import AUTO
 from pigaming_app.ai.learning.league import wilson
 from pigaming_app.ai.learning.line_ups import LineUps
-from pigaming_app.ai.people.matches import Trial
+from pigaming_app.ai.people.matches import Trial, changed
 from pigaming_app.ai.registry import AIS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.game import Setup
@@ -46,11 +46,20 @@ class Series:
         return wilson(round(self.share * played), played)
 
 
-def series(trial: Trial, persons: Sequence[str], firsts: Sequence[int] = FIRSTS) -> Iterator[Series]:
-    """As many series of each person from each first strength as make up the trial's matches. Raises ChoiceError."""
+def series(
+    trial: Trial,
+    persons: Sequence[str],
+    firsts: Sequence[int] = FIRSTS,
+    scale: str | None = None,
+    driving: str | None = None,
+) -> Iterator[Series]:
+    """As many series of each person from each first strength as make up the trial's matches. Raises ChoiceError.
+
+    `scale` and `driving` as in `places`.
+    """
     if not AIS[trial.game].auto:
         raise ChoiceError(f"{trial.game} has no Auto")
-    line_ups = LineUps(trial.game, [*persons, *AUTO], can_compile())
+    line_ups = LineUps(trial.game, [*persons, *AUTO], can_compile(), changed(trial.game, scale, driving))
     for person in persons:
         for first in firsts:
             yield played(trial, person, first, line_ups)

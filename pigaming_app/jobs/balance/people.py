@@ -59,7 +59,8 @@ def run(options: PeopleOptions) -> int:
             find_brain(options.game, level)
         trial = Trial(options.game, options.matches, options.seed, options.variant, options.minutes)
         if options.auto:
-            return _print_series(list(series(trial, people)), options.json)
+            played = series(trial, people, scale=options.scale, driving=options.driving)
+            return _print_series(list(played), options.json)
         found = places(trial, people, levels, options.scale, options.driving)
     if options.json:
         rows = [{**asdict(place), "share": place.share, "wilson95": place.interval} for place in found]

@@ -127,6 +127,8 @@ def test_a_mate_is_of_the_same_kind_and_seats_and_arenas_take_turns():
 def test_a_scale_that_makes_no_sense_is_refused(scale):
     with pytest.raises(ChoiceError):
         places(Trial("pitanks", 1, minutes=0.05), ["player"], ["level1"], scale)
+    with pytest.raises(ChoiceError):
+        next(series(Trial("pitanks", 1, minutes=0.05), ["player"], scale=scale))
 
 
 @pytest.mark.again

@@ -29,7 +29,8 @@ UNITS = {
     "turbo": "turbo and mines",
 }
 EQUAL = ("level3", "level5")  # of all four seats
-LEANT = {"beginner": "level1", "player": "level3"}  # against whom wins with other traits count
+LEANT = {"beginner": "level1", "player": "level3", "expert": "level4"}  # against whom wins with other traits count
+FACTORS = (0.7, 1.3)  # of a trait
 
 
 def traits() -> str:
@@ -65,6 +66,20 @@ def auto(share: float) -> list[list[str]]:
         found = list(series(Trial(game, count, minutes=minutes), names))
         for name in names:
             rows.append([title, f"`{name}`", *(percent(one) for one in found if one.person == name)])
+    return rows
+
+
+def auto_leant(share: float) -> list[list[str]]:
+    """The same from the middle strength, of people who decide less and more often."""
+    count, minutes = some(800, share)
+    rows = [["", *(f"`{name}`, × {factor}" for name in LEANT for factor in FACTORS)]]
+    for game, title in GAMES.items():
+        row = [title]
+        for name in LEANT:
+            for factor in FACTORS:
+                trial = Trial(game, count, minutes=minutes)
+                row += [percent(one) for one in series(trial, [name], [FIRSTS[1]], f"decisions={factor}")]
+        rows.append(row)
     return rows
 
 
@@ -117,11 +132,11 @@ def sensitivity_elsewhere(name: str) -> Callable[[float], list[list[str]]]:
 def _leant(columns: Sequence[tuple[str, str]], titles: Sequence[str], share: float) -> list[list[str]]:
     """Wins by trait. `columns`: game and person."""
     count, minutes = some(400, share)
-    rows = [["", *(f"{title}, × {factor}" for title in titles for factor in (0.7, 1.3))]]
+    rows = [["", *(f"{title}, × {factor}" for title in titles for factor in FACTORS)]]
     for trait in NUMBERS:
         row = [UNITS[trait].partition(",")[0]]
         for game, name in columns:
             trial = Trial(game, count, minutes=minutes)
-            row += [percent(places(trial, [name], [LEANT[name]], f"{trait}={factor}")[0]) for factor in (0.7, 1.3)]
+            row += [percent(places(trial, [name], [LEANT[name]], f"{trait}={factor}")[0]) for factor in FACTORS]
         rows.append(row)
     return rows

@@ -68,6 +68,9 @@ MEASURED = {
         )
         for name, level in people.LEANT.items()
     },
+    "auto sensitivity": Measured(
+        PEOPLE, f"{MAIN} people GAME --auto --matches 800 --scale decisions=0.7", people.auto_leant, 20
+    ),
     "exploits": Measured(OPPONENTS, f"{MAIN} exploits GAME --hands HANDS --matches 200", exploits.wins, 30),
     "network": Measured(
         NETWORKS, f"{BENCH}network_wins {networks.GUNNER} --matches {networks.EACH}", networks.wins, 10
