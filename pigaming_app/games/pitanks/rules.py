@@ -11,13 +11,13 @@ not while you blink.
 
 By the party rules being hit costs no point, but knocks you out for a moment, in which you roll back. Stay in one place
 and you are lit. A leader far ahead is worth more, the last 20 s count double, and if the leaders are level at the end,
-the next hit wins.
+all fire fast, three bullets at once, and the next hit wins.
 """
 
 from math import cos, sin
 
 from pigaming_app.games.pitanks.items import lay_mine, update_mines, update_pickups
-from pigaming_app.games.pitanks.scoring import is_decided, mark_leaders, score
+from pigaming_app.games.pitanks.scoring import is_decided, is_overtime, mark_leaders, score
 from pigaming_app.games.pitanks.spotlight import update_spotlights
 from pigaming_app.games.pitanks.state import (
     MINE,
@@ -69,6 +69,8 @@ def judge(match: PiTanks) -> None:
         match.over = 1
     if match.rules.bounty_lead or match.rules.overtime:
         mark_leaders(match)
+    if is_overtime(match):
+        arm_all(match)
 
 
 @kernel
@@ -89,6 +91,13 @@ def count_down(rules: PiTanksRules, tank: Tank) -> None:
         is_empty = tank.spent > (rules.magazine - 1) * rules.loading
         if is_empty and not tank.cooldown:
             tank.cooldown = 1
+
+
+@kernel
+def arm_all(match: PiTanks) -> None:
+    """Give everybody rapid fire and three bullets at once, for as long as this is called every tick."""
+    for tank in match.tanks:
+        tank.powers[RAPID] = tank.powers[TRIPLE] = match.rules.power_life
 
 
 @kernel

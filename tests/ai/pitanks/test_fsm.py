@@ -10,10 +10,10 @@ from tests.matches import match_of, run
 
 SEED, TICKS = 7, 1500
 DIGESTS = {
-    ("fsm", "classic", "pickups"): "aa6b057dd23d4bfa6f98bdf8949d5051cdb29388f86317ef26b949fb62277454",
+    ("fsm", "classic", "pickups"): "810e1524db395c0510d82bc5d38d02b5458c1b7831408765714398b50a3e0a88",
     ("fsm", "labyrinth", "plain"): "71e854d8aa97ce764077e8b461bbdbc5e8c40efda1a49bd91796714740ed2eb0",
     ("fsm", "trenches", "classic"): "0418fef5e23dde57e28f6e50bf0af5021874146b244fc1f61b0145d43931cee0",
-    ("classic", "classic", "pickups"): "9a97f007dc1e69c268d73ead0d0719a42a5809bf0fb77cecb696bf4664a87e9c",
+    ("classic", "classic", "pickups"): "5c8aab03ebe9bf772872877f7ac3892da0d2fd2aee19733f50f03a682075ce97",
     ("classic", "labyrinth", "plain"): "35ac2858e6128eb105697ea89ca4c92e12182651a5617dad66da75d6081a0d85",
     ("classic", "trenches", "classic"): "98112ff37c6bedfb7707fc9348d2b7b150d6736f6644d8562bf329d032a4d3a1",
 }

@@ -267,6 +267,13 @@ def test_the_hit_of_another_scores_nothing_but_knocks_out():
     assert (match.tanks[2].hits, match.last_points) == (1, 0)
 
 
+def test_in_overtime_everybody_fires_three_bullets_every_fifth_of_a_second():
+    match = ticks(level([3, 3, 2]), 1)
+    for pause, shots in ((1, 3), (9, 3), (1, 6)):
+        ticks(match, pause, fire=(0, 1, 2))
+        assert [tank.shots for tank in match.tanks] == [shots, shots, shots, 0]
+
+
 def test_a_mutual_hit_of_two_leaders_leaves_the_third_behind():
     match = ticks(level([3, 3, 3]), 1)
     hit(match, 0, 1)

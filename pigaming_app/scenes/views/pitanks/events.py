@@ -7,7 +7,7 @@ import math
 from typing import NamedTuple
 
 from pigaming_app.games.pitanks.scoring import is_finale, is_overtime
-from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, SHIELD, Bullet, PiTanks
+from pigaming_app.games.pitanks.state import OWN_BULLETS, OWN_MINES, POWERS, RAPID, SHIELD, TRIPLE, Bullet, PiTanks
 from pigaming_app.sim.world import HEIGHT, SOLID, WIDTH
 
 NEAR = 20.0  # px, maximum distance between a bullet and the robot that stopped it
@@ -91,7 +91,7 @@ class PiTanksEventDetector:
                 events.append(PiTanksEvent("hit", k, x, y, 0.0, tank.taken - taken))
             for power in range(len(POWERS)):
                 before, now = powers[power], tank.powers[power]
-                if now > before:
+                if now > before and not (is_overtime(state) and power in (RAPID, TRIPLE)):  # all have these there
                     events.append(PiTanksEvent("pickup", k, x, y, 0.0, power))
                 elif power == SHIELD and before > 1 and not now:
                     events.append(PiTanksEvent("shielded", k, x, y))
