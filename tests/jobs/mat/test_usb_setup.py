@@ -133,7 +133,7 @@ def test_the_password_is_typed_once_and_where_it_is_kept_is_told(
         assert "geheim" not in settings.read_text()
         assert "geheim" in (tmp_path / "drawer").read_text()
     else:
-        assert f"No keyring: the password stands as plain text in {settings}." in first
+        assert f"No keyring: the password is saved as plain text in {settings}." in first
         assert 'phones_wifi_key = "geheim"' in settings.read_text()
     told("anders", password=True)
     assert "anders" in (tmp_path / "drawer" if keyring == "Drawer" else settings).read_text()

@@ -67,7 +67,7 @@ def test_a_switch_is_saved_and_counts_from_the_next_start(arcade: Arcade, home: 
         arcade.click(row.x + on[0] + 10, row.centery)
     assert decided(home) == {"tag": True}
     assert page.line(page.focus.name) == arcade.context.words("plugins.on_later")
-    assert page.subtitle == "Changes count from the next start."
+    assert page.subtitle == "Changes take effect at the next start."
     arcade.press(Button.LEFT)
     assert decided(home) == {"tag": False}
 

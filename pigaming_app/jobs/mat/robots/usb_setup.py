@@ -107,7 +107,7 @@ def _wifi(options: Any) -> tuple[str, str]:
         if wifi.keep(settings, password):
             print("The password is in the system's keyring.")
         elif password:
-            print(f"No keyring: the password stands as plain text in {folders().config / FILE}.")
+            print(f"No keyring: the password is saved as plain text in {folders().config / FILE}.")
     if before != (settings.phones_wifi, settings.phones_wifi_key):
         with refused(NotSaved):
             wifi.save(settings)
