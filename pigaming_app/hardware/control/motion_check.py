@@ -26,8 +26,13 @@ LATENESS = (-0.03, 0.0, 0.03, 0.07)  # s, tolerated delays on top of the drivetr
 STRONGEST = 1.5  # tolerated gain of a wheel
 SLACK, SHARE = 4.0, 0.2  # px, and share of the faster wheel's travel: errors of poses and wheel base, and slip
 UNEVEN = 0.15  # tolerated difference of the wheels, as a share of their travel, with gains estimated by the tracker
-EVEN, KNOWN = 0.05, 2.0  # that of a robot whose wheels have differed by less on average, for so many s of driving
+EVEN, KNOWN = 0.05, 2.0  # average difference of even wheels, at most, and s of driving until it is known
 AVERAGED = 3.0  # s over which it is averaged
+OPPOSED, APART, STEADILY = (
+    1.6,
+    4.0,
+    0.02,
+)  # px of a turn and of its command, and between them, plus a share of the travel
 SIDEWAYS = 7.0  # px in SHORT, beyond any motion by wheels
 WEAK = 40.0  # px/s, tolerated loss to friction on top of the deadband
 AGAINST = 8.0  # weight of a turn against the command, beyond what uneven wheels explain
@@ -180,9 +185,11 @@ class RobotMotionCheck:
             return AGAINST
         return float(abs(side) > SIDEWAYS + SHARE * longest)
 
-    def _learn_uneven(self, turn: float, expected: Sequence[float], now: PoseSample) -> bool:
-        """Note how a robot turns beyond what is expected, px; True if its wheels are known to be even."""
-        even = self._known > KNOWN and abs(self._uneven) < EVEN
+    def _learn_uneven(self, turn: float, expected: Sequence[float], now: PoseSample) -> float | None:
+        """Note how a robot turns beyond what is expected, px; the average as a share of the travel, of even wheels that
+        are known, else None.
+        """
+        even = self._uneven if self._known > KNOWN and abs(self._uneven) < EVEN else None
         travel, dt = expected[0] + expected[1], now.time - self._poses[-2].time
         if abs(travel) > 6.0 * SLACK:
             self._uneven += ((turn - expected[0] + expected[1]) / travel - self._uneven) * min(1.0, dt / AVERAGED)
@@ -256,15 +263,20 @@ class RobotMotionCheck:
         )
 
 
-def _turned_against(left: float, right: float, options: Sequence[tuple[float, ...]], even: bool) -> bool:
-    """True if the robot turned against its command by more than uneven wheels explain. Travel in px."""
-    share, slack = (EVEN, 0.4 * SLACK) if even else (UNEVEN, SLACK)
-    if even and len(options) == len(LATENESS):
+def _turned_against(left: float, right: float, options: Sequence[tuple[float, ...]], uneven: float | None) -> bool:
+    """True if the robot turned against its command by more than uneven wheels explain. Travel in px.
+
+    `uneven`: the known difference of even wheels, as a share of their travel.
+    """
+    if uneven is not None and len(options) == len(LATENESS):
         options = options[:-1]  # one that is known is not so late
     turns = [option[0] - option[1] for option in options]
     low, high = min(turns), max(turns)
     if low * high <= 0.0:
         return False
     sign, clear = (1.0, low) if low > 0.0 else (-1.0, -high)
-    uneven = share * max(abs(option[0]) + abs(option[1]) for option in options)
-    return clear > 2.0 * slack and sign * (left - right) < -slack - uneven
+    travel = max(abs(option[0]) + abs(option[1]) for option in options)
+    if uneven is None:
+        return clear > 2.0 * SLACK and sign * (left - right) < -SLACK - UNEVEN * travel
+    against = -sign * (left - right - uneven * (left + right))
+    return min(clear, against) > OPPOSED and clear + against > APART + STEADILY * travel

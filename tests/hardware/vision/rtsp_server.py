@@ -45,8 +45,12 @@ def main(port: str, codec: str, name: str, password: str) -> None:
     server.set_address("127.0.0.1")
     server.set_service(port)
     caps = f"video/x-raw,format=GRAY8,width={WIDTH},height={HEIGHT},framerate=30/1"
-    source = f"appsrc name=source is-live=true do-timestamp=true format=time max-buffers=1 leaky-type=downstream caps={caps}"
-    factory.set_launch(f"( {source} ! videoconvert ! video/x-raw,format=I420 ! {CODECS[codec]} name=pay0 pt={96 if codec == 'h264' else 26} )")
+    source = (
+        f"appsrc name=source is-live=true do-timestamp=true format=time max-buffers=1 leaky-type=downstream caps={caps}"
+    )
+    factory.set_launch(
+        f"( {source} ! videoconvert ! video/x-raw,format=I420 ! {CODECS[codec]} name=pay0 pt={96 if codec == 'h264' else 26} )"
+    )
     factory.set_shared(True)
     factory.connect("media-configure", configure)
     token = GstRtspServer.RTSPToken()

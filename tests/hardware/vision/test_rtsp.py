@@ -65,6 +65,7 @@ def test_a_server_that_ends_is_a_fault_and_its_pictures_return_with_it() -> None
     with camera:
         fault = until(lambda: camera.fault)
         assert (fault.key, fault.values) == ("no_stream", {"host": "127.0.0.1"})
+        camera.newest()  # one that came before the end
         with served("h264", port):
             until(camera.newest)
             assert camera.fault is None
