@@ -45,6 +45,7 @@ EDGES = (((-1.0, 0.0), 0.0), ((1.0, 0.0), WIDTH), ((0.0, -1.0), 0.0), ((0.0, 1.0
 SETTLES = 0.3  # s after the first command, before which earlier motion may persist
 GAP = 0.2  # s without a pose, after which the history is reset
 MEMORY = 1.5  # s of commands
+OBEYED = 0.2  # s of clear motion as commanded, after which a robot counts as wired correctly
 EASE = 0.5  # s of time astray forgiven per second without a verdict
 
 
@@ -89,7 +90,13 @@ class RobotMotionCheck:
         self._poses: deque[PoseSample] = deque()
         self._delays = self._tolerated(0.0)  # s
         self._ends: list[tuple[float, ...]] = []  # travel at the newest pose, px, for each delay
+        self._obeyed = 0.0  # s of clear motion as commanded
         self._uneven = self._known = 0.0  # mean turn beyond the commanded one, as a share of the travel; s of it
+
+    @property
+    def obeys(self) -> bool:
+        """True if it has moved as commanded since it was last out of sight, or its history was reset."""
+        return self._obeyed > OBEYED
 
     def expect_lateness(self, late: float) -> None:
         """Tolerate a delay that was measured on top of the robot's dead time, s, e.g. of a slow network."""
@@ -114,7 +121,7 @@ class RobotMotionCheck:
             return
         if poses and not 0.0 < fix.captured - poses[-1].time < GAP:
             poses.clear()
-            self.contradiction = MotionMismatch()
+            self.contradiction, self._obeyed = MotionMismatch(), 0.0
         heading = fix.heading
         if poses:
             heading = poses[-1].heading + (heading - poses[-1].heading + pi) % tau - pi
@@ -126,7 +133,7 @@ class RobotMotionCheck:
 
     def forget(self) -> None:
         """Reset the history: the next commands come from elsewhere, or concern other robots."""
-        self.contradiction, self._command = MotionMismatch(), (0.0, 0.0)
+        self.contradiction, self._command, self._obeyed = MotionMismatch(), (0.0, 0.0), 0.0
         self._poses.clear()
         self._sent.clear()
 
@@ -159,6 +166,8 @@ class RobotMotionCheck:
         leaving = self._leaves(self._since(SOON), newest)
         held = self._since(LONG)
         stuck = newest.time - held.time if self._stuck(held, newest) else 0.0
+        if astray is not None:
+            self._obeyed = 0.0 if astray else self._obeyed + dt
         seconds = max(0.0, old.astray - EASE * dt) if astray is None else astray and old.astray + astray * dt
         self.contradiction = MotionMismatch(seconds, stuck, leaving)
 

@@ -1,8 +1,8 @@
 """Formats of cameras, as far as OpenCV tells.
 
-The doctor runs this file in a process of its own, because a driver may hang or crash: each camera named in the arguments,
-by number or address, prints one line of JSON as soon as it is done: its number or host, and what is found; an empty text
-if it does not open.
+The doctor runs this file in a process of its own, because a driver may hang or crash. Each camera in the arguments, a
+number or an address, prints one line of JSON as soon as it is done: its number or host, and what is found; an empty
+text if it does not open.
 """
 
 import json

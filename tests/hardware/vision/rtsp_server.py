@@ -48,9 +48,8 @@ def main(port: str, codec: str, name: str, password: str) -> None:
     source = (
         f"appsrc name=source is-live=true do-timestamp=true format=time max-buffers=1 leaky-type=downstream caps={caps}"
     )
-    factory.set_launch(
-        f"( {source} ! videoconvert ! video/x-raw,format=I420 ! {CODECS[codec]} name=pay0 pt={96 if codec == 'h264' else 26} )"
-    )
+    raw, kind = "video/x-raw,format=I420", 96 if codec == "h264" else 26
+    factory.set_launch(f"( {source} ! videoconvert ! {raw} ! {CODECS[codec]} name=pay0 pt={kind} )")
     factory.set_shared(True)
     factory.connect("media-configure", configure)
     token = GstRtspServer.RTSPToken()

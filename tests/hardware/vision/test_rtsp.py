@@ -4,6 +4,7 @@ import subprocess
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,7 @@ from tests.hardware.vision.test_stream import BITS, SIZE, number_in, until
 SERVER = Path(__file__).with_name("rtsp_server.py")
 PYTHON = "/usr/bin/python3"  # Debian's, which has GStreamer's bindings
 BINDINGS = "import gi; gi.require_version('GstRtspServer', '1.0')"
-PACKAGES = "python3-gi gir1.2-gst-rtsp-server-1.0 gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-ugly"
+PACKAGES = "python3-gi gir1.2-gst-rtsp-server-1.0 gstreamer1.0-plugins-{base,good,ugly}"
 DELAY = {"jpeg": 0.030, "h264": 0.060}  # s, of the quickest: one picture is held back by FFmpeg's parser of H.264
 PICTURES = 60
 pytestmark = [pytest.mark.long, pytest.mark.again]
@@ -33,7 +34,7 @@ def served(codec: str, port: int = 0) -> Iterator[int]:
     """The port of a running server; a name and password are needed."""
     command = [PYTHON, str(SERVER), str(port), codec, "anna", "secret"]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as server:
-        assert server.stdin and server.stdout
+        assert server.stdout is not None
         try:
             yield int(server.stdout.readline())
         finally:
@@ -54,7 +55,7 @@ def test_pictures_come_in_order_and_are_not_held_back(codec: str) -> None:
             taken.append(number_in(frame.image))
             delays.append((round(1000 * time.monotonic()) - taken[-1]) % 2**BITS / 1000)
         assert frame.image.shape == SIZE[::-1]
-        assert all(0 < after - before < 2**BITS / 2 for before, after in zip(taken, taken[1:], strict=False))
+        assert all(0 < after - before < 2**BITS / 2 for before, after in pairwise(taken))
         assert min(delays) < DELAY[codec]
 
 
