@@ -265,7 +265,7 @@ def _cameras() -> Iterator[Line]:
     yield Line(
         "cameras", "note" if advice else "ok", f"{found if linux else 'numbers 0 to 2 were tried'}; {untold}", advice
     )
-    answers = {str(number): str(told) for number, told in _answers("pigaming_app.hardware.vision.formats", *names)}
+    answers = {str(number): str(told) for number, told in _answers(f"{discovery.__package__}.formats", *names)}
     for number in names:
         if told := answers.get(number):
             yield Line(f"camera {number}", "ok", told)
