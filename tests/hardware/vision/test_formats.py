@@ -22,7 +22,7 @@ def film(tmp_path):
 
     def write(code):
         path = str(tmp_path / "film.avi")
-        writer = cv2.VideoWriter(path, cv2.VideoWriter_fourcc(*code.upper()), RATE, SIZE)
+        writer = cv2.VideoWriter(path, cv2.VideoWriter.fourcc(*code.upper()), RATE, SIZE)
         for level in range(5):
             writer.write(np.full((*SIZE[::-1], 3), 40 * level, np.uint8))
         writer.release()
@@ -84,6 +84,7 @@ def test_a_lock_is_tried_and_taken_back(fixed, mode, after):
     capture = Remembering(camera)
     capture.fixed, capture.mode = fixed, mode
     told = formats.told(cv2, capture)
-    assert (told.locks, told.backend, told.width, told.exposure) == (not fixed, "V4L2", 0, pytest.approx(1 / 100))
+    assert (told.locks, told.backend, told.width) == (not fixed, "V4L2", 0)
+    assert told.exposure == pytest.approx(1 / 100)
     assert capture.mode == after
     assert "no picture came" in str(told)
