@@ -48,9 +48,10 @@ DEVICES = {  # state and advice where it is missing
     "pads": ("note", "it works as a plain joystick; a mapping in SDL_GAMECONTROLLERCONFIG names its buttons"),
     "fonts": ("problem", REINSTALL),
 }
-UNTOLD = {  # about cameras, by system
-    "win32": "Windows does not name them; exposures are in powers of two",
-    "darwin": "macOS does not name them, nor tell or set their exposure",
+UNTOLD = {  # about cameras by OpenCV, by system
+    "linux": "other sizes and rates are not told",
+    "win32": "names and other sizes are not told; exposures are in powers of two",
+    "darwin": "names, other sizes and exposures are not told, and no exposure can be set",
 }
 
 
@@ -80,7 +81,7 @@ def run(options: JsonOption) -> int:
 
 def report() -> list[Line]:
     """All findings. It never raises: a failed check becomes a line."""
-    return [*_system(), *_packages(), *_files(), *_assets(), *_devices(), _cameras(), _engine()]
+    return [*_system(), *_packages(), *_files(), *_assets(), *_devices(), *_cameras(), _engine()]
 
 
 def _system() -> Iterator[Line]:
@@ -243,26 +244,44 @@ def _devices() -> Iterator[Line]:
             yield Line(what, state if wrong else "ok", text.rstrip("."), advice if wrong else "")
 
 
-def _cameras() -> Line:
-    """Cameras for real robots, and what this system does not tell about them, or lets programs set."""
+def _cameras() -> Iterator[Line]:
+    """Cameras for real robots, their formats, and what OpenCV does not tell about them on this system."""
     try:
         discovery = optional("hardware.vision.discovery")
     except ImportError as error:
-        return Line("cameras", "note", f"not looked for: {error}")
+        yield Line("cameras", "note", f"not looked for: {error}")
+        return
     if discovery is None:
-        return Line("cameras", "note", "not looked for: the feature mat is not installed")
-    if sys.platform.startswith("linux"):
-        found = ", ".join(f"{camera.number} ({camera.name})" for camera in discovery.cameras())
-        return Line("cameras", "ok", found or "none; only real robots need one")
-    advice = "the wizard tries numbers 0 to 2"
-    if sys.platform == "darwin":
-        advice += "; set 1/60 s and a fixed focus in the camera's own program"
-    return Line("cameras", "note", UNTOLD.get(sys.platform, "this system does not name them"), advice)
+        yield Line("cameras", "note", "not looked for: the feature mat is not installed")
+        return
+    linux = sys.platform.startswith("linux")
+    names = {str(camera.number): camera.name for camera in discovery.cameras()}
+    untold = UNTOLD.get("linux" if linux else sys.platform, "names and other sizes are not told")
+    if not names:
+        yield Line("cameras", "ok", "none; only real robots need one")
+        return
+    found = ", ".join(f"{number} ({name})" for number, name in names.items())
+    advice = "set 1/60 s and a fixed focus in the camera's own program" if sys.platform == "darwin" else ""
+    yield Line(
+        "cameras", "note" if advice else "ok", f"{found if linux else 'numbers 0 to 2 were tried'}; {untold}", advice
+    )
+    answers = {str(number): str(told) for number, told in _answers(f"{discovery.__package__}.formats", *names)}
+    for number in names:
+        if told := answers.get(number):
+            yield Line(f"camera {number}", "ok", told)
+        elif linux or number not in answers:
+            silent = "it does not open" if number in answers else "OpenCV did not answer"
+            yield Line(f"camera {number}", "note", silent, "close other programs that use it; main.py robots says more")
 
 
 def _probed() -> dict[str, tuple[str, str]]:
-    """Answers of the probe up to its end, crash or timeout: (found, wrong) by name."""
-    command = [sys.executable, "-m", "pigaming_app.ui.probe"]
+    """Answers of the probe: (found, wrong) by name."""
+    return {str(name): (str(found), str(wrong)) for name, found, wrong in _answers("pigaming_app.ui.probe")}
+
+
+def _answers(module: str, *arguments: str) -> Iterator[list[object]]:
+    """The lines of JSON that a module prints in a process of its own, up to its end, crash or timeout."""
+    command = [sys.executable, "-m", module, *arguments]
     environment = {**os.environ, "PYGAME_HIDE_SUPPORT_PROMPT": "1", "PYTHONIOENCODING": "utf-8"}
     try:
         output = subprocess.run(
@@ -270,12 +289,11 @@ def _probed() -> dict[str, tuple[str, str]]:
         ).stdout
     except subprocess.TimeoutExpired as stopped:
         output = stopped.stdout or b""
-    answers: dict[str, tuple[str, str]] = {}
     for line in output.decode(errors="replace").splitlines():
         with contextlib.suppress(ValueError):  # other output of a driver
-            name, found, wrong = parse_json(line)
-            answers[str(name)] = str(found), str(wrong)
-    return answers
+            answer = parse_json(line)
+            if isinstance(answer, list):
+                yield answer
 
 
 def _engine() -> Line:

@@ -176,22 +176,38 @@ def test_it_warns_when_visitors_can_leave_a_kiosk(monkeypatch, home, platform, d
 
 
 @pytest.mark.parametrize(
-    ("system", "state", "words"),
+    ("system", "state", "words", "formats"),
     [
-        ("linux", "ok", "2 (Eye of the mat)"),
-        ("darwin", "note", "set their exposure"),
-        ("win32", "note", "powers of two"),
-        ("freebsd", "note", "does not name them"),
+        ("linux", "ok", "2 (Eye of the mat), 3 (Ear)", {"2": "ok", "3": "note", "4": "note"}),
+        ("darwin", "note", "no exposure can be set", {"2": "ok"}),
+        ("win32", "ok", "powers of two", {"2": "ok"}),
+        ("freebsd", "ok", "names and other sizes are not told", {"2": "ok"}),
     ],
 )
-def test_cameras_are_named_and_what_a_system_does_not_tell_of_them(monkeypatch, tmp_path, system, state, words):
-    camera = tmp_path / "video2"
-    camera.mkdir()
-    (camera / "name").write_text("Eye of the mat\n")
-    (camera / "index").write_text("0\n")
+def test_cameras_have_formats_and_what_a_system_does_not_tell_of_them_is_said(
+    monkeypatch, tmp_path, system, state, words, formats
+):
+    """Outside Linux, a number without a camera is no finding. The third camera's driver crashes."""
+    for number, name in ((2, "Eye of the mat"), (3, "Ear"), (4, "Nose")):
+        camera = tmp_path / f"video{number}"
+        camera.mkdir()
+        (camera / "name").write_text(f"{name}\n")
+        (camera / "index").write_text("0\n")
     monkeypatch.setattr(discovery, "DEVICES", tmp_path)
     monkeypatch.setattr(sys, "platform", system)
-    line = doctor._cameras()
-    assert (line.what, line.state) == ("cameras", state)
-    assert words in line.found
-    assert bool(line.advice) is (state == "note")
+    others = [["0", ""], ["1", ""]] if system != "linux" else []
+    answer(monkeypatch, *others, ["2", "1280 × 720, 30 Hz"], *([["3", ""]] if system == "linux" else []))
+    first, *rest = doctor._cameras()
+    assert (first.what, first.state) == ("cameras", state)
+    assert words in first.found
+    assert {line.what.removeprefix("camera "): line.state for line in rest} == formats
+    assert rest[0].found == "1280 × 720, 30 Hz"
+    assert all(line.advice for line in (first, *rest) if line.state != "ok")
+
+
+def test_without_cameras_none_is_opened(monkeypatch, tmp_path):
+    monkeypatch.setattr(discovery, "DEVICES", tmp_path)
+    monkeypatch.setattr(sys, "platform", "linux")
+    monkeypatch.setattr(subprocess, "run", None)
+    (only,) = doctor._cameras()
+    assert only.found.startswith("none")

@@ -26,8 +26,13 @@ LATENESS = (-0.03, 0.0, 0.03, 0.07)  # s, tolerated delays on top of the drivetr
 STRONGEST = 1.5  # tolerated gain of a wheel
 SLACK, SHARE = 4.0, 0.2  # px, and share of the faster wheel's travel: errors of poses and wheel base, and slip
 UNEVEN = 0.15  # tolerated difference of the wheels, as a share of their travel, with gains estimated by the tracker
-EVEN, KNOWN = 0.05, 2.0  # that of a robot whose wheels have differed by less on average, for so many s of driving
+EVEN, KNOWN = 0.05, 2.0  # average difference of even wheels, at most, and s of driving until it is known
 AVERAGED = 3.0  # s over which it is averaged
+OPPOSED, APART, STEADILY = (
+    1.6,
+    4.0,
+    0.02,
+)  # px of a turn and of its command, and between them, plus a share of the travel
 SIDEWAYS = 7.0  # px in SHORT, beyond any motion by wheels
 WEAK = 40.0  # px/s, tolerated loss to friction on top of the deadband
 AGAINST = 8.0  # weight of a turn against the command, beyond what uneven wheels explain
@@ -40,6 +45,7 @@ EDGES = (((-1.0, 0.0), 0.0), ((1.0, 0.0), WIDTH), ((0.0, -1.0), 0.0), ((0.0, 1.0
 SETTLES = 0.3  # s after the first command, before which earlier motion may persist
 GAP = 0.2  # s without a pose, after which the history is reset
 MEMORY = 1.5  # s of commands
+OBEYED = 0.2  # s of clear motion as commanded, after which a robot counts as wired correctly
 EASE = 0.5  # s of time astray forgiven per second without a verdict
 
 
@@ -84,7 +90,13 @@ class RobotMotionCheck:
         self._poses: deque[PoseSample] = deque()
         self._delays = self._tolerated(0.0)  # s
         self._ends: list[tuple[float, ...]] = []  # travel at the newest pose, px, for each delay
+        self._obeyed = 0.0  # s of clear motion as commanded
         self._uneven = self._known = 0.0  # mean turn beyond the commanded one, as a share of the travel; s of it
+
+    @property
+    def obeys(self) -> bool:
+        """True if it has moved as commanded since it was last out of sight, or its history was reset."""
+        return self._obeyed > OBEYED
 
     def expect_lateness(self, late: float) -> None:
         """Tolerate a delay that was measured on top of the robot's dead time, s, e.g. of a slow network."""
@@ -109,7 +121,7 @@ class RobotMotionCheck:
             return
         if poses and not 0.0 < fix.captured - poses[-1].time < GAP:
             poses.clear()
-            self.contradiction = MotionMismatch()
+            self.contradiction, self._obeyed = MotionMismatch(), 0.0
         heading = fix.heading
         if poses:
             heading = poses[-1].heading + (heading - poses[-1].heading + pi) % tau - pi
@@ -121,7 +133,7 @@ class RobotMotionCheck:
 
     def forget(self) -> None:
         """Reset the history: the next commands come from elsewhere, or concern other robots."""
-        self.contradiction, self._command = MotionMismatch(), (0.0, 0.0)
+        self.contradiction, self._command, self._obeyed = MotionMismatch(), (0.0, 0.0), 0.0
         self._poses.clear()
         self._sent.clear()
 
@@ -154,6 +166,8 @@ class RobotMotionCheck:
         leaving = self._leaves(self._since(SOON), newest)
         held = self._since(LONG)
         stuck = newest.time - held.time if self._stuck(held, newest) else 0.0
+        if astray is not None:
+            self._obeyed = 0.0 if astray else self._obeyed + dt
         seconds = max(0.0, old.astray - EASE * dt) if astray is None else astray and old.astray + astray * dt
         self.contradiction = MotionMismatch(seconds, stuck, leaving)
 
@@ -180,9 +194,11 @@ class RobotMotionCheck:
             return AGAINST
         return float(abs(side) > SIDEWAYS + SHARE * longest)
 
-    def _learn_uneven(self, turn: float, expected: Sequence[float], now: PoseSample) -> bool:
-        """Note how a robot turns beyond what is expected, px; True if its wheels are known to be even."""
-        even = self._known > KNOWN and abs(self._uneven) < EVEN
+    def _learn_uneven(self, turn: float, expected: Sequence[float], now: PoseSample) -> float | None:
+        """Note how a robot turns beyond what is expected, px; the average as a share of the travel, of even wheels that
+        are known, else None.
+        """
+        even = self._uneven if self._known > KNOWN and abs(self._uneven) < EVEN else None
         travel, dt = expected[0] + expected[1], now.time - self._poses[-2].time
         if abs(travel) > 6.0 * SLACK:
             self._uneven += ((turn - expected[0] + expected[1]) / travel - self._uneven) * min(1.0, dt / AVERAGED)
@@ -256,15 +272,20 @@ class RobotMotionCheck:
         )
 
 
-def _turned_against(left: float, right: float, options: Sequence[tuple[float, ...]], even: bool) -> bool:
-    """True if the robot turned against its command by more than uneven wheels explain. Travel in px."""
-    share, slack = (EVEN, 0.4 * SLACK) if even else (UNEVEN, SLACK)
-    if even and len(options) == len(LATENESS):
+def _turned_against(left: float, right: float, options: Sequence[tuple[float, ...]], uneven: float | None) -> bool:
+    """True if the robot turned against its command by more than uneven wheels explain. Travel in px.
+
+    `uneven`: the known difference of even wheels, as a share of their travel.
+    """
+    if uneven is not None and len(options) == len(LATENESS):
         options = options[:-1]  # one that is known is not so late
     turns = [option[0] - option[1] for option in options]
     low, high = min(turns), max(turns)
     if low * high <= 0.0:
         return False
     sign, clear = (1.0, low) if low > 0.0 else (-1.0, -high)
-    uneven = share * max(abs(option[0]) + abs(option[1]) for option in options)
-    return clear > 2.0 * slack and sign * (left - right) < -slack - uneven
+    travel = max(abs(option[0]) + abs(option[1]) for option in options)
+    if uneven is None:
+        return clear > 2.0 * SLACK and sign * (left - right) < -SLACK - UNEVEN * travel
+    against = -sign * (left - right - uneven * (left + right))
+    return min(clear, against) > OPPOSED and clear + against > APART + STEADILY * travel

@@ -19,6 +19,7 @@ from pigaming_app.sim.world import DT, HEIGHT, ROBOTS, WIDTH, World
 
 FORGOTTEN = 1.0  # s, age of a pose beyond which a robot is no obstacle
 MAX_ACCELERATION = 2000.0  # px/s^2: a robot that drives the wrong way is detected before it is fast
+UNPROVEN = 340.0  # mm/s, top speed of a robot that has not yet moved as commanded: it may be wired wrongly
 FRESH = 0.5 * DT  # s, age of a prediction beyond which `drive` makes a new one
 REST: Twist = (0.0, 0.0)
 
@@ -204,6 +205,8 @@ class RealPlant:
             return kinematics.stand()
         if held == Response.HALF:
             desired = (0.5 * desired[0], 0.5 * desired[1])
+        if not self.rig.motion_checks[robot].obeys:
+            desired = held_to((UNPROVEN / self.mm, 0.0), desired)
         x, y, _ = ahead[robot]
         others = [(ahead[i][0], ahead[i][1], self._margin(i)) for i in solid if i != robot]
         desired = limit_acceleration(desired[0], self._speeds[robot]), desired[1]

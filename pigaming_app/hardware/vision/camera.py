@@ -12,7 +12,7 @@ from math import inf
 from typing import Any, Self
 
 from pigaming_app.hardware.signals import CameraFrame, Clock, ExposureKept, ExposureState, Image
-from pigaming_app.hardware.vision import stream
+from pigaming_app.hardware.vision import formats, stream
 from pigaming_app.hardware.vision.discovery import CameraId, unavailable_reason
 from pigaming_app.hardware.vision.exposure import ExposureControl
 from pigaming_app.hardware.vision.markers import opencv
@@ -20,7 +20,6 @@ from pigaming_app.hardware.vision.phone import PhoneCapture
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import PHONE
 
-WIDTH, HEIGHT, FPS = 1920, 1080, 30  # requested format, px and frames/s; the camera may deliver another
 SETTLE = 2.0  # s after opening at which exposure, white balance, focus and gain are locked
 STALE = 1.0  # s without a frame after which the camera is reopened
 RETRY = 1.0  # s between two attempts to open
@@ -96,21 +95,13 @@ class Camera:
                 capture = self._open_capture(self.number)
             if capture.isOpened():
                 if isinstance(self.number, int):
-                    self._configure(capture)
+                    formats.ask(self._cv, capture)
                 return capture
             capture.release()
         except (self._cv.error, OSError):
             pass
         self.fault = unavailable_reason(self.number)
         return None
-
-    def _configure(self, capture: Any) -> None:
-        cv = self._cv
-        capture.set(cv.CAP_PROP_FOURCC, cv.VideoWriter_fourcc(*"MJPG"))  # raw 1080p does not fit through USB 2
-        capture.set(cv.CAP_PROP_FRAME_WIDTH, WIDTH)
-        capture.set(cv.CAP_PROP_FRAME_HEIGHT, HEIGHT)
-        capture.set(cv.CAP_PROP_FPS, FPS)
-        capture.set(cv.CAP_PROP_BUFFERSIZE, 1)
 
     def _read(self, capture: Any) -> None:
         """Read until closed, or until no frame has come for STALE s."""

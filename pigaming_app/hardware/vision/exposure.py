@@ -53,8 +53,7 @@ class ExposureControl:
     ) -> None:
         self._cv, self._capture, self._lock_at, self._fresh = cv, capture, now + settle, fresh
         self._kept = None if fresh else kept
-        name = _backend(capture)
-        self._power, self._counts = name in ("DSHOW", "MSMF"), name.startswith("V4L")  # units of exposures, see above
+        self._power, self._counts = _units(capture)
         self.state = ExposureState()
         self._times: deque[float] = deque(maxlen=PICTURES)
         self._waiting: int | None = None  # pictures until the brightness is judged; None: not locked yet
@@ -130,13 +129,28 @@ class ExposureControl:
             self._capture.set(self._cv.CAP_PROP_EXPOSURE, float(max(1, floor(seconds * 1e4 + 0.05))))
 
     def _read(self) -> None:
-        raw, gain = (float(self._capture.get(name)) for name in (self._cv.CAP_PROP_EXPOSURE, self._cv.CAP_PROP_GAIN))
-        seconds = None
-        if self._power and -20.0 < raw < log2(IMPLAUSIBLE):
-            seconds = 2.0**raw
-        elif self._counts and 1.0 <= raw < IMPLAUSIBLE * 1e4:
-            seconds = raw * 1e-4
-        self.state = self.state._replace(seconds=seconds, gain=gain if 0.0 < gain <= HIGHEST_GAIN else 0.0)
+        gain = float(self._capture.get(self._cv.CAP_PROP_GAIN))
+        self.state = self.state._replace(
+            seconds=told_exposure(self._cv, self._capture), gain=gain if 0.0 < gain <= HIGHEST_GAIN else 0.0
+        )
+
+
+def told_exposure(cv: Any, capture: Any) -> float | None:
+    """The exposure by the driver's figure, s; None without one."""
+    power, counts = _units(capture)
+    raw = float(capture.get(cv.CAP_PROP_EXPOSURE))
+    if power and -20.0 < raw < log2(IMPLAUSIBLE):
+        return float(2.0**raw)
+    return raw * 1e-4 if counts and 1.0 <= raw < IMPLAUSIBLE * 1e4 else None
+
+
+def locks_exposure(cv: Any, capture: Any) -> bool:
+    """True if the driver takes a fixed exposure; the present mode is restored, or automatic if it is not told."""
+    codes, before = _automatic(capture), float(capture.get(cv.CAP_PROP_AUTO_EXPOSURE))
+    locks = bool(capture.set(cv.CAP_PROP_AUTO_EXPOSURE, codes[0]))
+    if locks:
+        capture.set(cv.CAP_PROP_AUTO_EXPOSURE, before if before in codes else codes[1])
+    return locks
 
 
 def brightness(image: Image) -> float:
@@ -160,10 +174,17 @@ def lock_exposure(cv: Any, capture: Any) -> None:
 
 def _automatic(capture: Any) -> tuple[float, float]:
     """Codes of manual and automatic exposure: V4L2 has an enumeration, other drivers a switch."""
-    return (1.0, 3.0) if _backend(capture).startswith("V4L") else (0.0, 1.0)
+    return (1.0, 3.0) if backend(capture).startswith("V4L") else (0.0, 1.0)
 
 
-def _backend(capture: Any) -> str:
+def _units(capture: Any) -> tuple[bool, bool]:
+    """True for exposures in powers of two, and for those counted in 100 us."""
+    name = backend(capture)
+    return name in ("DSHOW", "MSMF"), name.startswith("V4L")
+
+
+def backend(capture: Any) -> str:
+    """The part of OpenCV that reads a capture, e.g. V4L2."""
     try:
         return str(capture.getBackendName())
     except AttributeError:

@@ -10,9 +10,12 @@ LIVE = "fflags;nobuffer|flags;low_delay|rtsp_transport;tcp|max_delay;100000|anal
 
 
 def opened(cv: Any, address: str) -> Any:
-    """A `cv2.VideoCapture` of a stream, without FFmpeg's buffers, which would add to its delay."""
+    """A `cv2.VideoCapture` of a stream, without FFmpeg's buffers, which would add to its delay.
+
+    Nor with its threads: a decoder holds back a picture for each further one.
+    """
     os.environ.setdefault(OPTIONS, LIVE)
-    limits = [cv.CAP_PROP_OPEN_TIMEOUT_MSEC, OPENING, cv.CAP_PROP_READ_TIMEOUT_MSEC, SILENT]
+    limits = [cv.CAP_PROP_OPEN_TIMEOUT_MSEC, OPENING, cv.CAP_PROP_READ_TIMEOUT_MSEC, SILENT, cv.CAP_PROP_N_THREADS, 1]
     return cv.VideoCapture(address, cv.CAP_FFMPEG, limits)
 
 
