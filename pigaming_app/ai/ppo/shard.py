@@ -47,7 +47,11 @@ class Experience(NamedTuple):
     over: np.ndarray  # (S,) bool; the match has ended
     results: np.ndarray  # (S,) float32, reward of its end
     players: np.ndarray  # (S,) int64, the learner: its place in `Task.learners`
+    mates: np.ndarray  # (S, 3) int64, streams of the same learner in the same team; -1 for those that there are not
     outcomes: np.ndarray  # (n, 2), ends of matches against a member of the population: its place, the learner's score
+
+
+PLAYED = Experience._fields.index("mates")  # fields that the loop fills
 
 
 class ShardState(NamedTuple):
@@ -159,6 +163,7 @@ def empty_experience(task: Task, streams: int, decisions: int) -> Experience:
         np.zeros(streams, np.bool_),
         np.zeros(streams, np.float32),
         np.zeros(streams, np.int64),
+        np.full((streams, ROBOTS - 1), -1),
         np.zeros((0, 2)),
     )
 
@@ -194,12 +199,13 @@ class Shard:
         experience = self._experience
         if experience is None or len(experience.choices) != decisions:
             experience = self._experience = empty_experience(self.task, self.width, decisions)
-        for array in experience[2:]:
+        for array in experience[2:PLAYED]:
             array.fill(0)
         experience.players[:] = LEARNING - self.minds["family"][self.streams >= 0]
+        mates = self._mates() if self.task.team_critic else experience.mates
         networks = np.concatenate([self.cast.weights[self._number], pool.rows])
         weights = tuple(networks if k == self._number else row for k, row in enumerate(self.cast.weights))
-        arguments = self.matches, self.minds, weights, self.streams, *policies, *experience[:-1]
+        arguments = self.matches, self.minds, weights, self.streams, *policies, *experience[:PLAYED]
         overseer.run(self.task.game, self.matches["tick"].sum, loop_of(self.task), *arguments)
         ended = self.matches["over"] > 0
         self._check_length(ended, decisions * PERIOD)
@@ -209,7 +215,15 @@ class Shard:
         for i in np.flatnonzero(ended):
             self._begin(int(i), pool)
         self._count_streams()
-        return experience._replace(outcomes=outcomes)
+        return experience._replace(mates=mates, outcomes=outcomes)
+
+    def _mates(self) -> Any:
+        """The mates of every stream, see Experience."""
+        families, teams = self.minds["family"], self.matches["robots"]["team"]
+        same = (families[:, :, None] == families[:, None]) & (teams[:, :, None] == teams[:, None])
+        same &= (families <= LEARNING)[:, :, None] & ~np.eye(ROBOTS, dtype=bool)
+        others = np.where(same, self.streams[:, None], -1)  # (matches, seats, seats)
+        return -np.sort(-others, axis=2)[self.streams >= 0, : ROBOTS - 1]
 
     def _outcomes(self) -> Any:
         """The ends of matches against the exploiter or one member of the pool."""

@@ -10,7 +10,7 @@ from pigaming_app.ai.learning.cast import family_of
 from pigaming_app.ai.learning.league import wilson
 from pigaming_app.ai.networks.encoding import PERIOD
 from pigaming_app.ai.plugin_faults import bound, check
-from pigaming_app.ai.ppo.shard import cast_of, empty_experience, loop_of, nobody
+from pigaming_app.ai.ppo.shard import PLAYED, cast_of, empty_experience, loop_of, nobody
 from pigaming_app.ai.ppo.task import OFF, Task
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
@@ -91,7 +91,7 @@ def _duels(task: Task, network: Any, rival: str, numbers: range) -> DuelScore:
         weights,
         np.full((len(numbers), ROBOTS), -1),
         *policies,
-        *nothing[:-1],
+        *nothing[:PLAYED],
     )
     ends: list[Any] = [unpack(rules.state, state) for state in states]
     check(task.game, ends)
