@@ -55,9 +55,7 @@ def win_rates(task: Task, network: Any, matches: int, threads: Executor) -> dict
     return {rival: _score(some) for rival, some in zip(task.rivals, leads, strict=True)}
 
 
-def points_between(
-    task: Task, network: Any, other: Any, matches: int, threads: Executor
-) -> list[tuple[float, float]]:
+def points_between(task: Task, network: Any, other: Any, matches: int, threads: Executor) -> list[tuple[float, float]]:
     """The points of two networks, rows of packed weights, under each seed of as many such duels; a tie counts 1/2."""
     parts = [range(k, k + 2) for k in range(0, matches, 2)]
     scores = [_score(leads) for leads in threads.map(lambda part: _leads(task, network, other, part), parts)]

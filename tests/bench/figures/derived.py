@@ -19,6 +19,7 @@ from pigaming_app.sim.drivetrain import MM
 from pigaming_app.sim.world import HZ, WIDTH
 from pigaming_app.storage.schema import from_json
 from pigaming_app.ui.i18n import Words
+from tests.bench import benchmark_curves
 from tests.bench.figures import ROOT, as_markdown
 from tests.bench.makespan_bound import bound
 
@@ -126,4 +127,14 @@ def baselines() -> str:
             each = ", ".join(f"{name} {mean(row):.0f}" for name, row in points.items())  # of 100 matches
             share = f"{100 * score:.1f} ({100 * low:.0f}–{100 * high:.0f})"
             rows.append([f"`{found.task}`", found.method, str(count), share, each])
+    return as_markdown(rows)
+
+
+def curves() -> str:
+    """The table of learning curves in docs/benchmark.md."""
+    rows = [["score, %, over decisions", *(f"{budget / 1e6:g} million" for budget in benchmark_curves.LADDER)]]
+    for method, steps in benchmark_curves.curves(benchmark_curves.points()).items():
+        cells = [steps.get(budget) for budget in benchmark_curves.LADDER]
+        shares = [f"{100 * one[0]:.0f} ({100 * one[1]:.0f}–{100 * one[2]:.0f})" if one else "" for one in cells]
+        rows.append([benchmark_curves.METHODS[method], *shares])
     return as_markdown(rows)

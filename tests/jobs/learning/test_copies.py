@@ -19,7 +19,7 @@ from tests.ai.ppo.plain import SET, play_plain
 
 @pytest.fixture
 def met(monkeypatch):
-    """Pairs that meet, by the first numbers of their weights; plain and short matches, of which the second wins most."""
+    """Pairs that meet, by their weights: of three copies the second wins most. Matches are plain and short."""
     play_plain(monkeypatch)
     for measured in ("MEASURED", "MEASURED_AT_END"):
         monkeypatch.setattr(ppo_training, measured, 1)

@@ -17,7 +17,12 @@ PLOTS = {  # a column of the table, by the title of its plot
     "loss of the value function": "value_loss",
     "explained variance": "explained",
 }
-PLACES = ((WINS, WINS, *list(PLOTS)[:1]), (WINS, WINS, *list(PLOTS)[1:2]), tuple(PLOTS)[2:5], (*tuple(PLOTS)[5:], RATING))
+PLACES = (
+    (WINS, WINS, *list(PLOTS)[:1]),
+    (WINS, WINS, *list(PLOTS)[1:2]),
+    tuple(PLOTS)[2:5],
+    (*tuple(PLOTS)[5:], RATING),
+)
 
 
 def page_of(table: TrainingTable) -> bytes:

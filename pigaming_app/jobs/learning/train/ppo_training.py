@@ -266,7 +266,9 @@ def _print(
         print(f"against {rival}: {_sentence(score)}")
     for updates, _, rating in table.copies:
         mark = "  the result" if chosen and chosen.updates == updates else ""
-        print(f"copy after {updates:>7,} updates  {rating.rating:+5.0f} ({rating.low:+.0f} to {rating.high:+.0f}){mark}")
+        print(
+            f"copy after {updates:>7,} updates  {rating.rating:+5.0f} ({rating.low:+.0f} to {rating.high:+.0f}){mark}"
+        )
 
 
 def _described(score: DuelScore) -> dict[str, Any]:
