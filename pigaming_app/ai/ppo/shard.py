@@ -19,6 +19,7 @@ from pigaming_app.ai.plugin_faults import bound, late
 from pigaming_app.ai.ppo.forward import make_bend, make_layer, sample
 from pigaming_app.ai.ppo.population import EXPLOITED, Pool
 from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, LEARNERS, OFF, POOL, LineUp, Task
+from pigaming_app.ai.ppo.team_critic import mates_of
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
@@ -202,7 +203,8 @@ class Shard:
         for array in experience[2:PLAYED]:
             array.fill(0)
         experience.players[:] = LEARNING - self.minds["family"][self.streams >= 0]
-        mates = self._mates() if self.task.team_critic else experience.mates
+        teams = self.matches["robots"]["team"]
+        mates = mates_of(self.minds["family"], teams, self.streams) if self.task.team_critic else experience.mates
         networks = np.concatenate([self.cast.weights[self._number], pool.rows])
         weights = tuple(networks if k == self._number else row for k, row in enumerate(self.cast.weights))
         arguments = self.matches, self.minds, weights, self.streams, *policies, *experience[:PLAYED]
@@ -216,14 +218,6 @@ class Shard:
             self._begin(int(i), pool)
         self._count_streams()
         return experience._replace(mates=mates, outcomes=outcomes)
-
-    def _mates(self) -> Any:
-        """The mates of every stream, see Experience."""
-        families, teams = self.minds["family"], self.matches["robots"]["team"]
-        same = (families[:, :, None] == families[:, None]) & (teams[:, :, None] == teams[:, None])
-        same &= (families <= LEARNING)[:, :, None] & ~np.eye(ROBOTS, dtype=bool)
-        others = np.where(same, self.streams[:, None], -1)  # (matches, seats, seats)
-        return -np.sort(-others, axis=2)[self.streams >= 0, : ROBOTS - 1]
 
     def _outcomes(self) -> Any:
         """The ends of matches against the exploiter or one member of the pool."""

@@ -21,6 +21,7 @@ from pigaming_app.ai.ppo.learner import Hyper, Learner, LearnerFigures, PolicyNe
 from pigaming_app.ai.ppo.population import SELF_EVERY, Pool, Population, restored
 from pigaming_app.ai.ppo.shard import LEARNING, PLAYED, Experience, Shard, ShardState
 from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
+from pigaming_app.ai.ppo.team_critic import team_views
 from pigaming_app.ai.ppo.win_rates import DuelScore, win_rates
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.setup import ChoiceError
@@ -180,7 +181,7 @@ class Training:
         return scores
 
     def _digested(self, player: int, experience: Experience, share: float) -> tuple[Any, ...]:
-        """Inputs, choices, log odds, advantages, returns of a learner's valid decisions; of a team's critic its inputs."""
+        """What a learner's valid decisions are to `Learner.update`."""
         learner, own = self.learners[player], experience.players == player
         views = team_views(experience.inputs, experience.mates)[:, own] if self.task.team_critic else None
         if len(self.learners) > 1:
@@ -265,19 +266,6 @@ def in_threads(training: Training, threads: Executor) -> Gather:
         return list(threads.map(lambda shard: shard.collect(policies, pool, decisions), training.shards))
 
     return gather
-
-
-def team_views(inputs: np.ndarray, mates: np.ndarray) -> Any:
-    """Inputs of a team's critic (T, S, 2 n + 2): the own n, the mean of the mates' n and 1, or zeros without mates; 1.
-
-    A central value function for policies that see their own inputs alone (C. Yu et al., "The surprising effectiveness of
-    PPO in cooperative multi-agent games", arXiv:2103.01955). `inputs`: (T, S, n + 1); `mates`: see Experience.
-    """
-    total = np.zeros_like(inputs)
-    for others in mates.T:
-        total += inputs[:, others] * (others >= 0)[:, None]
-    total /= np.maximum((mates >= 0).sum(1), 1)[:, None].astype(inputs.dtype)
-    return np.concatenate([inputs[..., :-1], total, inputs[..., -1:]], axis=-1)
 
 
 def whole_layers(weights: Sequence[Any]) -> Layers:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from concurrent.futures import Executor
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -51,7 +52,7 @@ def win_rates(task: Task, network: Any, matches: int, threads: Executor) -> dict
     parts = [part for part in parts if part]
     jobs = [(rival, part) for rival in task.rivals for part in parts]
     found = [*threads.map(lambda job: _leads(task, network, *job), jobs)]
-    leads = [sum(found[k : k + len(parts)], []) for k in range(0, len(found), len(parts))]
+    leads = [[*chain(*found[k : k + len(parts)])] for k in range(0, len(found), len(parts))]
     return {rival: _score(some) for rival, some in zip(task.rivals, leads, strict=True)}
 
 

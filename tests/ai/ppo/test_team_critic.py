@@ -12,7 +12,8 @@ from pigaming_app.ai.ppo.population import Pool
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, OFF, LineUp
 from pigaming_app.ai.ppo.task_file import file_of, parse_task_file, text_of, with_file
-from pigaming_app.ai.ppo.training import Training, in_threads, team_views
+from pigaming_app.ai.ppo.team_critic import team_views
+from pigaming_app.ai.ppo.training import Training, in_threads
 from tests.ai.ppo.plain import TASK, TINY, play_plain, same
 
 SIDES = (0, 1, 0, 1)

@@ -3,6 +3,7 @@
 import csv
 import json
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import pytest
 
@@ -84,6 +85,8 @@ def test_copies_meet_on_seeds_that_no_training_plays_from_both_sides(monkeypatch
         one, other = map(sum, zip(*win_rates.points_between(TASKS["pitanks"], net, net, 4, threads), strict=True))
         assert one == other == 2.0
         assert sorted(setup.seed for setup in seen) == [1_000_000, 1_000_000, 1_000_001, 1_000_001]
-        forth = win_rates.points_between(TASKS["pitanks"], net, levels, 2, threads)
-        back = win_rates.points_between(TASKS["pitanks"], levels, net, 2, threads)
+        task = replace(TASKS["pitanks"], minutes=(0.3,))
+        forth = win_rates.points_between(task, net, levels, 4, threads)
+        back = win_rates.points_between(task, levels, net, 4, threads)
     assert forth == [(right, left) for left, right in back]
+    assert sum(left for left, _ in forth) >= 3.0, "the champion beats the network that it continued"
