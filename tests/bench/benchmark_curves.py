@@ -99,22 +99,24 @@ def draw(found: Iterable[CurvePoint]) -> None:
     import matplotlib
 
     matplotlib.use("Agg")
-    matplotlib.rcParams |= {"svg.hashsalt": TASK, "font.size": 12, "svg.fonttype": "path"}
+    matplotlib.rcParams |= {"svg.hashsalt": TASK, "font.size": 12, "savefig.facecolor": "#f7f8f6"}
     from matplotlib import pyplot
 
-    figure, plot = pyplot.subplots(figsize=(9, 5.5), layout="constrained")
-    for number, (method, steps) in enumerate(curves(found).items()):
+    figure, plot = pyplot.subplots(figsize=(11, 5.5), layout="constrained")
+    drawn = curves(found)
+    for number, (method, steps) in enumerate(drawn.items()):
         budgets = [budget * 1.03 ** (number - 2) for budget in steps]  # side by side, so that no interval hides another
         middle, low, high = ([100.0 * row[k] for row in steps.values()] for k in range(3))
         below, above = ([abs(m - end) for m, end in zip(middle, ends, strict=True)] for ends in (low, high))
         marker = "osD^vP*"[number]
         plot.errorbar(budgets, middle, [below, above], marker=marker, capsize=3, label=METHODS[method])
     plot.set_xscale("log")
-    plot.set_xticks(LADDER, ["0.1", "0.25", "0.5", "1", "10"])
+    ticks = sorted({budget for steps in drawn.values() for budget in steps})
+    plot.set_xticks(ticks, [f"{budget / 1e6:g}" for budget in ticks])
     plot.minorticks_off()
     plot.set(xlabel="decisions of the training, millions", ylabel="pitanks-duel: share of wins, %", ylim=(0, 100))
     plot.grid(alpha=0.3)
-    plot.legend(loc="upper left", fontsize=10)
+    figure.legend(loc="outside right upper", fontsize=10)
     figure.savefig(PICTURE, metadata={"Date": None})
     pyplot.close(figure)
 

@@ -132,9 +132,11 @@ def baselines() -> str:
 
 def curves() -> str:
     """The table of learning curves in docs/benchmark.md."""
-    rows = [["score, %, over decisions", *(f"{budget / 1e6:g} million" for budget in benchmark_curves.LADDER)]]
-    for method, steps in benchmark_curves.curves(benchmark_curves.points()).items():
-        cells = [steps.get(budget) for budget in benchmark_curves.LADDER]
+    found = benchmark_curves.curves(benchmark_curves.points())
+    budgets = sorted({budget for steps in found.values() for budget in steps})
+    rows = [["score, %, by millions of decisions", *(f"{budget / 1e6:g}" for budget in budgets)]]
+    for method, steps in found.items():
+        cells = [steps.get(budget) for budget in budgets]
         shares = [f"{100 * one[0]:.0f} ({100 * one[1]:.0f}–{100 * one[2]:.0f})" if one else "" for one in cells]
         rows.append([benchmark_curves.METHODS[method], *shares])
     return as_markdown(rows)
