@@ -136,7 +136,7 @@ def dqn(seed: int, decisions: int) -> tuple[Layers, int]:
     joint = np.stack(np.unravel_index(np.arange(np.prod(HEADS)), HEADS), 1)  # (84, heads)
     parts = np.concatenate([np.eye(count)[joint[:, head]] for head, count in enumerate(HEADS)], 1)  # (84, 14)
 
-    class Joint(VecEnvWrapper):
+    class Joint(VecEnvWrapper):  # type: ignore[misc]
         def reset(self) -> Any:
             return self.venv.reset()
 
@@ -146,7 +146,7 @@ def dqn(seed: int, decisions: int) -> tuple[Layers, int]:
         def step_wait(self) -> Any:
             return self.venv.step_wait()
 
-    class Sum(torch.nn.Module):
+    class Sum(torch.nn.Module):  # type: ignore[misc]
         def forward(self, values: Any) -> Any:
             return values @ torch.from_numpy(parts.T.astype(np.float32))
 
@@ -156,7 +156,7 @@ def dqn(seed: int, decisions: int) -> tuple[Layers, int]:
     wrapped = Joint(envs, action_space=gymnasium.spaces.Discrete(len(joint)))
     shape = {"net_arch": [64, 64], "activation_fn": torch.nn.Tanh}
     model = DQN(
-        "MlpPolicy", wrapped, 5e-4, 300_000, 20_000, 1024, gamma=0.99, train_freq=1, gradient_steps=4,
+        "MlpPolicy", wrapped, 5e-4, 300_000, 20_000, 512, gamma=0.99, train_freq=1, gradient_steps=2,
         target_update_interval=256 * 100, exploration_fraction=0.5, policy_kwargs=shape, seed=seed, device="cpu",
     )  # fmt: skip
     policy = model.policy

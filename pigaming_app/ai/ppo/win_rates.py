@@ -88,10 +88,10 @@ def _leads(task: Task, network: Any, rival: Any, numbers: range) -> list[float]:
         )
         minds = [cast.mind_of(kinds[(k + i) % 2], seed * ROBOTS + k) for k in range(players)]
         for k, mind in enumerate(minds):
-            own = (k + i) % 2 == 0
-            if own or copied:
+            rivals = (k + i) % 2 == 1
+            if copied or not rivals:
                 getattr(mind, f"mind{number}").sharpness = task.sharpness
-            if not own and copied:
+            if copied and rivals:
                 mind.row = len(networks) - 1
         seated.append([*minds, *(nobody(cast) for _ in range(players, ROBOTS))])
     states = new_matches(setups)

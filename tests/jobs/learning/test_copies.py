@@ -12,6 +12,7 @@ from pigaming_app.ai.learning.ratings import Rating
 from pigaming_app.ai.networks.files import BRAINS, brain_of, decode
 from pigaming_app.ai.ppo import win_rates
 from pigaming_app.ai.ppo.registry import TASKS
+from pigaming_app.games.game import Setup
 from pigaming_app.jobs.cli import main
 from pigaming_app.jobs.learning.train import copies, ppo_training
 from pigaming_app.jobs.learning.train.copies import RatedCopy, strongest
@@ -78,8 +79,13 @@ def test_of_equal_copies_the_latest_is_the_strongest():
 def test_copies_meet_on_seeds_that_no_training_plays_from_both_sides(monkeypatch):
     """A network and its copy have as many points; the seeds are those of measurements, two matches each."""
     play_plain(monkeypatch)
-    seen = []
-    monkeypatch.setattr(win_rates, "new_matches", lambda setups: seen.extend(setups) or new_matches(setups))
+    seen: list[Setup] = []
+
+    def noted(setups):
+        seen.extend(setups)
+        return new_matches(setups)
+
+    monkeypatch.setattr(win_rates, "new_matches", noted)
     net, levels = (brain_of(network(BRAINS / f"{name}.npz")).weights(True) for name in ("champion", "pitanks"))
     with ThreadPoolExecutor(1) as threads:
         one, other = map(sum, zip(*win_rates.points_between(TASKS["pitanks"], net, net, 4, threads), strict=True))
