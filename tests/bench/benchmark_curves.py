@@ -1,9 +1,10 @@
 """Learning curves of PiGaming-Bench: scores of `pitanks-duel` over decisions, with intervals over the trainings.
 
 python -m tests.bench.benchmark_curves AGENT.npz …    evaluates agents, and adds them to docs/benchmark/curves.csv
-python -m tests.bench.benchmark_curves                draws docs/images/benchmark.svg from that file
+python -m tests.bench.benchmark_curves                draws docs/images/benchmark.svg from that file and the results
 
-Each agent is a training of its own, to the end of its budget. The table is the block `curves` of docs/benchmark.md.
+Each agent is a training of its own, to the end of its budget; those of the budgets of the benchmark are in the results
+beside the file. The table is the block `curves` of docs/benchmark.md.
 """
 
 import argparse
@@ -16,8 +17,10 @@ from typing import NamedTuple
 from pigaming_app.ai.brain.archive import names, read
 from pigaming_app.ai.networks import files as networks
 from pigaming_app.ai.qlearning import table_files as tables
-from pigaming_app.gym.benchmark.results import measured, student_interval
+from pigaming_app.gym.benchmark.results import BenchmarkResults, measured, student_interval
+from pigaming_app.gym.benchmark.tasks import FORMAT
 from pigaming_app.storage.safe_files import write_atomic
+from pigaming_app.storage.schema import from_json
 
 ROOT = Path(__file__).resolve().parents[2]
 CURVES, PICTURE, TASK = ROOT / "docs/benchmark/curves.csv", ROOT / "docs/images/benchmark.svg", "pitanks-duel"
@@ -34,7 +37,7 @@ METHODS = {
 
 
 class CurvePoint(NamedTuple):
-    """An agent on its curve. `budget`: the lowest of the LADDER that it keeps."""
+    """An agent on its curve. `budget`: of the LADDER."""
 
     method: str
     budget: int
@@ -48,15 +51,24 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("agents", nargs="*", type=Path)
     if agents := parser.parse_args().agents:
-        found = {point[:3]: point for point in (*points(), *evaluated(agents))}
+        found = {point[:3]: point for point in (*filed(), *evaluated(agents))}
         rows = [CurvePoint._fields, *sorted(found.values())]
         write_atomic(CURVES, "".join(",".join(map(str, row)) + "\n" for row in rows).encode())
     else:
-        draw(points())
+        draw([*filed(), *resulted()])
 
 
-def points() -> list[CurvePoint]:
-    """All agents of the file."""
+def resulted() -> Iterable[CurvePoint]:
+    """The agents of the results."""
+    for method in METHODS:
+        path = CURVES.parent / f"{TASK}-{method}.json"
+        for run in results_of(path).runs if path.exists() else ():
+            if run.seed is not None and run.decisions is not None:
+                yield CurvePoint(method, budget_of(run.decisions), run.seed, run.decisions, run.score)
+
+
+def filed() -> list[CurvePoint]:
+    """The agents of the file."""
     if not CURVES.exists():
         return []
     rows = csv.DictReader(CURVES.read_text("utf-8").splitlines())
@@ -72,8 +84,17 @@ def evaluated(agents: Iterable[Path]) -> Iterable[CurvePoint]:
         (run,) = measured(TASK, path.parent, [path.name], "curve", print).runs
         assert run.seed is not None
         assert run.decisions is not None
-        budget = next(step for step in LADDER if run.decisions <= step)
-        yield CurvePoint(method_of(path), budget, run.seed, run.decisions, run.score)
+        yield CurvePoint(method_of(path), budget_of(run.decisions), run.seed, run.decisions, run.score)
+
+
+def results_of(path: Path) -> BenchmarkResults:
+    """The content of a file of results."""
+    return from_json(path.read_text("utf-8"), BenchmarkResults, FORMAT)
+
+
+def budget_of(decisions: int) -> int:
+    """The lowest of the LADDER that a training keeps."""
+    return next(step for step in LADDER if decisions <= step)
 
 
 def method_of(path: Path) -> str:
