@@ -12,6 +12,7 @@ import numpy as np
 
 from pigaming_app.ai.learning.batch import matches as new_matches
 from pigaming_app.ai.learning.cast import Cast, dispatcher, family_of
+from pigaming_app.ai.learning.team_critic import mates_of
 from pigaming_app.ai.networks.encoding import PERIOD, UNIT
 from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain
@@ -19,7 +20,6 @@ from pigaming_app.ai.plugin_faults import bound, late
 from pigaming_app.ai.ppo.forward import make_bend, make_layer, sample
 from pigaming_app.ai.ppo.population import EXPLOITED, Pool
 from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, LEARNERS, OFF, POOL, LineUp, Task
-from pigaming_app.ai.ppo.team_critic import mates_of
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games

@@ -14,6 +14,7 @@ import numpy as np
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain_files import stem_of
+from pigaming_app.ai.learning.team_critic import team_views
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
@@ -21,7 +22,6 @@ from pigaming_app.ai.ppo.learner import Hyper, Learner, LearnerFigures, PolicyNe
 from pigaming_app.ai.ppo.population import SELF_EVERY, Pool, Population, restored
 from pigaming_app.ai.ppo.shard import LEARNING, PLAYED, Experience, Shard, ShardState
 from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
-from pigaming_app.ai.ppo.team_critic import team_views
 from pigaming_app.ai.ppo.win_rates import DuelScore, win_rates
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.setup import ChoiceError

@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pigaming_app.ai.learning.team_critic import team_views
 from pigaming_app.ai.networks.files import decode, encode
 from pigaming_app.ai.ppo import product
 from pigaming_app.ai.ppo.population import Pool
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, OFF, LineUp
 from pigaming_app.ai.ppo.task_file import file_of, parse_task_file, text_of, with_file
-from pigaming_app.ai.ppo.team_critic import team_views
 from pigaming_app.ai.ppo.training import Training, in_threads
 from tests.ai.ppo.plain import TASK, TINY, play_plain, same
 
