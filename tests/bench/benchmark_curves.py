@@ -73,7 +73,7 @@ def filed() -> list[CurvePoint]:
         return []
     rows = csv.DictReader(CURVES.read_text("utf-8").splitlines())
     return [
-        CurvePoint(row["method"], *(int(row[key]) for key in ("budget", "seed", "decisions")), float(row["score"]))
+        CurvePoint(row["method"], int(row["budget"]), int(row["seed"]), int(row["decisions"]), float(row["score"]))
         for row in rows
     ]
 
@@ -104,15 +104,16 @@ def method_of(path: Path) -> str:
 
 
 def curves(found: Iterable[CurvePoint]) -> dict[str, dict[int, tuple[float, float, float, int]]]:
-    """For each method and budget: mean score, interval, and number of trainings; the best method first."""
+    """For each method and budget with three trainings or more: mean, interval and count; the best method first."""
     scores: dict[str, dict[int, list[float]]] = {}
     for point in sorted(found, key=lambda point: point.budget):
         scores.setdefault(point.method, {}).setdefault(point.budget, []).append(point.score)
     order = sorted(scores, key=lambda method: -mean(scores[method].get(1_000_000, [0.0])))
-    return {
-        method: {budget: (*student_interval(row), len(row)) for budget, row in scores[method].items() if len(row) > 1}
+    drawn = {
+        method: {budget: (*student_interval(row), len(row)) for budget, row in scores[method].items() if len(row) > 2}
         for method in order
     }
+    return {method: steps for method, steps in drawn.items() if steps}
 
 
 def draw(found: Iterable[CurvePoint]) -> None:

@@ -187,7 +187,7 @@ class Shard:
         self.streams: Any = np.full((count, ROBOTS), -1)
         self._played = np.zeros(count, np.int64)  # ticks of each match, at least
         for i in range(count):
-            self._begin(i, Pool(self.cast.weights[self._number]))
+            self._begin(i, self._first_pool)
             ticks = int(self.matches["rules"]["ticks"][i])
             self.matches["tick"][i] = self.random.integers(max(1, ticks))  # so that not all end at the same time
         self._count_streams()
@@ -248,7 +248,7 @@ class Shard:
         """Compile the loop, for a fresh shard."""
         sizes = self.task.sizes
         policies = [np.zeros((len(self.task.learners), inputs + 1, units), np.float32) for inputs, units in sizes]
-        self.collect(policies, Pool(self.cast.weights[self._number]), 0)
+        self.collect(policies, self._first_pool, 0)
 
     @property
     def width(self) -> int:
@@ -317,6 +317,11 @@ class Shard:
             for mind in minds:
                 mind.family = LEARNING - LEARNERS.index(name)
         return packed(minds)
+
+    @property
+    def _first_pool(self) -> Pool:
+        """For matches that begin before there is a pool: of one row, since every pool has that place."""
+        return Pool(self.cast.weights[self._number][:1])
 
     @property
     def _nobody(self) -> Any:
