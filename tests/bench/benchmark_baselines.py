@@ -4,6 +4,7 @@ python -m tests.bench.benchmark_baselines search --seed 1 --out search-1.npz    
 python -m tests.bench.benchmark_baselines clone --seed 1 --out clone-1.npz       needs PyTorch
 python -m tests.bench.benchmark_baselines cleanrl --seed 1 --out cleanrl-1.npz   needs PyTorch
 python -m tests.bench.benchmark_baselines sb3 --seed 1 --out sb3-1.npz           needs Stable-Baselines3
+python -m tests.bench.benchmark_baselines dqn --seed 1 --out dqn-1.npz           needs Stable-Baselines3
 """
 
 import argparse
@@ -120,13 +121,62 @@ def sb3(seed: int, decisions: int) -> tuple[Layers, int]:
     return layers_of([*policy.mlp_extractor.policy_net, policy.action_net]), model.num_timesteps
 
 
+def dqn(seed: int, decisions: int) -> tuple[Layers, int]:
+    """DQN of Stable-Baselines3, which knows one discrete action only: all 84 joint choices.
+
+    The value of a joint choice is the sum of a value for each head, as in branching Q-learning (Tavakoli, Pardo and
+    Kormushev, AAAI 2018), so the best one is the best of each head. The agent draws by exp(50 value).
+    """
+    import torch
+    from stable_baselines3 import DQN
+    from stable_baselines3.common.vec_env import VecEnvWrapper
+
+    from pigaming_app.gym.sb3 import SeatVecEnv
+
+    joint = np.stack(np.unravel_index(np.arange(np.prod(HEADS)), HEADS), 1)  # (84, heads)
+    parts = np.concatenate([np.eye(count)[joint[:, head]] for head, count in enumerate(HEADS)], 1)  # (84, 14)
+
+    class Joint(VecEnvWrapper):  # type: ignore[misc]
+        def reset(self) -> Any:
+            return self.venv.reset()
+
+        def step_async(self, actions: Any) -> None:
+            self.venv.step_async(joint[actions])
+
+        def step_wait(self) -> Any:
+            return self.venv.step_wait()
+
+    class Sum(torch.nn.Module):  # type: ignore[misc]
+        def forward(self, values: Any) -> Any:
+            return values @ torch.from_numpy(parts.T.astype(np.float32))
+
+    torch.set_num_threads(1)
+    torch.manual_seed(seed)
+    envs = SeatVecEnv(NAME, 256, opponents=("level3",), arena=ARENAS, stagger=True)
+    wrapped = Joint(envs, action_space=gymnasium.spaces.Discrete(len(joint)))
+    shape = {"net_arch": [64, 64], "activation_fn": torch.nn.Tanh}
+    model = DQN(
+        "MlpPolicy", wrapped, 5e-4, 300_000, 20_000, 512, gamma=0.99, train_freq=1, gradient_steps=2,
+        target_update_interval=256 * 100, exploration_fraction=0.5, policy_kwargs=shape, seed=seed, device="cpu",
+    )  # fmt: skip
+    policy = model.policy
+    for network in (policy.q_net.q_net, policy.q_net_target.q_net):
+        network[-1] = torch.nn.Sequential(torch.nn.Linear(64, sum(HEADS)), Sum())
+    policy.q_net_target.load_state_dict(policy.q_net.state_dict())
+    policy.optimizer = torch.optim.Adam(policy.q_net.parameters(), 5e-4)
+    model.learn(decisions // 256 * 256)
+    *hidden, (last, _) = [layer for layer in policy.q_net.q_net if not isinstance(layer, torch.nn.Tanh)]
+    *layers, (matrix, bias) = layers_of([*hidden, last])
+    return [*layers, (50.0 * matrix, 50.0 * bias)], model.num_timesteps
+
+
 def layers_of(modules: Any) -> Layers:
     """Matrices and biases of PyTorch's linear layers."""
     return [(one.weight.detach().numpy().T, one.bias.detach().numpy()) for one in modules if hasattr(one, "weight")]
 
 
 if __name__ == "__main__":
-    methods = {method.__name__: method for method in (search, clone, cleanrl, sb3)}
+    methods = {method.__name__: method for method in (search, clone, cleanrl, sb3, dqn)}
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("method", choices=methods)
     parser.add_argument("--seed", type=int, default=1)

@@ -143,6 +143,11 @@ ELSEWHERE = (
         "tests/gym/benchmark/test_baselines.py",
     ),
     Elsewhere(r".*tests\.bench\.benchmark_baselines.*", "most need PyTorch", "tests/gym/benchmark/test_baselines.py"),
+    Elsewhere(
+        r".*tests\.bench\.benchmark_curves.*", "it writes into the project", "tests/gym/benchmark/test_baselines.py"
+    ),
+    Elsewhere(r".* --copies .*", "a training to compile", "tests/jobs/learning/test_copies.py"),
+    Elsewhere(r".* --task team\.task\.toml .*", "a training to compile", "tests/ai/ppo/test_team_critic.py"),
     Elsewhere(r"python3 examples/ppo_torch\.py .*", "it needs PyTorch", "examples/ppo_torch.py"),
     Elsewhere(r"(pip|pipx|uvx|uv|.*-m pip) .*", "packages are fetched", "tests/test_package.py"),
     Elsewhere(r".*-m venv .*|.*jupyter .*", "Jupyter is fetched, and opens a browser", "tests/pages/test_lessons.py"),

@@ -246,19 +246,28 @@ class Learner:
     """Policy and value function, and their updates."""
 
     def __init__(
-        self, inputs: int, counts: Sequence[int], hyper: Hyper, random: np.random.Generator, units: int = HIDDEN
+        self,
+        inputs: int,
+        counts: Sequence[int],
+        hyper: Hyper,
+        random: np.random.Generator,
+        units: int = HIDDEN,
+        views: int | None = None,
     ) -> None:
+        """`views`: inputs of the value function, if it has others than the policy."""
         self.counts, self.hyper, self.random = tuple(counts), hyper, random
         self.policy = PolicyNetwork(inputs, sum(counts), 0.01, random, units)
-        self.value = PolicyNetwork(inputs, 1, 1.0, random, units)
+        self.value = PolicyNetwork(views or inputs, 1, 1.0, random, units)
 
     def update(self, data: Sequence[Any], share: float, threads: Executor, held: bool = False) -> LearnerFigures:
         """Improve both networks on a set of decisions, or the value function alone, while the policy is `held`.
 
-        `data`: inputs (n, inputs + 1), choices (n, heads), log odds (n,), advantages (n,), returns (n,).
+        `data`: inputs (n, inputs + 1), choices (n, heads), log odds (n,), advantages (n,), returns (n,); then, if the
+        value function has its own, its inputs (n, views + 1).
         """
         orders = [self.random.permutation(len(data[0])) for _ in range(self.hyper.epochs)]
-        estimating = threads.submit(self._estimate, data[0], data[4], orders, share)
+        data, views = data[:5], data[-1] if len(data) > 5 else data[0]
+        estimating = threads.submit(self._estimate, views, data[4], orders, share)
         figures = self._improve(data, orders, share, held)
         _, _, _, gains, returns = data
         spread = float(returns.var(dtype=float))

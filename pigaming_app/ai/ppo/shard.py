@@ -12,6 +12,7 @@ import numpy as np
 
 from pigaming_app.ai.learning.batch import matches as new_matches
 from pigaming_app.ai.learning.cast import Cast, dispatcher, family_of
+from pigaming_app.ai.learning.team_critic import mates_of
 from pigaming_app.ai.networks.encoding import PERIOD, UNIT
 from pigaming_app.ai.networks.layers import Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain
@@ -47,7 +48,11 @@ class Experience(NamedTuple):
     over: np.ndarray  # (S,) bool; the match has ended
     results: np.ndarray  # (S,) float32, reward of its end
     players: np.ndarray  # (S,) int64, the learner: its place in `Task.learners`
+    mates: np.ndarray  # (S, 3) int64, streams of the same learner in the same team; -1 for those that there are not
     outcomes: np.ndarray  # (n, 2), ends of matches against a member of the population: its place, the learner's score
+
+
+PLAYED = Experience._fields.index("mates")  # fields that the loop fills
 
 
 class ShardState(NamedTuple):
@@ -159,6 +164,7 @@ def empty_experience(task: Task, streams: int, decisions: int) -> Experience:
         np.zeros(streams, np.bool_),
         np.zeros(streams, np.float32),
         np.zeros(streams, np.int64),
+        np.full((streams, ROBOTS - 1), -1),
         np.zeros((0, 2)),
     )
 
@@ -181,7 +187,7 @@ class Shard:
         self.streams: Any = np.full((count, ROBOTS), -1)
         self._played = np.zeros(count, np.int64)  # ticks of each match, at least
         for i in range(count):
-            self._begin(i, Pool(self.cast.weights[self._number]))
+            self._begin(i, self._first_pool)
             ticks = int(self.matches["rules"]["ticks"][i])
             self.matches["tick"][i] = self.random.integers(max(1, ticks))  # so that not all end at the same time
         self._count_streams()
@@ -194,12 +200,14 @@ class Shard:
         experience = self._experience
         if experience is None or len(experience.choices) != decisions:
             experience = self._experience = empty_experience(self.task, self.width, decisions)
-        for array in experience[2:]:
+        for array in experience[2:PLAYED]:
             array.fill(0)
         experience.players[:] = LEARNING - self.minds["family"][self.streams >= 0]
+        teams = self.matches["robots"]["team"]
+        mates = mates_of(self.minds["family"], teams, self.streams) if self.task.team_critic else experience.mates
         networks = np.concatenate([self.cast.weights[self._number], pool.rows])
         weights = tuple(networks if k == self._number else row for k, row in enumerate(self.cast.weights))
-        arguments = self.matches, self.minds, weights, self.streams, *policies, *experience[:-1]
+        arguments = self.matches, self.minds, weights, self.streams, *policies, *experience[:PLAYED]
         overseer.run(self.task.game, self.matches["tick"].sum, loop_of(self.task), *arguments)
         ended = self.matches["over"] > 0
         self._check_length(ended, decisions * PERIOD)
@@ -209,7 +217,7 @@ class Shard:
         for i in np.flatnonzero(ended):
             self._begin(int(i), pool)
         self._count_streams()
-        return experience._replace(outcomes=outcomes)
+        return experience._replace(mates=mates, outcomes=outcomes)
 
     def _outcomes(self) -> Any:
         """The ends of matches against the exploiter or one member of the pool."""
@@ -240,7 +248,7 @@ class Shard:
         """Compile the loop, for a fresh shard."""
         sizes = self.task.sizes
         policies = [np.zeros((len(self.task.learners), inputs + 1, units), np.float32) for inputs, units in sizes]
-        self.collect(policies, Pool(self.cast.weights[self._number]), 0)
+        self.collect(policies, self._first_pool, 0)
 
     @property
     def width(self) -> int:
@@ -309,6 +317,11 @@ class Shard:
             for mind in minds:
                 mind.family = LEARNING - LEARNERS.index(name)
         return packed(minds)
+
+    @property
+    def _first_pool(self) -> Pool:
+        """For matches that begin before there is a pool: of one row, since every pool has that place."""
+        return Pool(self.cast.weights[self._number][:1])
 
     @property
     def _nobody(self) -> Any:

@@ -80,6 +80,7 @@ class Task:
     hyper: Hyper = STANDARD
     sharpness: float = 1.0  # of the trained network as a brain; see Handicap
     pairs: bool = False  # rivals are measured two against two
+    team_critic: bool = False  # the value function also sees what the mates see; see `team_critic`
     population: bool = False  # exploiters start from the network in training, and the pool is met by chances
     length: Length = NO_LENGTH  # of a training, unless the command names another
 

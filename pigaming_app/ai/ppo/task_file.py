@@ -34,6 +34,7 @@ from pigaming_app.storage.parsing import ParseError, describe_error, parse_toml,
 from pigaming_app.storage.schema import Line, Share, between, one_of, typed
 
 SUFFIX = ".task.toml"
+TEAM = "team"  # critic
 UNIFORM, PRIORITISED = "uniform", "pfsp"  # how members of the pool are drawn
 MOST_SURPRISES, MOST_RIVALS = 1_000, 5  # each rival has columns in the curve of a network's file
 HELD_BACK = 900_000_000  # arenas from this seed on are for measurements only
@@ -79,6 +80,7 @@ class TaskFile:
     rivals: Annotated[tuple[Line, ...], Meta(min_length=1, max_length=MOST_RIVALS)]
     pairs: bool = False
     pool: Annotated[str, one_of(UNIFORM, PRIORITISED)] = UNIFORM
+    critic: Annotated[str, one_of(TEAM)] | None = None  # None: the value function sees what the policy sees
     cut: Share = 0.0
     sharpness: Annotated[float, between(0.0, 10.0)] = 1.0
     line_ups: Annotated[tuple[FiledLineUp, ...], Meta(min_length=1, max_length=200)]
@@ -158,6 +160,7 @@ def with_file(code: Task, file: TaskFile) -> Task:
         rivals=file.rivals,
         pairs=file.pairs,
         population=file.pool == PRIORITISED,
+        team_critic=file.critic == TEAM,
         units=file.units,
         cut=file.cut,
         sharpness=file.sharpness,
@@ -183,6 +186,7 @@ def file_of(task: Task) -> TaskFile:
         rivals=task.rivals,
         pairs=task.pairs,
         pool=PRIORITISED if task.population else UNIFORM,
+        critic=TEAM if task.team_critic else None,
         units=task.units,
         cut=task.cut,
         sharpness=task.sharpness,

@@ -14,12 +14,13 @@ import numpy as np
 
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain_files import stem_of
+from pigaming_app.ai.learning.team_critic import team_views
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
 from pigaming_app.ai.ppo.learner import Hyper, Learner, LearnerFigures, PolicyNetwork, advantages
 from pigaming_app.ai.ppo.population import SELF_EVERY, Pool, Population, restored
-from pigaming_app.ai.ppo.shard import LEARNING, Experience, Shard, ShardState
+from pigaming_app.ai.ppo.shard import LEARNING, PLAYED, Experience, Shard, ShardState
 from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
 from pigaming_app.ai.ppo.win_rates import DuelScore, win_rates
 from pigaming_app.ai.registry import find_brain
@@ -78,7 +79,9 @@ class Training:
         self.shards = [Shard(task, line_ups, seeds[k]) for k, line_ups in enumerate(dealt(task, hyper.matches))]
         counts = [choices for _, choices in task.encoding.heads]
         random = np.random.default_rng(seeds[-1])
-        self.learners = [Learner(task.encoding.size, counts, hyper, random, task.units) for _ in task.learners]
+        size = task.encoding.size
+        views = 2 * size + 1 if task.team_critic else size
+        self.learners = [Learner(size, counts, hyper, random, task.units, views) for _ in task.learners]
         self.start = start
         if start:
             self.learner.policy.take_over(start.layers)
@@ -178,22 +181,24 @@ class Training:
         return scores
 
     def _digested(self, player: int, experience: Experience, share: float) -> tuple[Any, ...]:
-        """Inputs, choices, log odds, advantages and returns of a learner's valid decisions."""
-        learner = self.learners[player]
+        """What a learner's valid decisions are to `Learner.update`."""
+        learner, own = self.learners[player], experience.players == player
+        views = team_views(experience.inputs, experience.mates)[:, own] if self.task.team_critic else None
         if len(self.learners) > 1:
-            own = experience.players == player
-            parts = (part[own] if part.ndim == 1 else part[:, own] for part in experience[:-1])
-            experience = Experience._make([*parts, experience.outcomes])
+            parts = (part[own] if part.ndim == 1 else part[:, own] for part in experience[:PLAYED])
+            experience = Experience._make([*parts, *experience[PLAYED:]])
         inputs, choices, log_odds, gauges, valid, over, results, *_ = experience
+        seen = inputs if views is None else views
         gains = np.diff(gauges, axis=0)
         rewards = self.task.reward(gains, inputs[:-1], choices, share if self.start is None else 1.0)
         rewards = np.where(valid, rewards, np.float32(0))
         last = np.maximum(valid.sum(0) - 1, 0)
         rewards[last, np.arange(len(last))] += np.where(over, results, np.float32(0))
-        values = learner.value.forward(inputs.reshape(-1, inputs.shape[-1]))[0].reshape(inputs.shape[:2])
+        values = learner.value.forward(seen.reshape(-1, seen.shape[-1]))[0].reshape(seen.shape[:2])
         gained = advantages(rewards, values, valid, over, self.hyper.discount, self.hyper.trace)
         returns = gained + values[:-1]
-        return inputs[:-1][valid], choices[valid], log_odds[valid], gained[valid], returns[valid]
+        digested = inputs[:-1][valid], choices[valid], log_odds[valid], gained[valid], returns[valid]
+        return digested if views is None else (*digested, views[:-1][valid])
 
     def layers(self) -> Layers:
         """The policy in whole numbers."""

@@ -197,6 +197,11 @@ def _interval(task: str, runs: Sequence[BenchmarkRun]) -> tuple[float, float, fl
     scores = [run.score for run in runs]
     if len(runs) == 1:
         return scores[0], *wilson(*score_of(TASKS[task], runs[0].conditions))
-    middle, freedom = mean(scores), len(runs) - 1
-    width = STUDENT[min(freedom, len(STUDENT)) - 1] * stdev(scores) / len(runs) ** 0.5
+    return student_interval(scores)
+
+
+def student_interval(shares: Sequence[float]) -> tuple[float, float, float]:
+    """Mean of two shares or more, and its 95 % interval by Student's t, cut to 0 and 1."""
+    middle, freedom = mean(shares), len(shares) - 1
+    width = STUDENT[min(freedom, len(STUDENT)) - 1] * stdev(shares) / len(shares) ** 0.5
     return middle, max(0.0, middle - width), min(1.0, middle + width)

@@ -15,6 +15,7 @@ from pigaming_app.ai.ppo import product
 from pigaming_app.ai.ppo import training as training_module
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.registry import TASKS
+from pigaming_app.ai.ppo.task import LEARNER, OFF, POOL, LineUp
 from pigaming_app.ai.ppo.task_file import parse_task_file
 from pigaming_app.ai.ppo.training import Training, in_threads, start_of, whole_layers
 from pigaming_app.ai.ppo.win_rates import DuelScore, win_rates
@@ -207,6 +208,18 @@ def test_no_match_of_a_training_has_the_seed_of_a_measurement(monkeypatch):
     seen = begun(monkeypatch, "shard")
     Training(TASK, 5, 4, TINY)
     assert max(setup.seed for setup in seen) < 0
+
+
+def test_the_first_matches_meet_members_that_the_pool_has():
+    """Also where more networks sit on seats than the pool begins with; an index beyond it reads foreign memory."""
+    seats = [(LEARNER, name, OFF, OFF) for name in ("level1", "level3", "level5", "net", POOL)]
+    task = replace(TASK, line_ups=tuple(LineUp(1, names) for names in seats))
+    training = Training(task, 5, 4, replace(TINY, matches=40))
+    for shard in training.shards:
+        own = shard.minds["family"] == shard._number
+        networks = len(shard.cast.weights[shard._number])
+        assert networks > 1
+        assert shard.minds["row"][own].max() < networks + sum(map(len, training.pools))
 
 
 @pytest.mark.parametrize("score", [DuelScore(7, 0, 3), DuelScore(120, 31, 49), DuelScore(0, 0, 5)])

@@ -1,7 +1,6 @@
 """Blocks that follow from the code."""
 
 from math import ceil
-from pathlib import Path
 from statistics import mean
 
 from pigaming_app import links
@@ -12,13 +11,14 @@ from pigaming_app.games.arenas import arenas, load, shipped_arenas, widest
 from pigaming_app.games.match import Match
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import make_setup
-from pigaming_app.gym.benchmark.results import BenchmarkResults, by_budget
-from pigaming_app.gym.benchmark.tasks import FORMAT, TASKS
+from pigaming_app.gym.benchmark.results import by_budget
+from pigaming_app.gym.benchmark.tasks import TASKS
 from pigaming_app.hardware.control.virtual_walls import SPARE
 from pigaming_app.sim.drivetrain import MM
 from pigaming_app.sim.world import HZ, WIDTH
-from pigaming_app.storage.schema import from_json
 from pigaming_app.ui.i18n import Words
+from tests.bench import benchmark_curves
+from tests.bench.benchmark_curves import results_of
 from tests.bench.figures import ROOT, as_markdown
 from tests.bench.makespan_bound import bound
 
@@ -108,11 +108,6 @@ def listed(names: object) -> str:
     return ", ".join(f"`{name}`" for name in names) or "–"  # type: ignore[attr-defined]
 
 
-def results_of(path: Path) -> BenchmarkResults:
-    """The results in a file of PiGaming-Bench."""
-    return from_json(path.read_text("utf-8"), BenchmarkResults, FORMAT)
-
-
 def baselines() -> str:
     """The table of docs/benchmark.md, of the results beside it."""
     order = [*TASKS]
@@ -126,4 +121,16 @@ def baselines() -> str:
             each = ", ".join(f"{name} {mean(row):.0f}" for name, row in points.items())  # of 100 matches
             share = f"{100 * score:.1f} ({100 * low:.0f}–{100 * high:.0f})"
             rows.append([f"`{found.task}`", found.method, str(count), share, each])
+    return as_markdown(rows)
+
+
+def curves() -> str:
+    """The table of learning curves in docs/benchmark.md."""
+    found = benchmark_curves.curves([*benchmark_curves.filed(), *benchmark_curves.resulted()])
+    budgets = sorted({budget for steps in found.values() for budget in steps})
+    rows = [["score, %, by millions of decisions", *(f"{budget / 1e6:g}" for budget in budgets)]]
+    for method, steps in found.items():
+        cells = [steps.get(budget) for budget in budgets]
+        shares = [f"{100 * one[0]:.0f} ({100 * one[1]:.0f}–{100 * one[2]:.0f})" if one else "" for one in cells]
+        rows.append([benchmark_curves.METHODS[method], *shares])
     return as_markdown(rows)

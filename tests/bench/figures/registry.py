@@ -29,6 +29,7 @@ DERIVED = {
     "traits": Derived(PEOPLE, people.traits),
     "tricks": Derived(OPPONENTS, exploits.tricks),
     "baselines": Derived("docs/benchmark.md", derived.baselines),
+    "curves": Derived("docs/benchmark.md", derived.curves),
 }
 MEASURED = {
     "speed": Measured("README.md", f"{MAIN} bench pitanks", speed.table, 3),

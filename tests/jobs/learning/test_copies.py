@@ -1,54 +1,98 @@
-"""Frozen copies of a training, and their league."""
+"""Frozen copies of a training, their ratings, and the one that becomes the result."""
 
+import csv
 import json
-from functools import partial
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import pytest
 
-from pigaming_app.ai.learning import league as leagues
-from pigaming_app.ai.networks.files import decode
+from pigaming_app.ai.learning.batch import matches as new_matches
+from pigaming_app.ai.learning.ratings import Rating
+from pigaming_app.ai.networks.files import BRAINS, brain_of, decode
+from pigaming_app.ai.ppo import win_rates
+from pigaming_app.ai.ppo.registry import TASKS
+from pigaming_app.games.game import Setup
 from pigaming_app.jobs.cli import main
 from pigaming_app.jobs.learning.train import copies, ppo_training
+from pigaming_app.jobs.learning.train.copies import RatedCopy, strongest
 from tests.ai.ppo.plain import SET, play_plain
 
 
 @pytest.fixture
-def played(monkeypatch):
-    """The setups of the league's matches; plain and short ones."""
+def met(monkeypatch):
+    """Pairs that meet, by their weights: of three copies the second wins most. Matches are plain and short."""
     play_plain(monkeypatch)
     for measured in ("MEASURED", "MEASURED_AT_END"):
         monkeypatch.setattr(ppo_training, measured, 1)
-    setups, play = [], leagues.play_duel
+    found = []
 
-    def noted(some, left, right, fast):
-        setups.extend(some)
-        return play(some, left, right, fast)
+    def points(task, one, other, matches, threads):
+        assert (task.game, matches) == ("pitanks", copies.MATCHES)
+        found.append((one.tobytes(), other.tobytes()))
+        return [(0.0, 2.0) if len(found) % 3 == 1 else (1.5, 0.5)] * (matches // 2)
 
-    monkeypatch.setattr(copies, "MATCHES", 2)
-    monkeypatch.setattr(leagues, "play_duel", noted)
-    monkeypatch.setattr(leagues, "league", partial(leagues.league, fast=False))
-    return setups
+    monkeypatch.setattr(copies, "points_between", points)
+    return found
+
+
+def network(path):
+    return decode(path.read_bytes(), path.name)
 
 
 def weights(path):
-    return [matrix.tobytes() for matrix in decode(path.read_bytes(), path.name).matrices]
+    return [matrix.tobytes() for matrix in network(path).matrices]
 
 
-def test_a_league_rates_the_copies_by_matches_that_no_training_plays(tmp_path, played, capsys):
-    folder = tmp_path / "copies"
-    job = ["train", "ppo", "pitanks", *SET, "--out", str(tmp_path / "a.npz"), "--copies", str(folder), "--json"]
+def test_each_pair_of_copies_meets_once_and_the_strongest_is_the_result(tmp_path, met, capsys):
+    """0 loses to 1, and beats 2; 1 beats 2: so 1 is the strongest."""
+    folder, out, table = tmp_path / "copies", tmp_path / "a.npz", tmp_path / "a.csv"
+    job = ["train", "ppo", "pitanks", *SET, "--out", str(out), "--copies", str(folder), "--csv", str(table), "--json"]
     assert main([*job, "--updates", "2"]) == 0
-    names = [f"a_000000{k}" for k in range(3)]
     files = sorted(folder.iterdir())
-    assert [file.stem for file in files] == names
+    assert [file.stem for file in files] == [f"a_000000{k}" for k in range(3)]
     assert len({tuple(weights(file)) for file in files}) == 3
-    assert weights(files[-1]) == weights(tmp_path / "a.npz")
-    league = json.loads(capsys.readouterr().out)["copies"]
-    assert sorted(row["brain"] for row in league["standings"]) == names
-    assert len(league["duels"]) == 3
-    assert {(setup.seed, setup.arena) for setup in played} == {(1_000_000, "classic")}
+    packed = [brain_of(network(file)).weights(True).tobytes() for file in files]
+    assert met == [(packed[0], packed[1]), (packed[0], packed[2]), (packed[1], packed[2])]
+    result = json.loads(capsys.readouterr().out)
+    assert [row["updates"] for row in result["copies"]] == [0, 1, 2]
+    ratings = [row["rating"] for row in result["copies"]]
+    assert ratings[1] > ratings[0] > ratings[2]
+    assert sum(ratings) == pytest.approx(0.0, abs=1e-3)
+    assert result["chosen"] == 1
+    assert weights(out) == weights(files[1])
+    assert network(out).name == "a"
+    rows = list(csv.DictReader(table.read_text().splitlines()))
+    assert [float(row["rating"]) for row in rows] == pytest.approx(ratings, abs=0.06)
     files[1].unlink()
     (folder / "a_0000099.npz").write_text("of a longer training")
     assert main([*job, "--updates", "2", "--resume"]) == 0
-    league = json.loads(capsys.readouterr().out)["copies"]
-    assert sorted(row["brain"] for row in league["standings"]) == [names[0], *names[2:]]
+    result = json.loads(capsys.readouterr().out)
+    assert [row["updates"] for row in result["copies"]] == [0, 2]
+
+
+def test_of_equal_copies_the_latest_is_the_strongest():
+    same = Rating(10.0, 0.0, 20.0)
+    assert strongest([RatedCopy(2, 20, same), RatedCopy(9, 90, same), RatedCopy(5, 50, same)]).updates == 9
+
+
+def test_copies_meet_on_seeds_that_no_training_plays_from_both_sides(monkeypatch):
+    """A network and its copy have as many points; the seeds are those of measurements, two matches each."""
+    play_plain(monkeypatch)
+    seen: list[Setup] = []
+
+    def noted(setups):
+        seen.extend(setups)
+        return new_matches(setups)
+
+    monkeypatch.setattr(win_rates, "new_matches", noted)
+    net, levels = (brain_of(network(BRAINS / f"{name}.npz")).weights(True) for name in ("champion", "pitanks"))
+    with ThreadPoolExecutor(1) as threads:
+        one, other = map(sum, zip(*win_rates.points_between(TASKS["pitanks"], net, net, 4, threads), strict=True))
+        assert one == other == 2.0
+        assert sorted(setup.seed for setup in seen) == [1_000_000, 1_000_000, 1_000_001, 1_000_001]
+        task = replace(TASKS["pitanks"], minutes=(0.3,))
+        forth = win_rates.points_between(task, net, levels, 4, threads)
+        back = win_rates.points_between(task, levels, net, 4, threads)
+    assert forth == [(right, left) for left, right in back]
+    assert sum(left for left, _ in forth) >= 3.0, "the champion beats the network that it continued"

@@ -1,21 +1,34 @@
-"""Frozen copies of a network in training, one for each tenth of it, and a league among them.
+"""Frozen copies of a network in training, one for each tenth of it, rated by matches against each other.
 
-A win rate against a fixed rival soon stays at 100 %; what a network wins against its former selves goes on. The matches
-of the league have seeds that no training plays.
+A win rate against a fixed rival soon stays at 100 %; what a network wins against its former selves goes on. Matches are
+those of the task, on its arenas and by its rules, but with seeds that no training plays.
 """
 
+from collections.abc import Iterable
+from concurrent.futures import Executor
+from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
+from typing import NamedTuple
 
-from pigaming_app.ai.learning import league as leagues
-from pigaming_app.ai.learning.league import League
-from pigaming_app.ai.networks.files import encode
+from pigaming_app.ai.brain.archive import read
+from pigaming_app.ai.learning.ratings import Rating, ratings
+from pigaming_app.ai.networks.files import MAX_BYTES, brain_of, decode, encode
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.training import Training
+from pigaming_app.ai.ppo.win_rates import SEED, points_between
 from pigaming_app.storage.parsing import describe_error
 from pigaming_app.storage.safe_files import NotSaved, write_atomic
 
-COPIES, MATCHES = 10, 10  # after the first one; matches of each pair
-SEED = 1_000_000  # of the first match
+COPIES, MATCHES = 10, 20  # after the first one; matches of each pair
+
+
+class RatedCopy(NamedTuple):
+    """A copy and its strength in points, as chess counts them; the mean of all copies is 0."""
+
+    updates: int
+    decisions: int
+    rating: Rating
 
 
 class FrozenCopies:
@@ -31,23 +44,43 @@ class FrozenCopies:
             raise NotSaved(f"{folder} was not made: {describe_error(error)}.") from None
         self._files = [file for file in there if int(file.stem[-7:]) <= training.updates]
         self._done = self._tenths() if self._files else -1
+        self._points: dict[tuple[int, int], list[tuple[float, float]]] = {}
 
-    def add(self) -> None:
-        """Write a copy if one is due. Raises NotSaved."""
-        if self._tenths() > self._done:
-            self._done = self._tenths()
-            name = f"{self._name}_{self._training.updates:07}"
-            file = self._folder / f"{name}.npz"
-            write_atomic(file, encode(trained_network(self._training, name)))
-            self._files = [*(other for other in self._files if other != file), file]
+    def add(self) -> bool:
+        """Write a copy if one is due; returns whether it was. Raises NotSaved."""
+        if self._tenths() <= self._done:
+            return False
+        self._done = self._tenths()
+        name = f"{self._name}_{self._training.updates:07}"
+        file = self._folder / f"{name}.npz"
+        write_atomic(file, encode(trained_network(self._training, name)))
+        self._files = [*(other for other in self._files if other != file), file]
+        return True
 
-    def league(self) -> League | None:
-        """The ratings of all copies; None for fewer than two."""
+    def rated(self, threads: Executor) -> list[RatedCopy]:
+        """All copies with their ratings, the oldest first. Plays the pairs that have not met. Raises BrainFileError."""
         if len(self._files) < 2:
-            return None
-        game = self._training.task.game
-        minutes = self._training.task.minutes[0]
-        return leagues.league(game, [str(file) for file in self._files], MATCHES, SEED, minutes)
+            return []
+        networks = [decode(read(file, MAX_BYTES), file.name) for file in self._files]
+        rows, shares = [brain_of(network).weights(True) for network in networks], {}
+        for one, other in combinations(range(len(rows)), 2):
+            pair = networks[one].updates, networks[other].updates
+            if pair not in self._points:
+                task = self._training.task
+                self._points[pair] = points_between(task, rows[one], rows[other], MATCHES, threads)
+            shares[one, other] = self._points[pair]
+        rated = zip(networks, ratings(len(rows), shares, SEED), strict=True)
+        return [RatedCopy(network.updates, network.decisions, rating) for network, rating in rated]
+
+    def copied(self, chosen: RatedCopy, out: Path) -> None:
+        """Write a copy as the result of the training. Raises BrainFileError, NotSaved."""
+        file = self._folder / f"{self._name}_{chosen.updates:07}.npz"
+        write_atomic(out, encode(replace(decode(read(file, MAX_BYTES), file.name), name=out.stem)))
 
     def _tenths(self) -> int:
         return int(COPIES * min(1.0, self._training.share) + 1e-9)
+
+
+def strongest(copies: Iterable[RatedCopy]) -> RatedCopy:
+    """The one of the highest rating; of equals the latest."""
+    return max(copies, key=lambda copy: (copy.rating.rating, copy.updates))

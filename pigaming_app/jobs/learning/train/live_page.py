@@ -1,12 +1,13 @@
 """The course of a training as a picture, which is renewed while it runs: wins, and what each update did."""
 
+from dataclasses import astuple
 from typing import Any
 
 from pigaming_app.ai.ppo.training import scores_at
 from pigaming_app.jobs.learning.train.outputs import png_of, with_plots
 from pigaming_app.jobs.learning.train.telemetry import TrainingTable
 
-WINS = "share of wins"
+WINS, RATING = "share of wins", "rating of copies"
 PLOTS = {  # a column of the table, by the title of its plot
     "return of the decisions": "mean_return",
     "entropy of the policy, nats": "entropy",
@@ -16,7 +17,12 @@ PLOTS = {  # a column of the table, by the title of its plot
     "loss of the value function": "value_loss",
     "explained variance": "explained",
 }
-PLACES = ((WINS, WINS, *list(PLOTS)[:1]), (WINS, WINS, *list(PLOTS)[1:2]), tuple(PLOTS)[2:5], (*tuple(PLOTS)[5:], "."))
+PLACES = (
+    (WINS, WINS, *list(PLOTS)[:1]),
+    (WINS, WINS, *list(PLOTS)[1:2]),
+    tuple(PLOTS)[2:5],
+    (*tuple(PLOTS)[5:], RATING),
+)
 
 
 def page_of(table: TrainingTable) -> bytes:
@@ -32,9 +38,18 @@ def page_of(table: TrainingTable) -> bytes:
         plots[title].set_title(title, fontsize="medium")
     if len(table.prefixes) > 1:
         plots["entropy of the policy, nats"].legend(fontsize="small")
+    _draw_ratings(plots[RATING], table)
     figure.suptitle(f"{training.task.game}, seed {training.seed}, {training.updates} updates")
     figure.supxlabel("decisions, millions", fontsize="medium")
     return png_of(figure)
+
+
+def _draw_ratings(plot: Any, table: TrainingTable) -> None:
+    """Ratings of the frozen copies with their intervals; nothing without any."""
+    plot.set_visible(bool(table.copies))
+    for _, decisions, (rating, low, high) in ((*copy[:2], astuple(copy.rating)) for copy in table.copies):
+        plot.errorbar(decisions / 1e6, rating, [[rating - low], [high - rating]], color="C0", marker=".")
+    plot.set_title(RATING, fontsize="medium")
 
 
 def _draw_wins(plot: Any, table: TrainingTable) -> None:

@@ -94,7 +94,7 @@ class PpoOptions(OutputOptions, JsonOption, GameOption):
     base: str | None = option("network to continue, a name or a file", name=("--from",), metavar="AI")
     population: bool = flag("against exploiters that start from its present weights, and members of a pool that win")
     tensorboard: Path | None = option("folder for TensorBoard, a row each update", path, metavar="FOLDER")
-    copies: Path | None = option("folder for a copy each tenth, which a league rates", path, metavar="FOLDER")
+    copies: Path | None = option("folder for a copy each tenth; the strongest is the result", path, metavar="FOLDER")
     ray: str | None = option("Ray cluster, auto, or local (extra `ray`)", word, metavar="ADDRESS")
     workers: int | None = option(f"processes that play; default {DEFAULT_WORKERS}", integer(), metavar="NUMBER")
     against: str | None = None  # to beat this one alone, by this set of rules; see the job `exploit`

@@ -5,14 +5,13 @@ import os
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
-from dataclasses import replace
+from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 from time import monotonic
 from typing import Any, NamedTuple
 
 from pigaming_app.ai.brain.archive import BrainFileError
-from pigaming_app.ai.learning.league import League
 from pigaming_app.ai.learning.rollout import rehearse
 from pigaming_app.ai.networks.files import encode as encode_network
 from pigaming_app.ai.ppo.product import encode, restore, trained_network
@@ -27,9 +26,7 @@ from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.game import Seat, Setup
 from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_game, require_one_of
-from pigaming_app.jobs.learning.league import plain
-from pigaming_app.jobs.learning.league import table as league_table
-from pigaming_app.jobs.learning.train.copies import FrozenCopies
+from pigaming_app.jobs.learning.train.copies import FrozenCopies, RatedCopy, strongest
 from pigaming_app.jobs.learning.train.live_page import page_of
 from pigaming_app.jobs.learning.train.options import DEFAULT_MINUTES, DEFAULT_WORKERS, PpoOptions, changed
 from pigaming_app.jobs.learning.train.progress import bar, end_line, end_of, interrupts, note, show
@@ -64,7 +61,7 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
     if not is_compiled(training.task):
         note("compiling the training, once; it takes a minute")
     with (
-        refused(Diverged, NoCluster),
+        refused(Diverged, NoCluster, BrainFileError),
         ThreadPoolExecutor(min(SHARDS, os.cpu_count() or 1)) as threads,
         _players(training, threads, options) as (gather, sync),
     ):
@@ -74,15 +71,16 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
             note("Ctrl-C ends the training after the current update and saves the result")
             table = TrainingTable(training, options.csv if options.resume else None)
             save = partial(_save, table, sync, options, beside)
-            follow = partial(_follow, table, events, copies)
+            follow = partial(_follow, table, events, copies, threads)
             _train(table, measures, scores, gather, threads, save, follow, stopped)
             scores = training.measure(measures.at_end, threads)
+            if copies:
+                table.copies = copies.rated(threads)
             save()
-    standings = None
-    if copies and not stopped:
-        note("playing a league of the copies")
-        standings = copies.league()
-    _print(training, scores, options, bool(stopped), standings)
+        chosen = strongest(table.copies) if table.copies and not stopped else None
+        if copies and chosen:
+            copies.copied(chosen, options.out)
+    _print(table, scores, options, bool(stopped), chosen)
     return end_of(stopped)
 
 
@@ -196,12 +194,14 @@ def _train(
     end_line()
 
 
-def _follow(table: TrainingTable, events: TensorboardFile | None, copies: FrozenCopies | None) -> None:
-    """Tell of an update, and freeze a copy. Raises NotSaved."""
+def _follow(
+    table: TrainingTable, events: TensorboardFile | None, copies: FrozenCopies | None, threads: Executor
+) -> None:
+    """Tell of an update, freeze a copy and rate it. Raises NotSaved."""
     if events:
         events.add(table.training.updates, table.numbers())
-    if copies:
-        copies.add()
+    if copies and copies.add():
+        table.copies = copies.rated(threads)
 
 
 def _save(table: TrainingTable, sync: Callable[[], None], options: PpoOptions, beside: Path) -> None:
@@ -226,9 +226,14 @@ def _line(training: Training, scores: Mapping[str, DuelScore]) -> str:
 
 
 def _print(
-    training: Training, scores: Mapping[str, DuelScore], options: PpoOptions, stopped: bool, standings: League | None
+    table: TrainingTable,
+    scores: Mapping[str, DuelScore],
+    options: PpoOptions,
+    stopped: bool,
+    chosen: RatedCopy | None,
 ) -> None:
-    """Print the result. `standings`: of its frozen copies."""
+    """Print the result. `chosen`: the copy that is the result."""
+    training = table.training
     speed = training.decisions / training.seconds if training.seconds else 0.0
     if options.json:
         result = {
@@ -245,7 +250,8 @@ def _print(
                 for point in training.points
                 for found in [scores_at(training.task, point)]
             ],
-            "copies": standings and plain(standings),
+            "copies": [{"updates": copy.updates, **asdict(copy.rating)} for copy in table.copies],
+            "chosen": chosen and chosen.updates,
             "finished": not stopped,
             "out": str(options.out),
         }
@@ -258,8 +264,11 @@ def _print(
             print(f"{point[1] / 1e6:6.2f} million  {_sentence(scores_at(training.task, point)[options.against])}")
     for rival, score in scores.items():
         print(f"against {rival}: {_sentence(score)}")
-    if standings:
-        print("", *(line.rstrip() for line in league_table(standings)), sep="\n")
+    for updates, _, rating in table.copies:
+        mark = "  the result" if chosen and chosen.updates == updates else ""
+        print(
+            f"copy after {updates:>7,} updates  {rating.rating:+5.0f} ({rating.low:+.0f} to {rating.high:+.0f}){mark}"
+        )
 
 
 def _described(score: DuelScore) -> dict[str, Any]:

@@ -2,14 +2,17 @@
 
 import csv
 from collections.abc import Iterator, Mapping
+from dataclasses import astuple
 from pathlib import Path
 from typing import Any
 
 from pigaming_app.ai.ppo.learner import LearnerFigures
 from pigaming_app.ai.ppo.training import Training, scores_at
 from pigaming_app.ai.ppo.win_rates import DuelScore
+from pigaming_app.jobs.learning.train.copies import RatedCopy
 from pigaming_app.jobs.learning.train.outputs import csv_of
 
+RATED = ("rating", "rating_low", "rating_high")
 MEASURED = (*DuelScore._fields, "share", "low", "high")  # of each rival
 
 
@@ -19,6 +22,7 @@ class TrainingTable:
     def __init__(self, training: Training, before: Path | None) -> None:
         """`before`: the table of the training that is resumed; one that cannot be read counts for nothing."""
         self.training = training
+        self.copies: list[RatedCopy] = []  # of this training, rated
         self._rows: dict[int, Mapping[str, Any]] = dict(_read(before, training.updates)) if before else {}
         self._last = training.decisions, training.seconds
 
@@ -28,7 +32,8 @@ class TrainingTable:
         task = self.training.task
         figures = [f"{prefix}{name}" for prefix in self.prefixes for name in LearnerFigures._fields]
         measured = [f"{rival}_{name}" for rival in task.rivals for name in MEASURED]
-        return ["updates", "decisions", "seconds", "decisions_per_second", *figures, "pool", *measured]
+        columns = ["updates", "decisions", "seconds", "decisions_per_second", *figures, "pool", *measured]
+        return [*columns, *RATED] if self.copies else columns
 
     @property
     def prefixes(self) -> list[str]:
@@ -71,6 +76,10 @@ class TrainingTable:
             updates, decisions, seconds = int(point[0]), point[1], point[2]
             begun = {"updates": updates, "decisions": decisions, "seconds": seconds}
             rows[updates] = {**begun, **rows.get(updates, {}), **self._measured(point)}
+        for copy in self.copies:
+            points = dict(zip(RATED, (f"{x:.1f}" for x in astuple(copy.rating)), strict=True))
+            begun = {"updates": copy.updates, "decisions": copy.decisions}
+            rows[copy.updates] = {**begun, **rows.get(copy.updates, {}), **points}
         columns = self.columns
         return csv_of(columns, ([rows[k].get(name, "") for name in columns] for k in sorted(rows)))
 
