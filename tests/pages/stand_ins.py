@@ -138,7 +138,7 @@ ELSEWHERE = (
     Elsewhere(r".*tests\.constraints", "it needs uv, and writes into the project", "tests/boot/test_main.py"),
     Elsewhere(r"python3 examples/torchrl_ppo\.py .*", "it needs TorchRL", "tests/gym/test_torchrl.py"),
     Elsewhere(
-        r".*(exploit ppo-1|docs/benchmark/ppo\.task).*",
+        r".*(exploit ppo-1|race-1|docs/benchmark/ppo\.task).*",
         "a training to compile",
         "tests/gym/benchmark/test_baselines.py",
     ),

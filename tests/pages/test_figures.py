@@ -25,7 +25,7 @@ from tests.pages.commands import PAGES, ROOT
 
 SMALL = 0.01  # share of the work
 TRAINING = ("seeds", "verdict")  # their rows are those of robots that train for seconds
-COMPILED = ("people", "auto", "seats", *(name for name in MEASURED if name.endswith("sensitivity")))  # take minutes
+COMPILED = ("people", "auto", "seats", "exploits", *(name for name in MEASURED if name.endswith("sensitivity")))  # take minutes
 
 
 @pytest.fixture
