@@ -25,8 +25,7 @@ def mates_of(families: np.ndarray, teams: np.ndarray, streams: np.ndarray) -> An
 def team_views(inputs: np.ndarray, mates: np.ndarray) -> Any:
     """Inputs of a team's critic (T, S, 2 n + 2): the own n, the mean of the mates' n and 1, or zeros without mates; 1.
 
-    A central value function for policies that see their own inputs alone (C. Yu et al., "The surprising effectiveness
-    of PPO in cooperative multi-agent games", arXiv:2103.01955). `inputs`: (T, S, n + 1); `mates`: see Experience.
+    `inputs`: (T, S, n + 1); `mates`: see Experience.
     """
     total = np.zeros_like(inputs)
     for others in mates.T:

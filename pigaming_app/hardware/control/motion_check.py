@@ -28,11 +28,8 @@ SLACK, SHARE = 4.0, 0.2  # px, and share of the faster wheel's travel: errors of
 UNEVEN = 0.15  # tolerated difference of the wheels, as a share of their travel, with gains estimated by the tracker
 EVEN, KNOWN = 0.05, 2.0  # average difference of even wheels, at most, and s of driving until it is known
 AVERAGED = 3.0  # s over which it is averaged
-OPPOSED, APART, STEADILY = (
-    1.6,
-    4.0,
-    0.02,
-)  # px of a turn and of its command, and between them, plus a share of the travel
+OPPOSED, APART = 1.6, 4.0  # px of a turn and of its command against each other, and between them, at least
+STEADILY = 0.02  # share of the travel that comes to APART
 SIDEWAYS = 7.0  # px in SHORT, beyond any motion by wheels
 WEAK = 40.0  # px/s, tolerated loss to friction on top of the deadband
 AGAINST = 8.0  # weight of a turn against the command, beyond what uneven wheels explain

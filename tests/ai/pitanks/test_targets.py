@@ -1,6 +1,7 @@
 """PiTanks: the levels turn to everybody, one after the other, and hunt nobody."""
 
 from collections import Counter
+from functools import cache
 from itertools import pairwise
 from math import comb
 
@@ -15,6 +16,7 @@ UNLIKELY = 0.001  # chance of one accusation by mistake in all sequences of a ca
 Hits = dict[int, list[int]]  # by the seat that hits: the seats it hits, in order
 
 
+@cache
 def victims(first: str, level: str, variant: str, seed: int, minutes: float = 1.0) -> Hits:
     """Whom each of four AIs hits, `first` on seat 0 and `level` on the others.
 
@@ -73,3 +75,16 @@ def test_none_of_them_hunts_an_easy_prey(level, variant):
     for hit in found:
         for seat, n in Counter(hit).items():
             assert chance(n, len(hit), shares[seat]) > UNLIKELY / len(found), f"{n} of {len(hit)} on seat {seat}"
+
+
+@pytest.mark.again
+@pytest.mark.long
+@pytest.mark.parametrize(("level", "variant"), CASES)
+def test_their_hits_are_spread_evenly(request, level, variant):
+    """About a third of all hits for each of the others, a random driver too."""
+    if (level, variant) == ("level3", "pickups"):
+        reason = "42.4 % on the random driver of 904 hits by 72 seeds; level 3 shoots little, and he is easy to hit"
+        request.applymarker(pytest.mark.xfail(strict=True, reason=reason))
+    found = [victims("random", level, variant, seed) for seed in range(MATCHES)]
+    hits = [seat for one in found for hitter in (1, 2, 3) for seat in one[hitter]]
+    assert 0.25 <= hits.count(0) / len(hits) <= 0.42
