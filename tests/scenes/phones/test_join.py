@@ -363,5 +363,5 @@ def test_the_large_code_in_the_picture_can_be_read(open_to_phones: Arcade) -> No
     page = JoinByPhone(open_to_phones.context, lambda: [None] * 4)
     page.draw(open_to_phones.screen)
     seen = pygame.transform.smoothscale(open_to_phones.screen, (960, 540))
-    text, _, _ = cv2.QRCodeDetector().detectAndDecode(pixels_of(seen))
+    text, _, _ = cv2.QRCodeDetectorAruco().detectAndDecode(pixels_of(seen))
     assert text == url.upper()

@@ -18,7 +18,7 @@ def test_it_is_read_back(size: int) -> None:
     assert size - 33 < code.get_width() <= size
     far = pygame.transform.smoothscale(code, (132, 132))  # four px a module
     for picture in (code, far):
-        text, _, _ = cv2.QRCodeDetector().detectAndDecode(pixels_of(picture))
+        text, _, _ = cv2.QRCodeDetectorAruco().detectAndDecode(pixels_of(picture))
         assert text == URL
 
 
