@@ -24,7 +24,7 @@ from pigaming_app.storage.schema import from_json
 
 ROOT = Path(__file__).resolve().parents[2]
 CURVES, PICTURE, TASK = ROOT / "docs/benchmark/curves.csv", ROOT / "docs/images/benchmark.svg", "pitanks-duel"
-LADDER = (100_000, 250_000, 500_000, 1_000_000, 10_000_000)  # decisions of a training, at most
+LADDER = (100_000, 250_000, 500_000, 1_000_000, 10_000_000, 100_000_000)  # decisions of a training, at most
 METHODS = {
     "ppo": "PPO (train ppo)",
     "sb3": "PPO (Stable-Baselines3)",

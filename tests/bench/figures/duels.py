@@ -69,9 +69,8 @@ def steps(share: float) -> list[list[str]]:
         rating = {row.brain: row.rating.rating for row in found.standings}
         climb = [f"{rating[up] - rating[low]:.0f}" for low, up in pairwise(LEVELS)]
         level = [d.ties / d.matches for d in found.duels if int(d.right[-1]) - int(d.left[-1]) == 1]
-        rows.append(
-            [f"{title}, `{rules}`", f"{matches:,}", *climb, ", ".join(f"{100 * one:.0f}" for one in level) + " %"]
-        )
+        ties = ", ".join(f"{100 * one:.0f}" for one in level) + " %" if any(level) else "none"
+        rows.append([f"{title}, `{rules}`", f"{matches:,}", *climb, ties])
     return rows
 
 
