@@ -9,7 +9,7 @@ from pigaming_app.ui.input.events import Device
 
 
 class PlayTestWatch(Service):
-    """Follows the match above a page of consent. `spoiled`: somebody has driven who has not agreed, or an AI has."""
+    """Follows the one match that a consent is for. `spoiled`: somebody has driven who has not agreed, or an AI has."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -28,6 +28,7 @@ class PlayTestWatch(Service):
         if scene.match.over and not self.done:
             self.done = True
             self._keep(scene, agreed)
+            agreed.clear()
 
     def _keep(self, scene: Any, agreed: Mapping[Device, str]) -> None:
         from pigaming_app.scenes.features.replays import replay_of
@@ -48,7 +49,7 @@ class PlayTestWatch(Service):
             notices.add(words(str(error)))
 
 
-def agreed_of(scenes: Sequence[Scene]) -> Mapping[Device, str]:
+def agreed_of(scenes: Sequence[Scene]) -> dict[Device, str]:
     """The age bands of those who have agreed, by device; nobody without a page of consent among the scenes."""
     found = (getattr(scene, "agreed", None) for scene in scenes)
     return next((agreed for agreed in found if agreed), {})

@@ -95,6 +95,16 @@ def test_a_match_is_not_kept_unless_all_who_drove_have_agreed(arcade: Arcade, du
     assert arcade.context.notices.waiting[0] == arcade.context.words("playtest.not_kept")
 
 
+def test_consent_is_for_one_match(arcade: Arcade) -> None:
+    """In a rematch another person may hold the device."""
+    consent(arcade)
+    played(arcade)
+    first = kept.paths()
+    played(arcade)
+    assert kept.paths() == first
+    assert len(first) == 1
+
+
 def test_consent_ends_with_the_page(arcade: Arcade) -> None:
     page = consent(arcade)
     arcade.stack.scenes.remove(page)
