@@ -22,6 +22,12 @@ from pigaming_app.sim.world import HZ
 from tests.matches import match_of
 
 EVERYBODY = ("masher", *PEOPLE)
+BANDS = {  # wins in % against level 1, 2, ...: of four, or of two teams
+    "masher": [(10, 30), (5, 100)],
+    "beginner": [(40, 60), (25, 40), (10, 25)],
+    "player": [(70, 100), (50, 70), (35, 55), (20, 35), (5, 20)],
+    "expert": [(0, 100), (80, 100), (60, 100), (40, 60), (20, 40)],
+}
 
 
 def actions(game, name, seconds=20.0, seed=3):
@@ -134,16 +140,17 @@ def test_a_scale_that_makes_no_sense_is_refused(scale):
 @pytest.mark.again
 @pytest.mark.long
 @pytest.mark.skipif(not can_compile(), reason="needs the extra train")
-def test_levels_suit_people():
-    """A short form of the table in docs/people.md: 100 matches a cell, hence wider bounds than those of the tuning."""
-    bounds = {
-        ("masher", "level1"): (0.05, 0.35), ("beginner", "level1"): (0.35, 0.65), ("beginner", "level2"): (0.15, 0.5),
-        ("player", "level1"): (0.6, 1.0), ("player", "level3"): (0.25, 0.65), ("player", "level5"): (0.0, 0.3),
-        ("expert", "level3"): (0.5, 1.0), ("expert", "level5"): (0.1, 0.5),
-    }  # fmt: skip
-    people, levels = EVERYBODY, [LEVELS[0], LEVELS[1], LEVELS[2], LEVELS[4]]
-    found = {(one.person, one.level): one.share for one in places(Trial("pitanks", 100), people, levels)}
-    assert {pair: found[pair] for pair, (low, high) in bounds.items() if not low <= found[pair] <= high} == {}
+@pytest.mark.parametrize("game", games())
+def test_levels_suit_people(game):
+    """A short form of the table in docs/people.md: 100 matches a cell, so 13 points beside the bands of the tuning, 2.6
+    standard errors.
+    """
+    found = places(Trial(game, 100), EVERYBODY if game in ("pitanks", "football") else EVERYBODY[1:], LEVELS)
+    shares = {(one.person, one.level): 100.0 * one.share for one in found}
+    for person, bands in BANDS.items():
+        for level, (low, high) in zip(LEVELS, bands, strict=False):
+            share = shares.get((person, level), low)
+            assert low - 13.0 <= share <= high + 13.0, (person, level, share)
 
 
 def test_every_trait_can_be_scaled():
