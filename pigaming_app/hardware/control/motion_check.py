@@ -12,7 +12,8 @@ mismatch:
 
 from bisect import bisect_right
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from itertools import chain, repeat
 from math import cos, exp, inf, pi, sin, tau
 from typing import NamedTuple
 
@@ -26,13 +27,11 @@ LATENESS = (-0.03, 0.0, 0.03, 0.07)  # s, tolerated delays on top of the drivetr
 STRONGEST = 1.5  # tolerated gain of a wheel
 SLACK, SHARE = 4.0, 0.2  # px, and share of the faster wheel's travel: errors of poses and wheel base, and slip
 UNEVEN = 0.15  # tolerated difference of the wheels, as a share of their travel, with gains estimated by the tracker
-EVEN, KNOWN = 0.05, 2.0  # average difference of even wheels, at most, and s of driving until it is known
-AVERAGED = 3.0  # s over which it is averaged
-OPPOSED, APART = 1.6, 4.0  # px of a turn and of its command against each other, and between them, at least
-STEADILY = 0.02  # share of the travel that comes to APART
+KNOWN, AVERAGED = 2.0, 5.0  # s of driving until the difference is known, and over which it is averaged
+FAST = 160.0  # px/s of both wheels together, from which it is averaged
+AGAINST, SURELY = 4.0, 8.0  # px of a turn against the command, beyond uneven wheels, and its weight
 SIDEWAYS = 7.0  # px in SHORT, beyond any motion by wheels
 WEAK = 40.0  # px/s, tolerated loss to friction on top of the deadband
-AGAINST = 8.0  # weight of a turn against the command, beyond what uneven wheels explain
 CLEAR, STANDS = 8.0, 0.2  # px, least expected travel in LONG, and the share of it below which a wheel is stuck
 SOON = 0.08  # s, window of comparison for a robot that leaves the arena
 STRONG, NUDGE = 1.3, 3.0  # factor of the commanded outward travel, and px, beyond which a robot leaves by itself
@@ -43,6 +42,7 @@ SETTLES = 0.3  # s after the first command, before which earlier motion may pers
 GAP = 0.2  # s without a pose, after which the history is reset
 MEMORY = 1.5  # s of commands
 OBEYED = 0.2  # s of clear motion as commanded, after which a robot counts as wired correctly
+ALIKE = 100.0  # px/s, difference of wheels up to which the motion of one robot may be that of another: SLACK in SHORT
 EASE = 0.5  # s of time astray forgiven per second without a verdict
 
 
@@ -88,11 +88,13 @@ class RobotMotionCheck:
         self._delays = self._tolerated(0.0)  # s
         self._ends: list[tuple[float, ...]] = []  # travel at the newest pose, px, for each delay
         self._obeyed = 0.0  # s of clear motion as commanded
+        self._alike = -inf  # s, when another robot that had not yet obeyed was last commanded alike
         self._uneven = self._known = 0.0  # mean turn beyond the commanded one, as a share of the travel; s of it
+        self._against: list[float] = []  # px turned against the command, for each delay
 
     @property
     def obeys(self) -> bool:
-        """True if it has moved as commanded since it was last out of sight, or its history was reset."""
+        """True if it has moved as it alone was commanded since it was last out of sight, or its history was reset."""
         return self._obeyed > OBEYED
 
     def expect_lateness(self, late: float) -> None:
@@ -111,6 +113,12 @@ class RobotMotionCheck:
         half = 0.5 * self.drivetrain.base * twist[1]
         self._command = twist[0] + half, twist[0] - half
 
+    def compare_commands(self, others: Iterable["RobotMotionCheck"]) -> None:
+        """Note whether another robot, whose lid this one may wear, is commanded alike."""
+        unproven = [other._command for other in others if other is not self and not other.obeys]
+        if any(max(abs(a - b) for a, b in zip(self._command, command, strict=True)) < ALIKE for command in unproven):
+            self._alike = self._sent[-1].time
+
     def record_fix(self, fix: Fix) -> None:
         """Note an observed pose and judge by it."""
         poses = self._poses
@@ -118,7 +126,7 @@ class RobotMotionCheck:
             return
         if poses and not 0.0 < fix.captured - poses[-1].time < GAP:
             poses.clear()
-            self.contradiction, self._obeyed = MotionMismatch(), 0.0
+            self.contradiction, self._obeyed, self._against = MotionMismatch(), 0.0, []
         heading = fix.heading
         if poses:
             heading = poses[-1].heading + (heading - poses[-1].heading + pi) % tau - pi
@@ -131,6 +139,7 @@ class RobotMotionCheck:
     def forget(self) -> None:
         """Reset the history: the next commands come from elsewhere, or concern other robots."""
         self.contradiction, self._command, self._obeyed = MotionMismatch(), (0.0, 0.0), 0.0
+        self._against, self._known = [], 0.0
         self._poses.clear()
         self._sent.clear()
 
@@ -159,12 +168,13 @@ class RobotMotionCheck:
         newest, before = self._poses[-1], self._poses[-2]
         dt, old = newest.time - before.time, self.contradiction
         self._ends = [self._at(newest.time - delay) for delay in self._delays]
-        astray = self._astray(self._since(SHORT), newest)
+        astray = SURELY if self._turns_against(before, newest) else self._astray(self._since(SHORT), newest)
         leaving = self._leaves(self._since(SOON), newest)
         held = self._since(LONG)
         stuck = newest.time - held.time if self._stuck(held, newest) else 0.0
         if astray is not None:
-            self._obeyed = 0.0 if astray else self._obeyed + dt
+            alone = newest.time - SHORT - self._delays[-1] > self._alike
+            self._obeyed = 0.0 if astray else self._obeyed + dt * alone
         seconds = max(0.0, old.astray - EASE * dt) if astray is None else astray and old.astray + astray * dt
         self.contradiction = MotionMismatch(seconds, stuck, leaving)
 
@@ -174,9 +184,7 @@ class RobotMotionCheck:
         return next((pose for pose in reversed(self._poses) if pose.time <= until), self._poses[0])
 
     def _astray(self, since: PoseSample, now: PoseSample) -> float | None:
-        """How fast evidence grows that no tolerated wheel moves like this: 0 if one does, 1, or AGAINST; None if hardly
-        any motion was expected or observed.
-        """
+        """1 if no tolerated wheel moves like this, else 0; None if hardly any motion was expected or observed."""
         left, right, side = self._travelled(since, now)
         options = self._expected(since)
         longest = max(abs(travel) for option in options for travel in option[:2])
@@ -187,20 +195,34 @@ class RobotMotionCheck:
             expected = [option[wheel] for option in options]
             if not STRONGEST * min(0.0, *expected) - slack <= travel <= STRONGEST * max(0.0, *expected) + slack:
                 return 1.0
-        if _turned_against(left, right, options, self._learn_uneven(left - right, options[1], now)):
-            return AGAINST
         return float(abs(side) > SIDEWAYS + SHARE * longest)
 
-    def _learn_uneven(self, turn: float, expected: Sequence[float], now: PoseSample) -> float | None:
-        """Note how a robot turns beyond what is expected, px; the average as a share of the travel, of even wheels that
-        are known, else None.
+    def _turns_against(self, before: PoseSample, now: PoseSample) -> bool:
+        """True if it has turned against its command by more than uneven wheels explain, whatever its delay.
+
+        A cumulative sum for each delay: every picture adds the turn against the command, at most as much as was
+        commanded, and subtracts a turn as commanded.
         """
-        even = self._uneven if self._known > KNOWN and abs(self._uneven) < EVEN else None
-        travel, dt = expected[0] + expected[1], now.time - self._poses[-2].time
-        if abs(travel) > 6.0 * SLACK:
-            self._uneven += ((turn - expected[0] + expected[1]) / travel - self._uneven) * min(1.0, dt / AVERAGED)
+        left, right, _ = self._travelled(before, now)
+        options = self._expected(before)
+        known = self._known > KNOWN and abs(self._uneven) < UNEVEN
+        turn = left - right - known * self._uneven * (left + right)
+        sums = []
+        for so_far, (one, other, *_) in zip(chain(self._against, repeat(0.0)), options, strict=False):
+            against = min(-turn if one > other else turn, abs(one - other))
+            explained = 0.0 if known else UNEVEN * (abs(one) + abs(other))
+            sums.append(max(0.0, so_far + against - explained))
+        self._against = sums
+        self._learn_uneven(left - right, options[1], now.time - before.time)
+        return min(sums) > AGAINST
+
+    def _learn_uneven(self, turn: float, expected: Sequence[float], dt: float) -> None:
+        """Average how much a robot turns beyond what is expected, as a share of the travel. Turns in px."""
+        travel = expected[0] + expected[1]
+        if abs(travel) > FAST * dt:
             self._known += dt
-        return even
+            beyond = (turn - expected[0] + expected[1]) / travel
+            self._uneven += (beyond - self._uneven) * dt / min(self._known, AVERAGED)
 
     def _stuck(self, since: PoseSample, now: PoseSample) -> bool:
         """True if a wheel stands although even the weakest tolerated one would have turned."""
@@ -267,22 +289,3 @@ class RobotMotionCheck:
             before.weak_left + share * (after.weak_left - before.weak_left),
             before.weak_right + share * (after.weak_right - before.weak_right),
         )
-
-
-def _turned_against(left: float, right: float, options: Sequence[tuple[float, ...]], uneven: float | None) -> bool:
-    """True if the robot turned against its command by more than uneven wheels explain. Travel in px.
-
-    `uneven`: the known difference of even wheels, as a share of their travel.
-    """
-    if uneven is not None and len(options) == len(LATENESS):
-        options = options[:-1]  # one that is known is not so late
-    turns = [option[0] - option[1] for option in options]
-    low, high = min(turns), max(turns)
-    if low * high <= 0.0:
-        return False
-    sign, clear = (1.0, low) if low > 0.0 else (-1.0, -high)
-    travel = max(abs(option[0]) + abs(option[1]) for option in options)
-    if uneven is None:
-        return clear > 2.0 * SLACK and sign * (left - right) < -SLACK - UNEVEN * travel
-    against = -sign * (left - right - uneven * (left + right))
-    return min(clear, against) > OPPOSED and clear + against > APART + STEADILY * travel

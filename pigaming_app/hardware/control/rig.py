@@ -146,6 +146,8 @@ class Rig:
             self.tracker.record_commands(now, twists)
             for check, twist in zip(self.motion_checks, twists, strict=True):
                 check.record_command(now, twist)
+            for check in self.motion_checks:
+                check.compare_commands(self.motion_checks)
             if self.recorder:
                 self.recorder.record_commands(now, wheels)
                 self.recorder.record_estimates(now, self.tracker.sense(now))

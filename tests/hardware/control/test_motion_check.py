@@ -1,7 +1,7 @@
 """The motion check detects robots that contradict their commands, and tolerates weak, uneven or late ones."""
 
 from dataclasses import replace
-from math import pi
+from math import hypot, pi
 from random import Random
 
 import pytest
@@ -96,6 +96,55 @@ def test_no_robot_gets_far_out_of_the_arena(fault, speed, heading):
     for gap in (0.0, 60.0, 240.0):
         poses = [(BESIDE + gap, 450.0, heading), (900.0, 450.0, 0.4), *ASIDE]
         assert Wired(poses, fault).drive(ahead(speed), 2.0).out < 60.0
+
+
+@pytest.mark.parametrize(("turn", "seconds"), [(0.1, 1.0), (0.2, 0.5)])
+def test_motors_exchanged_on_a_nearly_straight_way_are_noticed_soon(turn, seconds):
+    """A twin that gets the same commands shows the way: 600 ms from 10 mm off it, less 30 for the radio; 120 mm."""
+    run, off = Wired([(200.0, 300.0, 0.0), (200.0, 600.0, 0.0), *ASIDE], None), []
+    robot, twin = run.mat.robots[:2]
+
+    def ask(time):
+        off.append(MM * hypot(robot.x - twin.x, robot.y - twin.y + 300.0))
+        return [(200.0, turn if time % (2.0 * seconds) < seconds else -turn)] * 2 + [(0.0, 0.0)] * 2
+
+    assert run.drive(ask, 3.0).named is None
+    assert max(off) < 1.0
+    run._rewire(robot, WIRED["swapped"])
+    off.clear()
+    named = run.drive(ask, 2.0).named
+    assert named is not None
+    assert named - 0.02 * sum(mm <= 10.0 for mm in off) < 0.57
+    assert max(off) < 120.0
+
+
+def test_uneven_wheels_that_turn_a_robot_against_its_command_are_no_false_alarm():
+    """By 7 % of 400 px/s over a base of 62 px, 0.45 rad/s; the command is 0.3 the other way."""
+    run = Wired([(150.0, 300.0, 0.0), (150.0, 600.0, 0.0), *ASIDE], None)
+    for robot in run.mat.robots:
+        robot.train = replace(TRUE, left=Wheel(757.0 * 1.07, 0.03), right=Wheel(757.0 * 0.93, 0.03))
+    way = [(200.0, -0.3)] * 2 + [(0.0, 0.0)] * 2
+    assert run.drive(lambda time: way if time % 2.0 < 1.6 else [(200.0, 0.3)] * 4, 5.0).named is None
+
+
+def test_robots_with_swapped_lids_have_proven_nothing_while_they_are_commanded_alike():
+    """Each moves as the other is commanded, until one of them is at the edge: 340 mm/s, and 5 % of a strong wheel."""
+    fastest = 0.0
+
+    def ask(time):
+        nonlocal fastest
+        fastest = max(fastest, *(MM * robot.linear for robot in run.mat.robots))
+        return [(422.5, 0.0)] * 4
+
+    run = Wired([(300.0, 600.0, 0.0), (900.0, 300.0, 0.0), *ASIDE], "lids")
+    assert run.drive(ask, 2.5).out < 60.0
+    assert 300.0 < fastest < 357.0
+
+
+def test_a_robot_that_is_commanded_otherwise_than_the_others_is_proven():
+    run = Wired([(300.0, 600.0, 0.0), (500.0, 300.0, 0.0), *ASIDE], None)
+    run.drive(lambda time: [(300.0, 0.0), (100.0, 0.0), (300.0, 0.0), (0.0, 0.0)], 1.0)
+    assert [check.obeys for check in run.mat.rig.motion_checks] == [False, True, False, False]
 
 
 @pytest.mark.parametrize("fault", ["lids", "reversed", "swapped", "one reversed", "held"])
