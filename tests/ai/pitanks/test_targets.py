@@ -45,7 +45,7 @@ def chance(least: int, n: int, share: float) -> float:
 @pytest.mark.long
 @pytest.mark.parametrize(("level", "variant"), CASES)
 def test_they_hit_equal_opponents_alike(level, variant):
-    """In all arenas each seat takes a quarter of the hits of all four, each neighbour to the left a third: within 25 %."""
+    """In all arenas each seat takes a quarter of all hits, each neighbour to the left of who hits a third: within 25 %."""
     seats, places = Counter[int](), Counter[int]()
     for seed, arena in zip(range(MATCHES), cycle(shipped_arenas("pitanks"))):
         for hitter, hit in victims(level, level, variant, seed, arena).items():
