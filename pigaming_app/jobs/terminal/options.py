@@ -7,7 +7,7 @@ sensible value and refuses the others in one line (argparse.ArgumentTypeError).
 
 import argparse
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from math import isfinite
 from pathlib import Path
@@ -140,6 +140,13 @@ def options_of(kind: type[T], found: Namespace) -> T:
     """The options as they were given; lists become tuples."""
     values = {one.name: getattr(found, one.name) for one in fields(kind)}  # type: ignore[arg-type]
     return kind(**{name: tuple(v) if isinstance(v, list) else v for name, v in values.items() if v is not None})
+
+
+def require_unused(options: Any, names: Collection[str], owner: str) -> None:
+    """Raises Refusal if one of these options was given; without their `owner` they would do nothing."""
+    for one in fields(options):
+        if one.name in names and getattr(options, one.name) != one.default:
+            raise Refusal(f"--{one.name.replace('_', '-')} goes with {owner}")
 
 
 def declare_job(parser: ArgumentParser, job: ModuleType | Callable[[Any], int]) -> None:

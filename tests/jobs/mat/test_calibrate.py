@@ -93,6 +93,11 @@ def test_the_sheet_is_written_where_it_was_asked_for(tmp_path):
         (("--sheet", "x.png"), ".pdf"),
         (("--emulate", "much"), "much"),
         (("--camera", "first"), "first"),
+        (("--size", "1x1"), "--size goes with --print"),
+        (("--arena", "classic"), "--arena goes with --print"),
+        (("--sheet", "x.pdf", "--paper", "mat"), "--paper goes with --print"),
+        (("--print", "x.pdf", "--edge", "50"), "--edge goes with --sheet"),
+        (("--print", "x.pdf", "--sheet", "y.pdf"), "not allowed with"),
     ],
 )
 def test_what_cannot_be_done_is_one_line(refused, arguments, part):

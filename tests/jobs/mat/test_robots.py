@@ -81,6 +81,18 @@ def test_a_radio_is_written_and_refusals_are_one_line(capsys, monkeypatch, refus
     assert "refuses CH 1A" in refused("robots", "--radio-setup", "0", "--channel", "1A")
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        *(["--robot", "2"], ["--robot", "1"], ["--on-blocks"], ["--network", "X"], ["--password"]),
+        *(["--board", "relay"], ["--no-wait"], ["update", "--robot", "2"], ["check", "api2", "--board", "esp32"]),
+    ],
+)
+def test_what_belongs_to_setup_is_refused_without_it(refused, words):
+    option = next(word for word in words if word.startswith("--"))
+    assert f"{option} goes with setup" in refused("robots", *words)
+
+
 @pytest.mark.parametrize("wish", ["--pair", "--latency", "--drive"])
 def test_robots_that_nobody_sees_are_not_moved(refused, wish):
     line = refused("robots", wish)
