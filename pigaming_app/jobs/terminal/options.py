@@ -275,7 +275,7 @@ class RigOptions(EmulateOption):
 
     def mat_settings(self) -> dict[str, Any]:
         """The requested settings of camera and radio. Raises Refusal for an invalid value."""
-        from pigaming_app.storage.settings import Settings
+        from pigaming_app.storage.settings import CAMERAS, Settings
 
         if getattr(self, "things", 0) and self.emulate is None:
             raise Refusal("--things: real things are yours to put down; for emulated ones add --emulate")
@@ -291,7 +291,8 @@ class RigOptions(EmulateOption):
             except ValueError as error:
                 if name == "camera":  # its address may hold a password
                     raise Refusal(
-                        "--camera: a number, phone, or an address such as http://192.168.0.7:8080/video"
+                        f"--camera: a number from 0 to {CAMERAS - 1}, phone, or an address such as "
+                        "http://192.168.0.7:8080/video; in its password, write @ as %40, : as %3A, / as %2F"
                     ) from None
                 raise Refusal(f"--{error}") from None
         return given
