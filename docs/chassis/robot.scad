@@ -27,6 +27,11 @@ post_h = lid_top - thick - plate_z - thick;
 foot_h = plate_z - caster_h;
 gap = 1.5;                              // between a wheel and its window
 
+assert(base / 2 - wheel_w / 2 - 1 >= motor[0], "base: two motors do not fit between the wheels");
+assert(max([for (p = posts) norm(p)]) + post_r <= diameter / 2, "diameter: the posts of the lid stand beside the plate");
+assert(foot_h - lift >= 1, "caster_h: the casters leave no room for their feet below the plate");
+assert(post_h >= 13, "lid_top: the posts of the lid are too short for its screws");
+
 $fn = 96;
 
 module screw_hole(d, h) { translate([0, 0, -1]) cylinder(d = d, h = h + 2, $fn = 32); }

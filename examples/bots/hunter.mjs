@@ -1,6 +1,6 @@
 // A program that plays PiTanks, as hunter.py does:
 //
-//     main.py bots --add ada          prints a key
+//     python3 main.py bots --add ada  prints a key
 //     node examples/bots/hunter.mjs ws://127.0.0.1:8789/ ada KEY
 //
 // It waits for the arcade. Needs Node.js 22, or an older one with the package ws (`npm install ws`). The messages are described in docs/bots.md.

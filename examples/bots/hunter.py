@@ -1,7 +1,7 @@
 """A program that plays PiTanks: it turns to the nearest opponent, drives there, and fires when it points at it.
 
-    main.py bots --add ada          prints a key
-    python examples/bots/hunter.py ws://127.0.0.1:8789/ ada KEY
+    python3 main.py bots --add ada  prints a key
+    python3 examples/bots/hunter.py ws://127.0.0.1:8789/ ada KEY
 
 It waits for the arcade. Needs aiohttp (`pip install aiohttp`). The messages are described in docs/bots.md.
 """

@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from importlib import metadata
 from pathlib import Path
@@ -25,7 +25,7 @@ from pigaming_app.storage.optional import optional
 from pigaming_app.storage.parsing import one_line, parse_json
 from pigaming_app.storage.pin import PinFile
 from pigaming_app.storage.restarts import restarts
-from pigaming_app.storage.settings import Folders, NoHome, folders
+from pigaming_app.storage.settings import PHONE, Folders, NoHome, Settings, folders
 
 MIN_FREE = 200_000_000  # bytes of free disk space, below which the report has a note
 TIMEOUT = 15.0  # s for the drivers to answer
@@ -254,18 +254,28 @@ def _cameras() -> Iterator[Line]:
     if discovery is None:
         yield Line("cameras", "note", "not looked for: the feature mat is not installed")
         return
-    linux = sys.platform.startswith("linux")
     names = {str(camera.number): camera.name for camera in discovery.cameras()}
-    untold = UNTOLD.get("linux" if linux else sys.platform, "names and other sizes are not told")
+    chosen = _chosen_camera()
     if not names:
-        yield Line("cameras", "ok", "none; only real robots need one")
-        return
+        yield Line("cameras", "ok", "none" if isinstance(chosen, str) else "none; only real robots need one")
+    else:
+        yield from _connected(names, f"{discovery.__package__}.formats")
+    if chosen == PHONE:
+        yield Line("camera of settings", "ok", "a phone, which connects while the arcade runs")
+    elif isinstance(chosen, str):
+        yield _stream(chosen, f"{discovery.__package__}.formats")
+
+
+def _connected(names: Mapping[str, str], prober: str) -> Iterator[Line]:
+    """Cameras of this computer, by number and name."""
+    linux = sys.platform.startswith("linux")
+    untold = UNTOLD.get("linux" if linux else sys.platform, "names and other sizes are not told")
     found = ", ".join(f"{number} ({name})" for number, name in names.items())
     advice = "set 1/60 s and a fixed focus in the camera's own program" if sys.platform == "darwin" else ""
     yield Line(
         "cameras", "note" if advice else "ok", f"{found if linux else 'numbers 0 to 2 were tried'}; {untold}", advice
     )
-    answers = {str(number): str(told) for number, told in _answers(f"{discovery.__package__}.formats", *names)}
+    answers = {str(number): str(told) for number, told in _answers(prober, *names)}
     for number in names:
         if told := answers.get(number):
             yield Line(f"camera {number}", "ok", told)
@@ -274,18 +284,37 @@ def _cameras() -> Iterator[Line]:
             yield Line(f"camera {number}", "note", silent, "close other programs that use it; main.py robots says more")
 
 
+def _chosen_camera() -> int | str:
+    try:
+        return Settings.load(folders().config)[0].camera
+    except NoHome:
+        return Settings().camera
+
+
+def _stream(address: str, prober: str) -> Line:
+    """The camera at an address, by its host: that has no password."""
+    told = next(((str(host), str(told)) for host, told in _answers(prober, given=address)), None)
+    if told and told[1]:
+        return Line("camera of settings", "ok", f"{told[0]}: {told[1]}")
+    found = f"{told[0]}: it does not open" if told else "OpenCV did not answer"
+    return Line("camera of settings", "note", found, "start it, and check address, password and Wi-Fi")
+
+
 def _probed() -> dict[str, tuple[str, str]]:
     """Answers of the probe: (found, wrong) by name."""
     return {str(name): (str(found), str(wrong)) for name, found, wrong in _answers("pigaming_app.ui.probe")}
 
 
-def _answers(module: str, *arguments: str) -> Iterator[list[object]]:
-    """The lines of JSON that a module prints in a process of its own, up to its end, crash or timeout."""
+def _answers(module: str, *arguments: str, given: str = "") -> Iterator[list[object]]:
+    """The lines of JSON that a module prints in a process of its own, up to its end, crash or timeout.
+
+    `given`: its standard input.
+    """
     command = [sys.executable, "-m", module, *arguments]
     environment = {**os.environ, "PYGAME_HIDE_SUPPORT_PROMPT": "1", "PYTHONIOENCODING": "utf-8"}
     try:
         output = subprocess.run(
-            command, cwd=ROOT, env=environment, capture_output=True, timeout=TIMEOUT, check=False
+            command, cwd=ROOT, env=environment, input=given.encode(), capture_output=True, timeout=TIMEOUT, check=False
         ).stdout
     except subprocess.TimeoutExpired as stopped:
         output = stopped.stdout or b""

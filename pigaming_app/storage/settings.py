@@ -66,9 +66,11 @@ Short = Annotated[str, PRINTABLE, Meta(max_length=MAX_NAME)]  # a name of someth
 Seat = Annotated[int, between(1, 4)]
 Volume = Annotated[int, between(0, 10)]
 PHONE = "phone"  # in place of a camera's number
+CAMERAS = 64  # numbers of cameras, from 0
+USER = r"([!\"$-.0->@-Z^-~]*@)?"  # of an address, perhaps with a password: a / in it would cut the address
 STREAM = Meta(
-    pattern=rf"^({PHONE}|(https?|rtsp)://[!-.0-Z^-~]+(/[!-~]*)?)\Z", max_length=200
-)  # address of a camera in the network, or a phone
+    pattern=rf"^({PHONE}|(https?|rtsp)://{USER}[A-Za-z0-9._-]+(:\d{{1,5}})?([/?][!-?A-~]*)?)\Z", max_length=200
+)  # address of a camera in the network, or a phone; a misplaced @ would show a piece of a password as the host
 HEX_KEY = Meta(pattern=r"^([0-9a-f]{32})?\Z")
 Functions = Annotated[dict[Short, Annotated[int, Meta(ge=0, lt=1024)]], Meta(min_length=1, max_length=MAX_DEVICES)]
 
@@ -138,7 +140,7 @@ class Settings:
         default_factory=list
     )  # of the picture on the projector, px of the canvas: x and y of all four
     strength: Annotated[str, one_of("auto", *LEVELS)] = "auto"  # of the AIs that fill the seats
-    camera: Annotated[int, between(0, 63)] | Annotated[str, STREAM] = 0  # over the mat
+    camera: Annotated[int, between(0, CAMERAS - 1)] | Annotated[str, STREAM] = 0  # over the mat
     arena_mm: Annotated[float, between(500.0, 10000.0)] = 2112.0  # the arena's width on the mat
     camera_mm: Annotated[float, between(0.0, 10000.0)] = 2500.0  # its height above it; 0: measured with a robot
     lid_mm: Annotated[float, between(0.0, 300.0)] = 70.0  # the height of the robots' lids

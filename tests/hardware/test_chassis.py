@@ -128,6 +128,31 @@ def test_walls_are_thick_enough(part: str) -> None:
     assert thin.mean() <= 0.01, "at sharp corners only"
 
 
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        ("diameter=60;base=50", "base"),
+        ("diameter=60", "diameter"),
+        ("caster_h=21", "caster_h"),
+        ("lid_top=35", "lid_top"),
+    ],
+)
+def test_sizes_that_make_no_robot_are_refused_by_name(tmp_path: Path, change: str, named: str) -> None:
+    words = ["openscad", "-o", str(tmp_path / "robot.stl"), "-D", change, str(MODEL)]
+    told = subprocess.run(words, timeout=60, capture_output=True, text=True, check=False)
+    assert told.returncode != 0
+    assert f'"{named}: ' in told.stderr
+
+
+@pytest.mark.parametrize(
+    "change", ["wheel_d=34", "motor=[26, 12, 10]", "base=78", "lid_top=62", "diameter=110;base=96"]
+)
+def test_other_sizes_are_not(tmp_path: Path, change: str) -> None:
+    words = ["openscad", "-o", str(tmp_path / "robot.csg"), "-D", change, str(MODEL)]
+    told = subprocess.run(words, timeout=60, capture_output=True, text=True, check=True)
+    assert "ERROR" not in told.stderr
+
+
 def wheels(triangles: Any) -> list[Any]:
     """The bodies that are wheels."""
     return [body for body in bodies(triangles) if size(body) == pytest.approx((7.0, 32.0, 32.0), abs=0.1)]

@@ -17,6 +17,8 @@ from pigaming_app.jobs import doctor
 from pigaming_app.jobs.cli import main
 from pigaming_app.storage.pin import PinFile
 from pigaming_app.storage.restarts import Restart, append_restart
+from pigaming_app.storage.settings import Settings, folders
+from tests.hardware.vision.test_stream import CameraServer
 
 WELL = [
     ["pygame", "pygame-ce 2.5.8", ""],
@@ -203,6 +205,40 @@ def test_cameras_have_formats_and_what_a_system_does_not_tell_of_them_is_said(
     assert {line.what.removeprefix("camera "): line.state for line in rest} == formats
     assert rest[0].found == "1280 × 720, 30 Hz"
     assert all(line.advice for line in (first, *rest) if line.state != "ok")
+
+
+@pytest.fixture
+def chosen_camera(monkeypatch, tmp_path):
+    """A function that chooses a camera in the settings of a computer without any, and returns the doctor's lines."""
+    monkeypatch.undo()
+    monkeypatch.setenv("PIGAMING_HOME", str(tmp_path / "home"))
+    monkeypatch.setattr(discovery, "DEVICES", tmp_path / "none")
+    monkeypatch.setattr(sys, "platform", "linux")
+
+    def lines(camera):
+        Settings(camera=camera).save(folders().config)
+        return [*doctor._cameras()]
+
+    return lines
+
+
+def test_the_camera_of_the_settings_is_opened_at_its_address_and_its_password_stays_there(chosen_camera, capsys):
+    pytest.importorskip("cv2")
+    server = CameraServer()
+    none, there = chosen_camera(server.url.replace("://", "://kid:secret@"))
+    server.close()
+    assert (none.found, there.what, there.state) == ("none", "camera of settings", "ok")
+    assert there.found.startswith("127.0.0.1: 640 × 360, ")
+    _, gone = chosen_camera("http://kid:secret@127.0.0.1:9/video")
+    assert (gone.state, gone.found) == ("note", "127.0.0.1: it does not open")
+    assert "password" in gone.advice
+    assert "secret" not in f"{there} {gone} {capsys.readouterr()}"
+
+
+def test_a_phone_as_the_camera_is_named(chosen_camera):
+    none, phone = chosen_camera("phone")
+    assert (none.found, phone.state) == ("none", "ok")
+    assert "phone" in phone.found
 
 
 def test_without_cameras_none_is_opened(monkeypatch, tmp_path):

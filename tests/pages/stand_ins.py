@@ -97,7 +97,7 @@ ELSEWHERE = (
     Elsewhere(r".*robots update.*", "it needs a robot on Wi-Fi", "tests/hardware/emulator/test_board_update.py"),
     Elsewhere(r".*robots setup.*", "it needs a board on USB", "tests/jobs/mat/test_usb_setup.py"),
     Elsewhere(r"openscad .*", "it needs OpenSCAD", "tests/hardware/test_chassis.py"),
-    Elsewhere(r"python examples/bots/.*", "it needs the arcade beside it", "tests/jobs/bots/test_bots.py"),
+    Elsewhere(r"python3 examples/bots/.*", "it needs the arcade beside it", "tests/jobs/bots/test_bots.py"),
     Elsewhere(r".*bot:ada level1.*", "it waits for a program", "tests/jobs/bots/test_bots.py"),
     Elsewhere(r".*tests\.pages\.api --write", "it writes a page of this tree", "tests/api/test_face.py"),
     Elsewhere(r"(python3 main\.py )?(test|bundle)\b.*", MINUTES_LONG, ".ci/run"),

@@ -67,6 +67,12 @@ def test_every_command_of_a_page_runs(page: str, sandbox: Sandbox, capfd: pytest
             assert isinstance(json.loads(printed.out), dict), command
 
 
+def test_a_line_of_a_block_can_be_typed_as_it_stands() -> None:
+    """`main.py` alone is no program of a shell, and many systems have no `python`."""
+    for page in NAMES.values():
+        assert re.findall(r"^    (?:main\.py|python) .*", page.read_text(encoding="utf-8"), re.MULTILINE) == [], page
+
+
 def test_each_row_of_the_tables_is_needed() -> None:
     texts = [command.text for page in ALL.values() for command in page]
     gaps = [text for text in texts for row in PLACEHOLDERS if re.search(row.part, text)]

@@ -1,7 +1,4 @@
-"""Bots as brains: `bot:NAME` wherever an AI is named. A seat whose bot is silent stands still, then an AI takes it.
-
-Where matches wait for decisions, as in leagues, no AI takes a seat: the result would not be the bot's.
-"""
+"""Bots as brains: `bot:NAME` wherever an AI is named. A seat whose bot is silent stands still, then an AI takes it."""
 
 import logging
 from collections.abc import Mapping
@@ -21,7 +18,7 @@ from pigaming_app.sim.world import HZ, World
 from pigaming_app.storage.settings import NoHome, folders
 
 PATIENCE = 3 * HZ  # ticks without a command that holds, after which an AI takes the seat, until the match is over
-MISSES = 10  # decisions in a row that a bot may miss where matches wait for them
+MISSES = 10  # decisions in a row, after which it does so where matches wait for them
 RETURNS = 10.0  # s in which a bot may connect again there
 
 log = logging.getLogger("pigaming")
@@ -105,28 +102,19 @@ def _kind(game: str, name: str, stand_in: BrainKind) -> BrainKind:
         if own.stand_in:
             own.stand_in.think(state, seat)  # type: ignore[arg-type]
             return
-        if line.service is not Serving.LIVE:
-            _require(line, name, own.silent)
-        command = line.decide(place, game, state)
-        if command:
+        if line.service is Serving.CLOSED:
+            raise ChoiceError(f"{PREFIX}{name} plays in the arcade, in play, duel, league and event run only")
+        waits = line.service is Serving.PATIENT
+        gone = waits and not line.wait(RETURNS)
+        if command := line.decide(place, game, state):
             own.silent = 0
             fire, turbo = int(command.fire), int(command.turbo)
             set_action(state.actions[seat], command.linear, command.angular, fire, turbo)
             return
         set_action(state.actions[seat], 0.0, 0.0, 0, 0)
         own.silent += 1
-        if line.service is Serving.LIVE and own.silent >= PATIENCE:
-            log.warning("bot %s is silent: %s takes its seat", name, STAND_IN)
+        if gone or own.silent >= (MISSES if waits else PATIENCE):
+            log.warning("bot %s is %s: %s takes its seat", name, "gone" if gone else "silent", STAND_IN)
             own.stand_in = BrainPlayer(stand_in, mind.random)
 
     return BrainKind(PREFIX + name, BotMind, think, reset, plain=True)
-
-
-def _require(line: BotLine, name: str, missed: int) -> None:
-    """Raises ChoiceError for a bot that cannot play here, is gone, or has missed too many decisions."""
-    if line.service is Serving.CLOSED:
-        raise ChoiceError(f"{PREFIX}{name} plays in the arcade, in play, duel, league and event run only")
-    if missed >= MISSES:
-        raise ChoiceError(f"{PREFIX}{name} is silent: {MISSES} decisions without an answer")
-    if not line.wait(RETURNS):
-        raise ChoiceError(f"{PREFIX}{name} is gone, and has not connected again within {RETURNS:.0f} s")

@@ -67,6 +67,7 @@ class BotLine:
 
     service: Serving = Serving.CLOSED
     wire: Wire | None = None
+    _missed: bool = False  # it was waited for in vain
     _dialogues: dict[SeatOfMatch, Dialogue] = field(default_factory=dict)
     _changed: threading.Condition = field(default_factory=threading.Condition)
 
@@ -104,9 +105,10 @@ class BotLine:
             return _at(own, state.tick - (0 if self.service is Serving.PATIENT else FRESH))
 
     def wait(self, seconds: float) -> bool:
-        """Wait until it is connected; false if it is not after so long."""
+        """Wait until it is connected; false if it is not after so long, and then at once until it is."""
         with self._changed:
-            return self._changed.wait_for(lambda: self.connected, seconds)
+            self._missed = not self._changed.wait_for(lambda: self.connected, 0.0 if self._missed else seconds)
+            return not self._missed
 
     # ---- for the connection
 

@@ -1,8 +1,8 @@
 """Formats of cameras, as far as OpenCV tells.
 
 The doctor runs this file in a process of its own, because a driver may hang or crash. Each camera in the arguments, a
-number or an address, prints one line of JSON as soon as it is done: its number or host, and what is found; an empty
-text if it does not open.
+number, or without any in the lines of standard input, an address whose password no list of processes shows, prints one
+line of JSON as soon as it is done: its number or host, and what is found; an empty text if it does not open.
 """
 
 import json
@@ -87,4 +87,4 @@ def main(cameras: list[str]) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main(sys.argv[1:] or sys.stdin.read().splitlines())

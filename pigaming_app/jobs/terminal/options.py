@@ -7,7 +7,7 @@ sensible value and refuses the others in one line (argparse.ArgumentTypeError).
 
 import argparse
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from math import isfinite
 from pathlib import Path
@@ -142,6 +142,13 @@ def options_of(kind: type[T], found: Namespace) -> T:
     return kind(**{name: tuple(v) if isinstance(v, list) else v for name, v in values.items() if v is not None})
 
 
+def require_unused(options: Any, names: Collection[str], owner: str) -> None:
+    """Raises Refusal if one of these options was given; without their `owner` they would do nothing."""
+    for one in fields(options):
+        if one.name in names and getattr(options, one.name) != one.default:
+            raise Refusal(f"--{one.name.replace('_', '-')} goes with {owner}")
+
+
 def declare_job(parser: ArgumentParser, job: ModuleType | Callable[[Any], int]) -> None:
     """Declare a job: its options, or a sub-command for each module or function in its `WORDS`, with its docstring.
 
@@ -268,7 +275,7 @@ class RigOptions(EmulateOption):
 
     def mat_settings(self) -> dict[str, Any]:
         """The requested settings of camera and radio. Raises Refusal for an invalid value."""
-        from pigaming_app.storage.settings import Settings
+        from pigaming_app.storage.settings import CAMERAS, Settings
 
         if getattr(self, "things", 0) and self.emulate is None:
             raise Refusal("--things: real things are yours to put down; for emulated ones add --emulate")
@@ -284,7 +291,8 @@ class RigOptions(EmulateOption):
             except ValueError as error:
                 if name == "camera":  # its address may hold a password
                     raise Refusal(
-                        "--camera: a number, phone, or an address such as http://192.168.0.7:8080/video"
+                        f"--camera: a number from 0 to {CAMERAS - 1}, phone, or an address such as "
+                        "http://192.168.0.7:8080/video; in its password, write @ as %40, : as %3A, / as %2F"
                     ) from None
                 raise Refusal(f"--{error}") from None
         return given

@@ -1,5 +1,6 @@
 """Cameras in the network, of which another program is the other end: MJPEG by the standard library and Pillow."""
 
+import base64
 import io
 import threading
 import time
@@ -13,6 +14,7 @@ from PIL import Image
 
 from pigaming_app.hardware.vision.camera import Camera
 from pigaming_app.storage.settings import Settings
+from pigaming_app.ui.i18n import english
 
 SIZE = 640, 360
 BITS = 16  # of the number in each picture
@@ -21,15 +23,20 @@ WAIT = 20.0  # s
 
 
 class CameraServer:
-    """A phone's camera app: pictures with their number in black and white blocks."""
+    """A phone's camera app: pictures with their number in black and white blocks. `secret`: asked for, in base64."""
 
-    def __init__(self, port: int = 0) -> None:
+    def __init__(self, port: int = 0, secret: str = "") -> None:
         self.sent: dict[int, float] = {}  # time by number
         self.closing, self.silent = threading.Event(), False
         outer = self
 
         class Handler(BaseHTTPRequestHandler):
             def do_GET(self) -> None:
+                if secret and self.headers.get("Authorization") != f"Basic {secret}":
+                    self.send_response(401)
+                    self.send_header("WWW-Authenticate", 'Basic realm="camera"')
+                    self.end_headers()
+                    return
                 self.send_response(200)
                 self.send_header("Content-Type", "multipart/x-mixed-replace; boundary=frame")
                 self.end_headers()
@@ -119,12 +126,34 @@ def test_an_address_without_a_camera_is_a_fault_that_keeps_its_password(server: 
         assert "secret" not in str(camera.fault)
 
 
+def test_a_password_is_sent_as_it_was_before_it_was_written_into_the_address() -> None:
+    """The server knows it by RFC 7617: base64 of user:password."""
+    server = CameraServer(secret=base64.b64encode(b"kid:p@ss:w/rd").decode())
+    try:
+        with Camera(server.url.replace("://", "://kid:p%40ss%3Aw%2Frd@")) as camera:
+            until(camera.newest)
+        with Camera(server.url.replace("://", "://kid:wrong@")) as camera:
+            fault = until(lambda: camera.fault and camera.fault.key == "no_stream" and camera.fault)
+        assert "password" in english().sentence(fault)
+        assert "wrong" not in english().sentence(fault)
+    finally:
+        server.close()
+
+
 @pytest.mark.parametrize(
     ("address", "right"),
     [
         ("http://192.168.0.7:8080/video", True),
         ("https://phone.local/stream?size=720", True),
         ("rtsp://anna:secret@10.0.0.2:554/live", True),
+        ("http://kid:p%40ss%3Aw%2Frd@host.local/video", True),
+        ("http://kid:p@ss@host:80?size=720", True),  # the last @ counts
+        ("http://kid:p@ss:w/rd@host/video", False),
+        ("http://kid:p@ss/rd@host/video", False),
+        ("http://kid:w/rd@host/video", False),
+        ("http://kid:p?ss@host/video", False),
+        ("http://kid:p#ss@host/video", False),
+        ("http://host:port/video", False),
         ("file:///etc/passwd", False),
         ("concat:http://a/b", False),
         ("http://", False),

@@ -93,7 +93,16 @@ def test_the_sheet_is_written_where_it_was_asked_for(tmp_path):
         (("--sheet", "x.png"), ".pdf"),
         (("--emulate", "much"), "much"),
         (("--camera", "first"), "first"),
+        (("--camera", "99"), "a number from 0 to 63"),
+        (("--camera", "http://kid:p@ss:w/rd@host"), "write @ as %40"),
+        (("--size", "1x1"), "--size goes with --print"),
+        (("--arena", "classic"), "--arena goes with --print"),
+        (("--sheet", "x.pdf", "--paper", "mat"), "--paper goes with --print"),
+        (("--print", "x.pdf", "--edge", "50"), "--edge goes with --sheet"),
+        (("--print", "x.pdf", "--sheet", "y.pdf"), "not allowed with"),
     ],
 )
 def test_what_cannot_be_done_is_one_line(refused, arguments, part):
-    assert part in refused("calibrate", *arguments)
+    line = refused("calibrate", *arguments)
+    assert part in line
+    assert "p@ss" not in line

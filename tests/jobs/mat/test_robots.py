@@ -81,10 +81,26 @@ def test_a_radio_is_written_and_refusals_are_one_line(capsys, monkeypatch, refus
     assert "refuses CH 1A" in refused("robots", "--radio-setup", "0", "--channel", "1A")
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        *(["--robot", "2"], ["--robot", "1"], ["--on-blocks"], ["--network", "X"], ["--password"]),
+        *(["--board", "relay"], ["--no-wait"], ["update", "--robot", "2"], ["check", "api2", "--board", "esp32"]),
+    ],
+)
+def test_what_belongs_to_setup_is_refused_without_it(refused, words):
+    option = next(word for word in words if word.startswith("--"))
+    assert f"{option} goes with setup" in refused("robots", *words)
+
+
 @pytest.mark.parametrize("wish", ["--pair", "--latency", "--drive"])
 def test_robots_that_nobody_sees_are_not_moved(refused, wish):
     line = refused("robots", wish)
     assert "calibrat" in line or "opencv" in line.lower()
+
+
+def test_a_check_of_nothing_names_what_else_there_is(refused):
+    assert "setup, update, or check" in refused("robots", "check")
 
 
 def test_robots_are_updated_over_the_air_only_while_no_arcade_has_the_port(refused, monkeypatch):
@@ -307,7 +323,8 @@ def test_no_file_of_a_robot_is_printed_with_numbers_that_are_lost(refused, home,
 def test_a_file_of_a_robot_is_written_in_utf_8_and_its_predecessor_kept(capsys, tmp_path, wanted):
     assert main(["robots", *wanted, "--arena", "77"]) == 0
     printed = capsys.readouterr().out
-    file = tmp_path / "new folder" / "config.py"
+    file = tmp_path / "folder" / "config.py"
+    file.parent.mkdir()
     for _ in range(2):
         assert main(["robots", *wanted, "--out", str(file)]) == 0
         assert capsys.readouterr().out == f"{file}\n"
@@ -317,7 +334,14 @@ def test_a_file_of_a_robot_is_written_in_utf_8_and_its_predecessor_kept(capsys, 
     assert file.with_name("config.py.bak").read_text() == mine
 
 
-@pytest.mark.parametrize("words", [["--out", "config.py"], ["--wifi-config", "2", "--out", "."]])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--out", "config.py"],
+        ["--wifi-config", "2", "--out", "."],
+        ["--wifi-config", "2", "--out", "nowhere/config.py"],
+    ],
+)
 def test_a_file_of_no_robot_or_without_a_place_is_one_line(refused, tmp_path, monkeypatch, words):
     monkeypatch.chdir(tmp_path)
     refused("robots", *words)

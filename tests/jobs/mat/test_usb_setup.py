@@ -3,6 +3,8 @@
 import os
 import subprocess
 import sys
+import threading
+import time
 from pathlib import Path
 from typing import Any
 
@@ -46,6 +48,33 @@ def test_what_cannot_be_set_up_is_refused_in_one_line(tmp_path: Path, words: tup
     assert done.returncode == 2
     assert said in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_a_device_that_never_stops_sending_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A line each 20 ms, for 20 s."""
+    pytest.importorskip("mpremote", reason="the extra `hardware` is not installed")
+    pty = pytest.importorskip("pty", reason="no pseudo-terminals here")
+    monkeypatch.setattr(board_setup, "AGAIN", 0.0)
+    monkeypatch.setattr("pigaming_app.hardware.commissioning.boards.usb.ENTERS", 0.5)
+    master, slave = pty.openpty()
+    ends = threading.Event()
+
+    def talk() -> None:
+        for _ in range(1000):
+            os.write(master, b"Hello\n")
+            if ends.wait(0.02):
+                return
+
+    talker = threading.Thread(target=talk)
+    talker.start()
+    began = time.monotonic()
+    with pytest.raises(Refusal, match="No MicroPython answers at"):
+        usb_setup.set_up(RobotsOptions(), ["setup", os.ttyname(slave)])
+    assert time.monotonic() - began < 5.0
+    ends.set()
+    talker.join()
+    os.close(master)
+    os.close(slave)
 
 
 @pytest.mark.long

@@ -9,12 +9,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pigaming_app.ai.bots import brains
+from pigaming_app.ai.bots import brains, line
 from pigaming_app.ai.bots.line import Serving
 from pigaming_app.ai.bots.session import BotSession
 from pigaming_app.ai.registry import find_brain, is_brain, new_match
+from pigaming_app.events.event import Event
+from pigaming_app.events.spec import Entrant, EventSpec, Format
 from pigaming_app.games.match import Match
 from pigaming_app.games.setup import ChoiceError
+from pigaming_app.jobs.events.play import HeadlessRun
 from pigaming_app.scenes.bots.feature import BotService
 from pigaming_app.scenes.bots.host import BotHost
 from pigaming_app.scenes.bots.page import BotsPage
@@ -113,24 +116,51 @@ def test_a_match_that_waits_does_not_wait_for_ever(host: BotHost, caplog: pytest
         match.tick()
         assert match.state.actions[0].linear == 1.0, tick
     began = time.monotonic()
-    with pytest.raises(ChoiceError, match="bot:ada is silent"):
-        run(match, 200)
+    run(match, 9)
+    assert not caplog.text
+    run(match, 1)
     assert time.monotonic() - began < 6.0, "ten times 0.3 s"
-    assert not caplog.text, "no AI plays in its name"
+    assert "bot ada is silent: level3 takes its seat" in caplog.text
+    x, y = match.state.robots[0].x, match.state.robots[0].y
+    run(match, 100)
+    assert abs(match.state.robots[0].x - x) + abs(match.state.robots[0].y - y) > 50
 
 
-def test_a_league_does_not_go_on_without_a_bot_that_is_gone(host: BotHost, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_matches_wait_once_for_a_bot_that_is_gone_and_for_its_return(
+    host: BotHost, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
     monkeypatch.setattr(brains, "RETURNS", 0.5)
     program = connected(host)
     brains.serve(Serving.PATIENT)
     match = match_of("race", ["bot:ada", "idle"])
     run(match, 5)
     program.leave()
-    with pytest.raises(ChoiceError, match="bot:ada is gone"):
-        run(match, 50)
+    began = time.monotonic()
+    for _ in range(20):
+        run(match, 1)
+        match = match_of("race", ["bot:ada", "idle"])
+    assert time.monotonic() - began < 5.0, "twenty matches, half a second once"
+    assert caplog.text.count("bot ada is gone: level3 takes its seat") == 20
+    connected(host, lambda tick: {"linear": 1.0})
+    match.tick()
+    assert match.state.actions[0].linear == 1.0
     brains.serve(Serving.CLOSED)
     with pytest.raises(ChoiceError, match="plays in the arcade"):
         run(match_of("race", ["bot:ada", "idle"]), 1)
+
+
+def test_an_event_goes_on_without_a_bot_that_falls_silent(host: BotHost, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(line, "BUDGET", 0.01)
+    connected(host, lambda tick: None)
+    brains.serve(Serving.PATIENT)
+    entrants = tuple(Entrant(name, brain) for name, brain in (("Ada", "bot:ada"), ("Bo", "idle"), ("Cy", "idle")))
+    event = Event(EventSpec("Cup", Format.ROUND_ROBIN, ("pitanks",), entrants, minutes={"pitanks": 0.5}))
+    headless = HeadlessRun(event)
+    while not event.over:
+        for outcome in headless.play(event):
+            event = event.record(outcome)
+    assert len(event.outcomes) == 3
+    assert [outcome.places[0] for outcome in event.outcomes.values() if ("Ada",) in outcome.places] == [("Ada",)] * 2
 
 
 def test_a_command_for_a_tick_to_come_neither_counts_nor_blocks(host: BotHost) -> None:

@@ -9,6 +9,7 @@ import hashlib
 import json
 import os
 import struct
+import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
 from io import StringIO
@@ -21,6 +22,7 @@ from pigaming_app.storage.messages import OperatorMessage
 
 Tell = Callable[[str, bool], None]
 RATE, SILENT = 115_200, 3.0  # bit/s; s
+ENTERS, LONGEST = 6.0, 60.0  # s: for the prompt, and for any other step, at a device that sends without end
 POINTERS = ("kept", "trial")  # files that name the program that came over the air
 PART = ".part"  # suffix of files that are not complete
 ASK = """
@@ -78,6 +80,7 @@ class BoardOnUsb:
     def __init__(self, port: str) -> None:
         self.port = port
         self._transport: Any = None
+        self._deadline = 0.0  # of the present step, as of time.monotonic
 
     def __enter__(self) -> "BoardOnUsb":
         from mpremote.transport_serial import SerialTransport
@@ -87,8 +90,9 @@ class BoardOnUsb:
         is_microbit = vendors().get(self.port) == microbit.VENDOR
         with self._plugged():
             self._transport = SerialTransport(self.port, RATE, timeout=SILENT)
+        self._limit()
         try:
-            with self._plugged():
+            with self._plugged(seconds=ENTERS):
                 if is_microbit:
                     microbit.end_relay(self._transport.serial, RATE)
                 self._transport.enter_raw_repl(soft_reset=False, timeout_overall=SILENT)
@@ -163,10 +167,24 @@ class BoardOnUsb:
         with self._plugged():
             return _hash(self._transport.fs_readfile(name))
 
+    def _limit(self) -> None:
+        """Let reading fail after the deadline: `mpremote` ends no step while bytes come."""
+        from mpremote.transport import TransportError
+
+        read = self._transport.serial.read
+
+        def limited(size: int = 1) -> bytes:
+            if time.monotonic() > self._deadline:
+                raise TransportError("no end")
+            return bytes(read(size))
+
+        self._transport.serial.read = limited
+
     @contextmanager
-    def _plugged(self, quiet: bool = False) -> Iterator[None]:
+    def _plugged(self, quiet: bool = False, seconds: float = LONGEST) -> Iterator[None]:
         from mpremote.transport import TransportError, TransportExecError
 
+        self._deadline = time.monotonic() + seconds
         try:
             with redirect_stdout(StringIO()):  # mpremote prints what it did not expect
                 yield

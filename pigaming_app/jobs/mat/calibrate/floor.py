@@ -35,17 +35,22 @@ def chosen_arenas(wanted: str | None) -> list[Chosen]:
     return [(game, load(game, name)) for game, name in found]
 
 
-def with_room(chosen: list[Chosen], surface: FloorSurface, settings: Settings) -> list[Chosen]:
-    """The arenas in which the robots of these settings can play on a surface. Raises Refusal if there are none."""
+def with_room(chosen: list[Chosen], surface: FloorSurface, settings: Settings) -> tuple[list[Chosen], list[Chosen]]:
+    """The arenas in which the robots of these settings can play on a surface, and the others.
+
+    Raises Refusal if there are only others.
+    """
     radius = widest_radius(settings.kinds, RealSession(settings).usual)
     wide = radius / surface.mm - ROUNDING
-    found = [(game, arena) for game, arena in chosen if has_room(game, arena.source, wide, SPARE)]
+    found, narrow = list[Chosen](), list[Chosen]()
+    for game, arena in chosen:
+        (found if has_room(game, arena.source, wide, SPARE) else narrow).append((game, arena))
     if not found:
         least = FloorSurface.smallest(radius, max(widest(game, arena.source, SPARE) for game, arena in chosen))
         wide, high = (ceil(side / 10.0) / 100.0 for side in (least.width, least.height))
         size = f"{surface.width / 1000.0:g}x{surface.height / 1000.0:g}"
         raise Refusal(f"{size} m is too small for robots of {2.0 * radius:g} mm: the smallest is {wide:g}x{high:g}")
-    return [(game, on_mat(game, arena, (), in_play(wide))) for game, arena in found]
+    return [(game, on_mat(game, arena, (), in_play(wide))) for game, arena in found], narrow
 
 
 def write(target: Path, surface: FloorSurface, chosen: list[Chosen], paper: str, language: str) -> str:
@@ -54,7 +59,7 @@ def write(target: Path, surface: FloorSurface, chosen: list[Chosen], paper: str,
     Raises Refusal, NotSaved, OpenCVMissing.
     """
     if paper in PAPERS and len(chosen) > 1:
-        raise Refusal(f"on {paper} one arena is printed: add --arena NAME; there are {_names(chosen)}")
+        raise Refusal(f"on {paper} one arena is printed: add --arena NAME; there are {names(chosen)}")
     pdf, words = PdfFile(), Words(language)
     for game, arena in chosen:
         title = f"{words(f'games.{game}')}: {arena.title.get(language, arena.title[LANGUAGES[0]])}"
@@ -69,5 +74,6 @@ def write(target: Path, surface: FloorSurface, chosen: list[Chosen], paper: str,
     return f"{target}: {len(chosen)} pages of {surface.width:.0f} x {surface.height:.0f} mm, the field {field}"
 
 
-def _names(chosen: list[Chosen]) -> str:
+def names(chosen: list[Chosen]) -> str:
+    """These arenas as `--arena` names them."""
     return ", ".join(f"{game}/{arena.name}" for game, arena in chosen)

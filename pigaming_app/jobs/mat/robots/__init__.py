@@ -14,7 +14,7 @@ from pigaming_app.hardware.robot_kinds import set_up_command
 from pigaming_app.hardware.session.robot_session import RobotSession, RobotsUnavailable, camera_warning
 from pigaming_app.jobs.mat.robots import conformance, radio_setup, usb_setup, wifi_setup
 from pigaming_app.jobs.mat.sessions import robots_of
-from pigaming_app.jobs.terminal.options import argument, flag
+from pigaming_app.jobs.terminal.options import argument, flag, require_unused
 from pigaming_app.jobs.terminal.refusal import Refusal, require, sentence
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings, folders
@@ -82,6 +82,7 @@ def run(options: RobotsOptions) -> int:
     """Print the status. Raises Refusal."""
     if options.check[:1] == ("setup",):
         return usb_setup.set_up(options, options.check)
+    require_unused(options, usb_setup.OPTIONS, "setup: main.py robots setup")
     if options.check[:1] == ("update",):
         return wifi_setup.update(options.check)
     if options.check:

@@ -26,7 +26,7 @@ class CheckOptions(Protocol):
 def check(options: CheckOptions, words: Sequence[str]) -> int:
     """Run the check that these words ask for. Raises Refusal."""
     if len(words) != 2 or words[0] != "check":
-        raise Refusal("robots: no words, setup, or check and a driver: robots check udp")
+        raise Refusal("robots: no words, setup, update, or check and a driver: robots check udp")
     driver = require_driver(words[1], "robots check")
     require("hardware")
     from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython

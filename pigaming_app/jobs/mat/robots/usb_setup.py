@@ -3,7 +3,7 @@
 import time
 from collections.abc import Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from pigaming_app.hardware.radio.packets import ROBOTS
@@ -32,7 +32,9 @@ TURNS = {
 class UsbSetupOptions:
     """The robot that a board becomes."""
 
-    robot: int = option("with setup: its number, as on its marker; default 1", integer(1, ROBOTS), 1, metavar="ROBOT")
+    robot: int | None = option(
+        "with setup: its number, as on its marker; default 1", integer(1, ROBOTS), metavar="ROBOT"
+    )
     network: str | None = option(
         "with setup: the name of the Wi-Fi, for boards that have it; default the one before", word, metavar="NAME"
     )
@@ -46,6 +48,9 @@ class UsbSetupOptions:
     no_wait: bool = flag("with setup: do not wait until the robot is in the network")
 
 
+OPTIONS = tuple(one.name for one in fields(UsbSetupOptions))
+
+
 def set_up(options: Any, words: Sequence[str]) -> int:
     """Set up the board at the port in the words, or at the only one. Raises Refusal."""
     from pigaming_app.hardware.commissioning import board_setup
@@ -53,6 +58,7 @@ def set_up(options: Any, words: Sequence[str]) -> int:
 
     if len(words) > 2:
         raise Refusal("robots setup: one word more, a port: robots setup /dev/ttyACM0")
+    options = replace(options, robot=options.robot or 1)
     require("hardware")
     settings, _ = Settings.load(folders().config)
     arena, key = arena_id(settings), wifi_key(settings)

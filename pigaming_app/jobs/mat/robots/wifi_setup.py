@@ -13,7 +13,7 @@ from pigaming_app.hardware.session.robot_session import RobotSession
 from pigaming_app.jobs.terminal.options import integer, option, path
 from pigaming_app.jobs.terminal.refusal import Refusal, refused
 from pigaming_app.storage.messages import OperatorError
-from pigaming_app.storage.safe_files import NotSaved, write_with_backup
+from pigaming_app.storage.safe_files import NotSaved, require_writable, write_with_backup
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.i18n import english
 
@@ -68,6 +68,7 @@ def supply_file(options: WifiSetupOptions, settings: Settings) -> bool:
         print(text, end="")
         return True
     with refused(NotSaved):
+        require_writable(options.out)
         write_with_backup(options.out, text)
     print(options.out)
     return True

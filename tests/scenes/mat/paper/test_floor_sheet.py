@@ -177,17 +177,24 @@ def test_a_drawing_of_the_user_is_printed_as_well(tmp_path):
 
 def test_a_surface_too_small_for_the_robots_is_refused_with_the_smallest(capsys, tmp_path):
     job = ["calibrate", "--print", str(tmp_path / "a.pdf"), "--arena", "islands"]
-    assert main([*job, "--size", "0.93x2"]) == 2
-    assert "0.93x2 m is too small for robots of 95 mm: the smallest is 0.95x0.53" in capsys.readouterr().err
+    assert main([*job, "--size", "0.93x0.6"]) == 2
+    assert "0.93x0.6 m is too small for robots of 95 mm: the smallest is 0.95x0.53" in capsys.readouterr().err
     assert main([*job, "--size", "0.95x0.54"]) == 0
     assert f"the field {0.95 / 1.2 * 1000:.0f} x" in capsys.readouterr().out
 
 
-def test_arenas_that_are_too_tight_for_the_robots_are_left_out(tmp_path):
+@pytest.mark.parametrize("size", ["1.5x0.9", "0,9X1,5"])
+def test_arenas_that_are_too_tight_for_the_robots_are_left_out_and_named(capsys, tmp_path, size):
     """A 3pi is 61 px in radius on a field of 1250 mm; classic takes 59, labyrinth less."""
-    assert main(["calibrate", "--print", str(tmp_path / "a.pdf"), "--size", "1.5x0.9"]) == 0
-    titles = [page.partition("\r")[0] for page in texts((tmp_path / "a.pdf").read_bytes())]
+    assert main(["calibrate", "--print", str(tmp_path / "a.pdf"), "--size", size]) == 0
+    pdf = (tmp_path / "a.pdf").read_bytes()
+    titles = [page.partition("\r")[0] for page in texts(pdf)]
     assert {title for title in titles if title.startswith("PiTanks")} == {"PiTanks: Islands", "PiTanks: Trenches"}
+    assert {(round(wide), round(high)) for wide, high in sizes(pdf)} == {(1500, 900)}, "lying, however it is named"
+    (left_out,) = (line for line in capsys.readouterr().out.splitlines() if line.startswith("left out"))
+    named = left_out.partition(": ")[2].split(", ")
+    assert {"pitanks/classic", "pitanks/labyrinth"} <= {*named}
+    assert len(named) + len(titles) == len(EVERY)
 
 
 @pytest.mark.parametrize(
