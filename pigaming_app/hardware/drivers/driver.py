@@ -39,7 +39,7 @@ class LinkSite:
     poses: "RosPoses | None" = None
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class RobotDriver:
     """A driver. `open(site)` returns its link, not started; one that does not come up reports its `fault`.
 
@@ -47,7 +47,8 @@ class RobotDriver:
     `stopped_by`: what does so, in a few English words. `dead_time`: s from sending a command to the motors' response,
     until it has been measured. `serial`: port and baud rate of the settings count. `kind`: size and battery limits of a
     robot that neither the settings nor its announcement name. `title`: a proper name for the settings; those of the
-    arcade have texts. `stand(seed)`: its emulated robots, for `robots check`; those of the arcade: `proof.stands`.
+    arcade have texts. `stand(seed)`: its emulated robots, without which a plug-in's play no match; those of the
+    arcade: `proof.stands`.
     """
 
     name: str
@@ -62,7 +63,7 @@ class RobotDriver:
 
     @property
     def problem(self) -> OperatorMessage | None:
-        """Why its robots cannot play matches, or None."""
+        """Why its robots cannot play matches by what it declares, or None; see also `fitness.match_problem`."""
         name = self.title or self.name
         if self.silence is None:
             return OperatorMessage("driver_endless", name=name)

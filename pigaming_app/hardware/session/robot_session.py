@@ -151,9 +151,11 @@ def driver_of(settings: "Settings") -> "RobotDriver":
 
 
 def settings_problem(settings: "Settings") -> OperatorMessage | None:
-    """Operator message if these settings forbid matches (robots that do not stop by themselves), else None."""
+    """Operator message if these settings forbid matches (robots that may not stop by themselves), else None."""
+    from pigaming_app.hardware.drivers.fitness import match_problem
+
     try:
-        return driver_of(settings).problem
+        return match_problem(driver_of(settings))
     except RobotsUnavailable as error:
         return error.message
 

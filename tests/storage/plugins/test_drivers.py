@@ -55,6 +55,45 @@ def test_robots_that_stop_too_late_play_no_match(lines: Path, silence: str) -> N
     assert "Robots of radio mode Lines of text" in ended.stdout
 
 
+LATE = "if self._now - self._driven[robot] >= SILENCE or"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        (LATE, LATE.replace("SILENCE", "0.5"), "their emulation does not stop by itself in time"),
+        (LATE, LATE.replace("SILENCE", "0.0"), "their emulation does not stop by itself in time"),  # they never drive
+        ("self._now += STEP", "raise RuntimeError", "their emulation does not stop by itself in time"),
+        ("self._now += STEP", "pass", "their emulation does not stop by itself in time"),  # the check never ends
+        ("stand=Emulated", "stand=None", "nothing proves that they stop by themselves"),
+    ],
+)
+def test_a_word_that_its_emulated_robots_do_not_keep_plays_no_match(
+    lines: Path, old: str, new: str, reason: str
+) -> None:
+    changed(lines / "driver.py", old, new)
+    ended = program("play", "pitanks", "--real", "1", "--radio", "lines")
+    assert ended.returncode == 2
+    assert reason in ended.stderr.splitlines()[-1]
+
+
+def test_a_radio_mode_that_plays_no_match_is_not_kept(lines: Path) -> None:
+    program("robots", "--radio", "lines", "--port", "/dev/nowhere", "--json")
+    assert Settings.load(folders().config)[0].radio == "lines"
+    Settings().save(folders().config)
+    changed(lines / "driver.py", LATE, LATE.replace("SILENCE", "0.5"))
+    program("robots", "--radio", "lines", "--port", "/dev/nowhere", "--json")
+    assert Settings.load(folders().config)[0].radio == Settings().radio
+
+
+def test_an_error_of_its_emulated_robots_is_one_line(lines: Path) -> None:
+    line = changed(lines / "driver.py", "self._now += STEP", "self._now += 'a'")
+    ended = program("robots", "check", "lines")
+    assert ended.returncode == 2
+    start = f"PiGaming: robots check lines: its emulated robots failed: driver.py, line {line}: TypeError: "
+    assert ended.stderr.splitlines()[-1].startswith(start)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "reason"),
     [

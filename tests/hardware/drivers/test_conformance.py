@@ -6,9 +6,9 @@ from dataclasses import replace
 import pytest
 
 from examples.lines.driver import DRIVER, Emulated
+from pigaming_app.hardware.drivers.conformance import Conformance
 from pigaming_app.hardware.drivers.driver import LONGEST_SILENCE, RobotDriver
 from pigaming_app.hardware.drivers.ours import OURS
-from pigaming_app.hardware.proof.conformance import Conformance
 from pigaming_app.hardware.proof.stands import stand_of
 from pigaming_app.hardware.signals import WheelCommand
 

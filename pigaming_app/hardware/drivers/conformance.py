@@ -54,6 +54,10 @@ class Conformance:
         yield from (self._dead_time(), self._steps(), self._stop(), self._silence(), self._loss())
         yield from (self._restart(), self._other_arcade(), self._end())
 
+    def falls_silent(self) -> bool:
+        """Whether all robots report, drive, and stop by themselves as declared, and in time for matches."""
+        return self._reports().holds is True and self._silence().holds is True
+
     def _reports(self) -> Finding:
         """Telemetry of every robot."""
         self._drive(FOUND, REST)
@@ -88,13 +92,14 @@ class Conformance:
 
     def _silence(self) -> Finding:
         """The robots stop by themselves when the computer falls silent."""
-        latest = 0.0
+        own, latest = self.driver.silence, 0.0
+        declared = f"{_ms(own) if own else 'never'}, by {self.driver.stopped_by}"
         for _ in range(TRIES):
             self._drive(SETTLE + self._random.random() * BEAT, self._random.choice((AHEAD, TURN)))
+            if not all(map(self.stand.powered, self._everybody)):
+                return Finding("silence", declared, "not tried: they do not drive", False)
             latest = max(latest, *self._until_off(pumped=False))
-        own = self.driver.silence
         promised = LONGEST_SILENCE if own is None else own + self.driver.dead_time + BEAT
-        declared = f"{_ms(own) if own else 'never'}, by {self.driver.stopped_by}"
         holds = own is not None and latest <= min(promised, LONGEST_SILENCE)
         return Finding("silence", declared, _ms(latest) if latest < NEVER else "never", holds)
 
