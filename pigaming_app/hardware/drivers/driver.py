@@ -6,6 +6,7 @@ what is declared here.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING
 
 from pigaming_app.hardware.robot_kinds import DEFAULT, RobotKind
@@ -61,6 +62,17 @@ class RobotDriver:
     title: str = ""
     stand: "Callable[[int], RobotStand] | None" = None
 
+    def __post_init__(self) -> None:
+        """Raises TypeError or ValueError with the name of a field that has a wrong value."""
+        for name, kind in (("name", str), ("stopped_by", str), ("title", str), ("serial", bool), ("kind", RobotKind)):
+            _require(name, value := getattr(self, name), isinstance(value, kind), f"a {kind.__name__}")
+        _require("open", self.open, callable(self.open), "a function of a LinkSite")
+        _require("stand", self.stand, self.stand is None or callable(self.stand), "a function of a seed, or None,")
+        _require("silence", self.silence, self.silence is None or _is_number(self.silence), "a number, or None,")
+        _require_number("dead_time", self.dead_time)
+        for name in ("warn_mv", "stop_mv", "radius_mm", "wheel_mm", "base_mm"):
+            _require_number(f"kind.{name}", getattr(self.kind, name), above=0.0 if name.endswith("_mm") else -1.0)
+
     @property
     def problem(self) -> OperatorMessage | None:
         """Why its robots cannot play matches by what it declares, or None; see also `fitness.match_problem`."""
@@ -71,3 +83,20 @@ class RobotDriver:
             own, most = f"{1000 * self.silence:.0f}", f"{1000 * LONGEST_SILENCE:.0f}"
             return OperatorMessage("driver_late", name=name, own=own, most=most)
         return None
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _require(name: str, value: object, fits: bool, needed: str) -> None:
+    if not fits:
+        raise TypeError(f"{name} = {value!r}: {needed} is needed")
+
+
+def _require_number(name: str, value: object, above: float = -1.0) -> None:
+    """Raises TypeError, or ValueError for one that is infinite, or 0 or less; 0 will do if `above` is less."""
+    _require(name, value, _is_number(value), "a number")
+    assert isinstance(value, int | float)
+    if not (0.0 <= value < inf and value > above):
+        raise ValueError(f"{name} = {value}")

@@ -13,7 +13,7 @@ from pigaming_app.hardware.drivers.ours import OURS
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.plugins.time_limit import time_limit
 
-LIMIT = 5.0  # s for the trial; that of the example takes 0.1
+LIMIT = 10.0  # s for the trial; that of the example takes 0.1
 
 log = logging.getLogger("pigaming")
 

@@ -25,7 +25,7 @@ from pigaming_app.jobs.terminal.refusal import Refusal
 from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.web import wifi
 
-KINDS_OF_XBEES = {"3pi_2040", "zumo_2040"}
+XBEES = {"3pi_2040", "zumo_2040"}
 ROOT = Path(__file__).resolve().parents[3]
 
 
@@ -120,7 +120,7 @@ def test_what_is_printed_as_the_next_step_is_a_command(
     settings.save(folders().config)
     usb_setup._print_next(RobotsOptions(robot=3, no_wait=True), board)
     commands = re.findall(r": python3 main\.py robots (.*)", capsys.readouterr().out)
-    assert len(commands) == 2 if {board} <= KINDS_OF_XBEES else 1
+    assert len(commands) == (2 if board in XBEES else 1)
     for command in commands:
         parser = Parser(allow_abbrev=False)
         declare_job(parser, robots)
