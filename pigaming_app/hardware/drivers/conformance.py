@@ -43,7 +43,8 @@ class Conformance:
     def __init__(self, driver: RobotDriver, stand: RobotStand, seed: int = 1) -> None:
         self.driver, self.stand, self._random = driver, stand, Random(f"conformance {seed}")
         self._everybody = range(stand.robots)
-        self._due = stand.clock()
+        self._beat = 1.0 / driver.rate
+        stand.link.pace(driver.rate)
 
     def run(self) -> Iterator[Finding]:
         """Try each promise in turn. The stand is of no use afterwards: the last one closes the link."""
@@ -70,8 +71,9 @@ class Conformance:
     def _dead_time(self) -> Finding:
         times = [time for _ in range(TRIES) for time in self._reaction(AHEAD, True)]
         found, declared = median(times), self.driver.dead_time
-        fits = abs(found - declared) <= TOLERANCE and max(times) < declared + BEAT + 2.0 * TOLERANCE
-        return Finding("dead time", _ms(declared), f"{_ms(found)}, at most {_ms(max(times))}", fits)
+        told = f"{_ms(declared)}, at {self.driver.rate:g} commands a second"
+        fits = abs(found - self.driver.delay) <= TOLERANCE and max(times) < declared + self._beat + 2.0 * TOLERANCE
+        return Finding("dead time", told, f"{_ms(found)}, at most {_ms(max(times))}", fits)
 
     def _steps(self) -> Finding:
         """Speeds ahead, back and in turns follow the command."""
@@ -87,7 +89,7 @@ class Conformance:
     def _stop(self) -> Finding:
         """A commanded stop."""
         latest = max(time for _ in range(TRIES) for time in self._reaction(REST, False))
-        longest = self.driver.dead_time + BEAT + 2.0 * TOLERANCE
+        longest = self.driver.dead_time + self._beat + 2.0 * TOLERANCE
         return Finding("stop", f"within {_ms(longest)}", _ms(latest), latest <= longest)
 
     def _silence(self) -> Finding:
@@ -95,11 +97,11 @@ class Conformance:
         own, latest = self.driver.silence, 0.0
         declared = f"{_ms(own) if own else 'never'}, by {self.driver.stopped_by}"
         for _ in range(TRIES):
-            self._drive(SETTLE + self._random.random() * BEAT, self._random.choice((AHEAD, TURN)))
+            self._drive(SETTLE + self._random.random() * self._beat, self._random.choice((AHEAD, TURN)))
             if not all(map(self.stand.powered, self._everybody)):
                 return Finding("silence", declared, "not tried: they do not drive", False)
             latest = max(latest, *self._until_off(pumped=False))
-        promised = LONGEST_SILENCE if own is None else own + self.driver.dead_time + BEAT
+        promised = LONGEST_SILENCE if own is None else own + self.driver.dead_time + self._beat
         holds = own is not None and latest <= min(promised, LONGEST_SILENCE)
         return Finding("silence", declared, _ms(latest) if latest < NEVER else "never", holds)
 
@@ -157,7 +159,7 @@ class Conformance:
 
     def _reaction(self, wheels: WheelCommand, on: bool) -> list[float]:
         """Seconds until each robot obeys a command for all, sent at a random phase of the link's beat."""
-        self._drive(SETTLE + self._random.random() * BEAT, REST if on else AHEAD)
+        self._drive(SETTLE + self._random.random() * self._beat, REST if on else AHEAD)
         began, times = self.stand.clock(), [inf] * self.stand.robots
         for _ in self._passing(0.5 * SETTLE, wheels):
             for robot in self._everybody:

@@ -10,7 +10,7 @@ import pytest
 from examples.lines.driver import DRIVER, Emulated
 from pigaming_app.hardware.drivers import fitness
 from pigaming_app.hardware.drivers.conformance import Conformance
-from pigaming_app.hardware.drivers.driver import LONGEST_SILENCE, RobotDriver
+from pigaming_app.hardware.drivers.driver import LONGEST_SILENCE, LinkSite, RobotDriver
 from pigaming_app.hardware.drivers.ours import OURS
 from pigaming_app.hardware.proof.stands import stand_of
 from pigaming_app.hardware.robot_kinds import DEFAULT
@@ -203,6 +203,43 @@ def test_a_driver_of_ours_needs_no_trial() -> None:
     assert fitness.match_problem(replace(OURS["api2"])) is not None, "a copy is a plug-in's"
 
 
+class Counted(Emulated):
+    """Counts what is written to its line."""
+
+    written = 0
+
+    def write(self, data: bytes) -> int:
+        self.written += 1
+        return super().write(data)
+
+
+@pytest.mark.parametrize("rate", [10.0, 25.0, 50.0])
+def test_a_link_sends_as_often_as_its_driver_declares(rate: float) -> None:
+    stand, seconds = Counted(1), 5
+    driver = replace(DRIVER, rate=rate)
+    link = driver.connect(LinkSite(1, stand.clock, "emulated", open_port=lambda baud: lambda: stand))
+    for _ in range(500 * seconds):
+        link.send([WheelCommand(0.6, 0.6)] * 4)
+        link.pump()
+        stand.advance(0.002)
+    assert stand.written == pytest.approx(rate * seconds, abs=2)
+    assert driver.delay == pytest.approx(DRIVER.dead_time + (1.0 / rate - 0.02) / 2.0)
+
+
+class Lazy(Emulated):
+    """A link that sends ten times a second, whatever it is asked for."""
+
+    def __init__(self, seed: int) -> None:
+        super().__init__(seed)
+        self.link.pace(10.0)
+        self.link.pace = lambda rate: None  # type: ignore[method-assign]
+
+
+def test_a_lower_rate_is_no_fault_but_one_that_is_not_kept() -> None:
+    assert broken(replace(DRIVER, rate=25.0), Emulated) == set()
+    assert {"dead time", "stop"} <= broken(DRIVER, Lazy)
+
+
 SIXTY: Any = "60"
 NONE: Any = None
 
@@ -213,15 +250,18 @@ NONE: Any = None
         ({"silence": "0.2"}, "silence = '0.2': a number, or None, is needed"),
         ({"silence": True}, "silence = True: a number, or None, is needed"),
         ({"dead_time": "x"}, "dead_time = 'x': a number is needed"),
-        ({"dead_time": float("nan")}, "dead_time = nan"),
-        ({"dead_time": -0.01}, "dead_time = -0.01"),
+        ({"dead_time": float("nan")}, "dead_time = nan: 0 to 10 is needed"),
+        ({"dead_time": -0.01}, "dead_time = -0.01: 0 to 10 is needed"),
+        ({"rate": 51.0}, "rate = 51.0: 1 to 50 is needed"),
+        ({"rate": "50"}, "rate = '50': a number is needed"),
+        ({"marker_mm": 101}, "marker_mm = 101: -100 to 100 is needed"),
         ({"stand": 7}, "stand = 7: a function of a seed, or None, is needed"),
         ({"open": "connect"}, "open = 'connect': a function of a LinkSite is needed"),
         ({"title": None}, "title = None: a str is needed"),
         ({"serial": 1}, "serial = 1: a bool is needed"),
         ({"kind": "3pi"}, "kind = '3pi': a RobotKind is needed"),
         ({"kind": DEFAULT._replace(radius_mm=SIXTY)}, "kind.radius_mm = '60': a number is needed"),
-        ({"kind": DEFAULT._replace(radius_mm=0.0)}, "kind.radius_mm = 0.0"),
+        ({"kind": DEFAULT._replace(radius_mm=0.0)}, "kind.radius_mm = 0.0: 1 to 100000 is needed"),
         ({"kind": DEFAULT._replace(warn_mv=NONE)}, "kind.warn_mv = None: a number is needed"),
     ],
 )
