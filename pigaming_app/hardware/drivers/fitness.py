@@ -7,7 +7,6 @@ process: `robots check` without what has nothing to do with silence.
 import logging
 from functools import cache
 
-from pigaming_app.hardware.drivers.conformance import Conformance
 from pigaming_app.hardware.drivers.driver import RobotDriver
 from pigaming_app.hardware.drivers.ours import OURS
 from pigaming_app.storage.messages import OperatorMessage
@@ -31,6 +30,8 @@ def match_problem(driver: RobotDriver) -> OperatorMessage | None:
 
 def _stops(driver: RobotDriver) -> bool:
     """Whether the emulated robots of a plug-in's driver stop in time; false also if its code fails or does not end."""
+    from pigaming_app.hardware.drivers.conformance import Conformance  # late: it needs NumPy
+
     assert driver.stand is not None
     try:
         with time_limit(LIMIT):

@@ -8,7 +8,6 @@ from typing import Any
 
 from pigaming_app.hardware.drivers.ours import RELAY, UDP
 from pigaming_app.hardware.radio.packets import ROBOTS
-from pigaming_app.hardware.radio.xbee_protocol import XBeeMode
 from pigaming_app.jobs.mat.sessions import real_session
 from pigaming_app.jobs.terminal.options import flag, integer, option, word
 from pigaming_app.jobs.terminal.refusal import Refusal, refused, require
@@ -95,6 +94,7 @@ def _print_next(options: Any, kind: str) -> None:
     """Print what comes next for a board of this kind. Raises Refusal if it is not in the network."""
     from pigaming_app.hardware.commissioning.board_setup import KINDS
     from pigaming_app.hardware.commissioning.boards.kind import MICROBIT, WIFI, XBEE
+    from pigaming_app.hardware.radio.xbee_protocol import XBeeMode
 
     chosen = Settings.load(folders().config)[0].radio
     xbee = chosen if chosen in [*XBeeMode] else XBeeMode.API2
