@@ -30,6 +30,7 @@ KINDS = (
     RobotKind("3pi", "Pololu 3pi", ("xbee",), (), 4400, 4000, 47.5),
     RobotKind("esp32", "ESP32", ("wifi", "xbee"), (1,), 4400, 4000, 60.0),
     RobotKind("pico_w", "Pico W", ("wifi", "xbee"), (2,), 4400, 4000, 60.0),
+    RobotKind("kit", "Kit", ("wifi",), (), 4400, 4000, 47.5),  # a Pico W on the chassis of docs/kit.md
     RobotKind("3pi_2040", "Pololu 3pi+ 2040", ("xbee",), (3,), 4400, 4000, 49.0),
     RobotKind("zumo_2040", "Pololu Zumo 2040", ("xbee",), (), 4400, 4000, 70.0),  # 99 mm square: half its diagonal
     RobotKind("microbit", "micro:bit", ("relay",), (4,), 4600, 4400, 60.0),  # its motor board needs 4.5 V
@@ -80,6 +81,8 @@ def set_up_command(robot: int, arena: int, radio: str, kind: str = "") -> str:
         return f"python3 main.py robots --wifi-config {robot} --out config.py"
     if radio == "thymio":
         return "python3 main.py robots --radio thymio"
+    if kind in ("3pi_2040", "zumo_2040"):
+        return f"python3 main.py robots setup --robot {robot}"
     if radio == "relay" or kind in ("microbit", *CHASSIS):
         chassis = f"--chassis {kind} " if kind in CHASSIS else ""
         return f"python3 main.py robots --microbit {robot} {chassis}--out robot{robot}.py"

@@ -43,6 +43,14 @@ def set_up(port: str, board: str, files: Callable[[str], Mapping[str, bytes]], t
     return _repeated(lambda: _set_up(port, board, files, tell))
 
 
+def kind_for_settings(board: str, before: str) -> str:
+    """The key in `robot_kinds` of a robot whose board was set up as one of KINDS (not the relay).
+
+    `before`: that of the settings. A kit's board looks like any Pico W, so a robot stays a kit.
+    """
+    return before if (board, before) == ("pico_w", "kit") else board
+
+
 def try_on_blocks(port: str, board: str, tell: Callable[[str], None]) -> int:
     """Turn the wheels of the robot at a port, which stands on blocks, and light its lamp; then start its program.
 

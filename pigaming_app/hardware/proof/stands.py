@@ -35,7 +35,7 @@ class _ArenaStand:
         self.arena = EmulatedArena(seed, channel=channel)
         self.clock, self.network = self.arena.clock, None
         site = LinkSite(self.arena.arena_id, self.clock, "EMU0", open_port=self._port, network=self._new_network)
-        self.link = driver.open(site)
+        self.link = driver.connect(site)
 
     def advance(self, seconds: float) -> None:
         self.arena.advance(seconds)
@@ -88,7 +88,7 @@ class RelayStand:
     def __init__(self, driver: RobotDriver, seed: int) -> None:
         self.air = MicrobitAir(ROBOTS, ARENA_ID, seed)
         self.clock, self._count = self.air.clock, 0
-        self.link = driver.open(LinkSite(ARENA_ID, self.clock, "EMU0", open_port=lambda baud: self.air.open))
+        self.link = driver.connect(LinkSite(ARENA_ID, self.clock, "EMU0", open_port=lambda baud: self.air.open))
 
     def advance(self, seconds: float) -> None:
         self.air.advance(seconds)
@@ -124,7 +124,7 @@ class ThymioStand:
         self.dongle = dongle or Dongle(NODES, seed)
         self.robots, self.clock, self.advance = ROBOTS, self.dongle.clock, self.dongle.advance
         self.switch = self.dongle.switch
-        self.link = driver.open(LinkSite(ARENA_ID, self.clock, "EMU0", open_port=lambda baud: self.dongle.open))
+        self.link = driver.connect(LinkSite(ARENA_ID, self.clock, "EMU0", open_port=lambda baud: self.dongle.open))
         self._count = 0
 
     def powered(self, robot: int) -> bool:

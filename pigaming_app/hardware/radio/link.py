@@ -20,7 +20,7 @@ from pigaming_app.storage.messages import OperatorMessage
 if TYPE_CHECKING:
     from pigaming_app.hardware.radio.wifi import WifiNetwork
 
-BEAT = 0.02  # s between two transmissions
+BEAT = 0.02  # s between two transmissions, unless a driver declares a lower rate
 PATIENCE = 0.1  # s without a new command after which the link sends stop
 FAREWELLS = 5  # stop commands sent when the link ends
 HEARD = 1.0  # s for which a report counts
@@ -32,6 +32,7 @@ class CommandLink:
     """A link to robots: a mailbox that a thread empties until `close`, and what has come back."""
 
     network: "WifiNetwork | None" = None  # of robots that have to be found first
+    beat = BEAT  # s between two transmissions
     wait = 0.0  # s, recent mean from posting a command to its transmission
 
     def __init__(self, clock: Clock) -> None:
@@ -69,8 +70,12 @@ class CommandLink:
             raise ValueError(f"{len(wheels)} robots; there are at most {ROBOTS}")
         self._mail = self._clock(), (*wheels, *NOBODY[len(wheels) :])
 
+    def pace(self, rate: float) -> None:
+        """Send so many commands a second from here on."""
+        self.beat = 1.0 / rate
+
     def pump(self) -> None:
-        """Read, and send when due. Never blocks, never raises."""
+        """Read, and send every `beat` s. Never blocks, never raises."""
         raise NotImplementedError
 
     def start(self) -> Self:
@@ -173,7 +178,7 @@ class Link(CommandLink):
         self._protocol.receive(self._line.read(), now)
         self._listened = now
         if now >= self._due:
-            self._due = self._due + BEAT if now < self._due + BEAT else now + BEAT
+            self._due = self._due + self.beat if now < self._due + self.beat else now + self.beat
             posted, wheels = self._mail
             if posted > self._posted:
                 self._posted = posted

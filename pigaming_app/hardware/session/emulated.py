@@ -145,9 +145,9 @@ class EmulatedSession(RobotSession):
             driver, kind = self._fleet.driver, self._fleet.kind
             network = partial(self._wifi_network, self._wifi) if self._wifi else None
             site = LinkSite(arena.arena_id, arena.clock, "EMU0", open_port=lambda _: arena.radio.open, network=network)
-            link = driver.open(site)
+            link = driver.connect(site)
             camera = EmulatedCalibrationSite(self.seed, self.live, arena).open(0, kept=ground.quality.kept)
-            trains = [unmeasured(kind, ground.mm, driver.dead_time)] * ROBOTS
+            trains = [unmeasured(kind, ground.mm, driver.delay)] * ROBOTS
             self._rig = new_rig(camera, link, ground, arena.clock, trains, self._tracker, usual=kind)
             if self._time is not None:
                 self._rig.start()

@@ -72,7 +72,16 @@ class RealSession(RobotSession):
                 camera = SizedCamera(Camera(self.settings.camera, kept=ground.quality.kept), ground)
                 try:
                     link, kinds = self._new_link(), self.settings.kinds
-                    rig = new_rig(camera, link, ground, time.monotonic, drivetrains, kinds=kinds, usual=self.usual)
+                    rig = new_rig(
+                        camera,
+                        link,
+                        ground,
+                        time.monotonic,
+                        drivetrains,
+                        kinds=kinds,
+                        usual=self.usual,
+                        marker_mm=driver_of(self.settings).marker_mm,
+                    )
                 except BaseException:
                     camera.close()
                     raise
@@ -104,9 +113,9 @@ class RealSession(RobotSession):
         from pigaming_app.hardware.control.rig import unmeasured
         from pigaming_app.hardware.robot_kinds import robot_kind
 
-        chosen, dead_time = self.settings, driver_of(self.settings).dead_time
+        chosen, delay = self.settings, driver_of(self.settings).delay
         kinds = [robot_kind(chosen.kinds[radio - 1], usual=self.usual) for radio in chosen.radios]
-        return [unmeasured(kind, mm, dead_time) for kind in kinds]
+        return [unmeasured(kind, mm, delay) for kind in kinds]
 
     def open_link(self) -> "CommandLink | None":
         if self._link is None:
@@ -143,7 +152,7 @@ class RealSession(RobotSession):
         driver, chosen = driver_of(self.settings), self.settings
         name = self._port_name() if driver.serial else ""
         site = LinkSite(self.arena_id, time.monotonic, name, chosen.baud, partial(serial_port, name), self._wifi)
-        link = driver.open(site)
+        link = driver.connect(site)
         self.network = link.network
         return link
 

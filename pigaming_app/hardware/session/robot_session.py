@@ -130,14 +130,19 @@ def new_rig(
     tracker: "type[Tracker] | None" = None,
     kinds: "Sequence[str]" = ("",) * ROBOTS,
     usual: "RobotKind | None" = None,
+    marker_mm: float = 0.0,
 ) -> "Rig":
-    """A rig whose tracker also measures camera drift. `kinds`, `usual`: see Rig. Raises OpenCVMissing."""
+    """A rig whose tracker also measures camera drift. `kinds`, `usual`: see Rig; `marker_mm`: see RobotDriver.
+
+    Raises OpenCVMissing.
+    """
     from pigaming_app.hardware.calibration.drift import DriftMonitor
     from pigaming_app.hardware.control.rig import Rig
     from pigaming_app.hardware.tracking.tracker import Tracker
 
     drift = DriftMonitor(ground)
     follower = (tracker or Tracker)(ground, clock, drivetrains, drift)
+    follower.ahead = marker_mm / ground.mm
     return Rig(camera, follower, link, clock, drivetrains, lambda: drift.mm, ground.mm, kinds, usual or DEFAULT)
 
 
@@ -151,9 +156,11 @@ def driver_of(settings: "Settings") -> "RobotDriver":
 
 
 def settings_problem(settings: "Settings") -> OperatorMessage | None:
-    """Operator message if these settings forbid matches (robots that do not stop by themselves), else None."""
+    """Operator message if these settings forbid matches (robots that may not stop by themselves), else None."""
+    from pigaming_app.hardware.drivers.fitness import match_problem
+
     try:
-        return driver_of(settings).problem
+        return match_problem(driver_of(settings))
     except RobotsUnavailable as error:
         return error.message
 

@@ -42,6 +42,7 @@ class Tracker(PoseFilters):
     """Tracker of the robots 0 to 3. Times are those of `clock`; poses in arena px and rad. Raises OpenCVMissing."""
 
     delay: CameraDelay
+    ahead = 0.0  # px by which the middle of a marker lies ahead of that between the wheels
 
     def __init__(
         self,
@@ -143,7 +144,7 @@ class Tracker(PoseFilters):
         poses = {robot: pose for robot, pose in poses.items() if pose.age < COAST}
         if not poses:
             return {}
-        corners = np.array([_outline(pose, self.ground.marker / self.ground.mm) for pose in poses.values()])
+        corners = np.array([_outline(pose, self.ground.marker / self.ground.mm, self.ahead) for pose in poses.values()])
         seen = self.ground.to_camera(corners.reshape(-1, 2), self.ground.lid).reshape(-1, 4, 2)
         spots = {}
         for (robot, pose), square in zip(poses.items(), seen, strict=True):
@@ -166,13 +167,19 @@ class Tracker(PoseFilters):
             robot = WEARERS[mark.number]
             if isinstance(fix, str):
                 self._rejections[robot, fix] = captured
-            elif not (-OUTSIDE < fix.x < WIDTH + OUTSIDE and -OUTSIDE < fix.y < HEIGHT + OUTSIDE):
+                continue
+            fix = self._between_wheels(fix)
+            if not (-OUTSIDE < fix.x < WIDTH + OUTSIDE and -OUTSIDE < fix.y < HEIGHT + OUTSIDE):
                 self._rejections[robot, "outside"] = captured
             else:
                 fixes[robot].append(fix)
                 if due:
                     self._note_size(fix, self.ground.edge_mm(mark))
         return fixes
+
+    def _between_wheels(self, fix: Fix) -> Fix:
+        """The pose of a robot by that of its marker."""
+        return fix._replace(x=fix.x - self.ahead * cos(fix.heading), y=fix.y - self.ahead * sin(fix.heading))
 
     def _note_size(self, fix: Fix, mm: float) -> None:
         """Note the size of a marker at its place."""
@@ -182,8 +189,9 @@ class Tracker(PoseFilters):
         self._sizes_at[cell] = before + NEW * (mm - before)
 
 
-def _outline(pose: Sighting, edge: float) -> Points:
-    """Corners of a marker on a robot, arena px, (4, 2), in ArUco's order."""
+def _outline(pose: Sighting, edge: float, ahead: float = 0.0) -> Points:
+    """Corners of a marker on a robot, arena px, (4, 2), in ArUco's order. `ahead`: of the middle between the wheels."""
     reach = edge / sqrt(2.0)
     turns = [pose.heading + k * pi / 2.0 for k in (-0.5, 0.5, 1.5, 2.5)]
-    return np.array([(pose.x + reach * cos(turn), pose.y + reach * sin(turn)) for turn in turns])
+    x, y = pose.x + ahead * cos(pose.heading), pose.y + ahead * sin(pose.heading)
+    return np.array([(x + reach * cos(turn), y + reach * sin(turn)) for turn in turns])

@@ -114,8 +114,8 @@ def test_a_cable_that_is_pulled_at_any_byte_does_no_harm(usb: UsbBoard, share: f
         ("rp2", 0, "Raspberry Pi Pico with RP2040", ""),
         ("esp32", 1, "Generic ESP32 module with ESP32", "esp32"),
         ("esp32", 1, "Generic ESP32S3 module with ESP32S3", ""),
-        ("rp2", 0, "Pololu 3pi+ 2040 Robot with RP2040", "pololu_2040"),
-        ("rp2", 0, "Pololu Zumo 2040 Robot with RP2040", "pololu_2040"),
+        ("rp2", 0, "Pololu 3pi+ 2040 Robot with RP2040", "3pi_2040"),
+        ("rp2", 0, "Pololu Zumo 2040 Robot with RP2040", "zumo_2040"),
         ("webassembly", 0, "JS with Emscripten", ""),
     ],
 )

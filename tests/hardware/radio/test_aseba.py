@@ -7,10 +7,10 @@ from random import Random
 
 import pytest
 
+from pigaming_app.hardware.drivers.conformance import Conformance
 from pigaming_app.hardware.drivers.driver import LinkSite
 from pigaming_app.hardware.drivers.ours import OURS
 from pigaming_app.hardware.emulator.thymio import Dongle, EmulatedThymio
-from pigaming_app.hardware.proof.conformance import Conformance
 from pigaming_app.hardware.proof.stands import NODES, ThymioStand
 from pigaming_app.hardware.radio.aseba import AsebaDecoder, drive, message
 from pigaming_app.hardware.radio.link import CommandLink

@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +12,14 @@ import pytest
 from pigaming_app.hardware.calibration.drift import PAUSE, WARN
 from pigaming_app.hardware.calibration.quality import CameraQuality
 from pigaming_app.hardware.control.real_plant import RealPlant
+from pigaming_app.hardware.drivers.ours import OURS
+from pigaming_app.hardware.session import real
 from pigaming_app.hardware.session.emulated import EmulatedSession
 from pigaming_app.hardware.session.lighting import Lighting
 from pigaming_app.hardware.session.real import SizedCamera
 from pigaming_app.hardware.session.robot_session import RobotsUnavailable, camera_warning
 from pigaming_app.hardware.signals import CameraFrame, ExposureKept, ExposureState
+from pigaming_app.hardware.tracking.tracker import Tracker
 from pigaming_app.sim.world import DT, HZ, ROBOTS, World
 from pigaming_app.storage.messages import OperatorMessage
 from pigaming_app.storage.settings import Settings, folders
@@ -54,6 +58,22 @@ def test_robots_that_were_not_identified_are_as_fast_as_their_driver_declares(ho
     assert [train.left.speed * 1.32 for train in trains] == pytest.approx([166.0, 1000.0, 166.0, 166.0])
     assert [train.base * 1.32 for train in trains] == pytest.approx([94.0, 82.0, 94.0, 94.0])
     assert {train.dead_time for train in trains} == {0.1}
+
+
+def test_rate_and_marker_are_those_that_the_driver_declares(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """At 10 commands a second one waits 50 ms on the average; at 50 it is 10 ms, part of the dead time."""
+    calibrate(HERE)
+    driver = replace(OURS["api2"], rate=10.0, marker_mm=13.2)
+    monkeypatch.setattr(real, "driver_of", lambda settings: driver)
+    mat = real_mat()
+    try:
+        rig = mat.open()
+        assert isinstance(rig.tracker, Tracker)
+        assert rig.tracker.ahead == pytest.approx(10.0)  # px of 1.32 mm
+        assert rig.link.beat == pytest.approx(0.1)
+        assert rig.kinematics[0].drivetrain.dead_time == pytest.approx(0.03 + 0.04)
+    finally:
+        mat.end()
 
 
 @pytest.mark.parametrize(

@@ -168,3 +168,14 @@ def test_a_picture_without_robots_costs_nothing_but_time(wide):
     for frame in range(3):
         assert tracker.process(CameraFrame(noise, frame * 0.1, frame)) == []
     assert tracker.process(CameraFrame(np.zeros((8, 8), np.uint8), 1.0, 9)) == []
+
+
+@pytest.mark.parametrize("mm", [20.0, -35.0])
+def test_a_pose_is_between_the_wheels_wherever_the_marker_is(mm):
+    mat, ahead = Mat(), mm / GROUND.mm
+    mat.tracker.ahead = ahead
+    seen = {i: (x + ahead * np.cos(turn), y + ahead * np.sin(turn), turn) for i, (x, y, turn) in enumerate(POSES)}
+    assert mat.show(seen, times=4) == {0, 1, 2, 3}
+    assert max(mat.away(robot, pose)[0] for robot, pose in enumerate(POSES)) < 1.0
+    mat.tracker._searched = mat.tracker._glanced = mat.clock.now + 1.0  # near the predictions alone
+    assert mat.show(seen, times=4) == {0, 1, 2, 3}

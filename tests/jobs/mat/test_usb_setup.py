@@ -1,6 +1,8 @@
 """`robots setup`: a board on USB becomes a robot; and the robot then drives in the emulated network."""
 
 import os
+import re
+import shlex
 import subprocess
 import sys
 import threading
@@ -14,11 +16,24 @@ from pigaming_app.hardware.commissioning import board_setup
 from pigaming_app.hardware.commissioning.boards.usb import BoardOnUsb
 from pigaming_app.hardware.emulator.wifi.boards import NoMicroPython, interpreter
 from pigaming_app.hardware.emulator.wifi.usb import UsbBoard
+from pigaming_app.hardware.radio.xbee_setup import MODES
+from pigaming_app.hardware.robot_kinds import KINDS, robot_kind
+from pigaming_app.jobs.cli import Parser
+from pigaming_app.jobs.mat import robots
 from pigaming_app.jobs.mat.robots import RobotsOptions, usb_setup
+from pigaming_app.jobs.mat.sessions import require_driver
+from pigaming_app.jobs.terminal.options import declare_job
 from pigaming_app.jobs.terminal.refusal import Refusal
+from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.web import wifi
 
+XBEES = {"3pi_2040", "zumo_2040"}
 ROOT = Path(__file__).resolve().parents[3]
+
+
+def kinds(home: Path) -> list[str]:
+    """Those of the settings in this folder."""
+    return Settings.load(home / "config")[0].kinds
 
 
 def setup(home: Path, *words: str, typed: str = "geheim\n") -> subprocess.CompletedProcess[str]:
@@ -35,7 +50,7 @@ def setup(home: Path, *words: str, typed: str = "geheim\n") -> subprocess.Comple
         (("/dev/nothing",), "/dev/nothing is gone or in use"),
         (
             ("--board", "zumo"),
-            "choose from 'pico_w', 'esp32', 'pololu_2040', 'microbit', 'cutebot'",
+            "choose from 'pico_w', 'kit', 'esp32', '3pi_2040', 'zumo_2040', 'microbit'",
         ),
         (("a", "b", "--network", "x"), "one word more"),
         (("/dev/nothing", "--network", "x"), "/dev/nothing is gone or in use"),
@@ -90,10 +105,10 @@ def test_a_board_at_a_port_becomes_robot_three(tmp_path: Path) -> None:
         usb.plug()
         unknown = setup(tmp_path, usb.port, "--network", "Schule", "--no-wait")
         assert unknown.returncode == 2
-        assert "is unknown: choose pico_w, esp32, pololu_2040" in unknown.stderr
+        assert "is unknown: choose pico_w, kit, esp32, 3pi_2040" in unknown.stderr
         assert f"as plain text in {tmp_path}" in unknown.stdout
         usb.plug()
-        words = (usb.port, "--network", "Schule", "--robot", "3", "--board", "pico_w", "--no-wait")
+        words = (usb.port, "--network", "Schule", "--robot", "3", "--board", "kit", "--no-wait")
         done = setup(tmp_path, *words, typed="")
         assert done.returncode == 0, done.stderr
         assert done.stdout.count("written") == 7
@@ -103,6 +118,46 @@ def test_a_board_at_a_port_becomes_robot_three(tmp_path: Path) -> None:
         with BoardOnUsb(usb.port) as board:
             told = board.ask("import config\nprint(config.ROBOT, config.NETWORK, config.PASSWORD, len(config.KEY))")
     assert told == "3 Schule geheim 32"
+    assert kinds(tmp_path) == ["", "", "kit", ""]
+
+
+def test_a_robot_counts_as_wide_as_its_board_says(home: Path) -> None:
+    """Half the diagonal of Pololu's 99 mm square; docs/kit.md: a diameter of 95 mm. Any Pico W may be a kit's."""
+
+    def after(robot: int, board: str) -> float:
+        usb_setup.save_kind(robot, board)
+        kept = Settings.load(folders().config)[0].kinds
+        assert all(kind in (*(one.key for one in KINDS), "") for kind in kept)
+        return robot_kind(kept[robot - 1]).radius_mm
+
+    assert after(2, "zumo_2040") == pytest.approx(99 / 2**0.5, abs=0.1)
+    assert after(2, "pico_w") == 60.0
+    assert after(2, "kit") == 95 / 2
+    assert after(2, "pico_w") == 95 / 2
+    assert after(2, "esp32") == 60.0
+    assert after(3, "cutebot") == 75.0
+    assert Settings.load(folders().config)[0].kinds == ["", "esp32", "cutebot", ""]
+    assert {*board_setup.KINDS} - {"relay"} <= {kind.key for kind in KINDS}
+
+
+@pytest.mark.parametrize("radio", ["api2", "transparent", "udp"])
+@pytest.mark.parametrize("board", board_setup.KINDS)
+def test_what_is_printed_as_the_next_step_is_a_command(
+    home: Path, capsys: pytest.CaptureFixture[str], board: str, radio: str
+) -> None:
+    settings = Settings(radio=radio)
+    settings.save(folders().config)
+    usb_setup._print_next(RobotsOptions(robot=3, no_wait=True), board)
+    commands = re.findall(r": python3 main\.py robots (.*)", capsys.readouterr().out)
+    assert len(commands) == (2 if board in XBEES else 1)
+    for command in commands:
+        parser = Parser(allow_abbrev=False)
+        declare_job(parser, robots)
+        asked = parser.parse_args(shlex.split(command))
+        if asked.check != ["setup"]:
+            driver = require_driver(asked.radio)
+            assert asked.radio_setup is None or driver.name in MODES
+            assert 3 in (asked.wheels, asked.radio_setup)
 
 
 @pytest.mark.long
@@ -112,16 +167,17 @@ def test_a_pololu_becomes_robot_two_without_a_network(tmp_path: Path) -> None:
     except NoMicroPython as reason:
         pytest.skip(str(reason))
     with UsbBoard() as usb:
-        done = setup(tmp_path, usb.port, "--robot", "2", "--board", "pololu_2040", typed="")
+        done = setup(tmp_path, usb.port, "--robot", "2", "--board", "zumo_2040", typed="")
         assert done.returncode == 0, done.stderr
         assert [line.split()[0] for line in done.stdout.splitlines() if "written" in line] == [
             *("motors.py", "serial_radio.py", "robot.py", "board.py", "config.py", "main.py")
         ]
-        assert "main.py robots --radio-setup 2" in done.stdout
+        assert "python3 main.py robots --radio api2 --radio-setup 2" in done.stdout
         usb.plug()
         with BoardOnUsb(usb.port) as board:
             told = board.ask("import config\nprint(config.ROBOT, config.RADIO, config.ARENA > 0)")
     assert told == "2 serial_radio True"
+    assert kinds(tmp_path) == ["", "zumo_2040", "", ""]
 
 
 @pytest.mark.parametrize("keyring", ["Drawer", "Locked"])
@@ -184,5 +240,5 @@ def test_a_microbit_becomes_robot_two_and_is_tried_on_blocks(tmp_path: Path) -> 
         "main.py      written",
         "microbit is robot 2",
         *("left wheel ahead", "right wheel ahead", "both wheels back", "lamp", "battery not measured"),
-        "Then, on blocks: main.py robots --radio relay --wheels 2",
+        "Then, on blocks: python3 main.py robots --radio relay --wheels 2",
     ]

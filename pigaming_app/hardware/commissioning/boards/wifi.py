@@ -1,4 +1,4 @@
-"""Boards with Wi-Fi of their own: Pico W and ESP32."""
+"""Boards with Wi-Fi of their own: Pico W, alone or in the robot of docs/kit.md, and ESP32."""
 
 import re
 from functools import partial
@@ -31,5 +31,6 @@ def _files(board: str, role: RobotRole) -> dict[str, bytes]:
 
 KINDS = {
     "pico_w": BoardKind("Pico W", WIFI, partial(_files, "board_pico_w")),
+    "kit": BoardKind("Kit (Pico W)", WIFI, partial(_files, "board_pico_w")),
     "esp32": BoardKind("ESP32", WIFI, partial(_files, "board_esp32")),
 }

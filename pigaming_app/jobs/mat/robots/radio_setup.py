@@ -4,6 +4,7 @@ import json
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from pigaming_app.hardware.drivers.fitness import match_problem
 from pigaming_app.hardware.radio.packets import LAST_ARENA, ROBOTS
 from pigaming_app.hardware.radio.xbee_frames import CHANNELS
 from pigaming_app.hardware.robot_kinds import set_up_command
@@ -49,7 +50,8 @@ def save_arena(options: RadioSetupOptions) -> Settings:
         raise Refusal("the emulated arena has a number and radios of its own: leave out --emulate")
     if options.emulate is None:
         given |= {"port": options.port} if options.port is not None else {}
-        given |= {"radio": options.radio} if options.radio and require_driver(options.radio).problem is None else {}
+        if options.radio and match_problem(require_driver(options.radio)) is None:
+            given["radio"] = options.radio
     for name, value in given.items():
         settings.choose(name, value)
     if given:

@@ -6,6 +6,7 @@ from contextlib import closing
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
+from pigaming_app.hardware.drivers.ours import RELAY, UDP
 from pigaming_app.hardware.radio.packets import ROBOTS
 from pigaming_app.jobs.mat.sessions import real_session
 from pigaming_app.jobs.terminal.options import flag, integer, option, word
@@ -19,7 +20,7 @@ from pigaming_app.ui.web import wifi
 
 JOINS = 40.0  # s for a board to start and to join the network
 TICK = 0.1  # s
-BOARDS = ("pico_w", "esp32", "pololu_2040", "microbit", "cutebot", "maqueen", "relay")
+BOARDS = ("pico_w", "kit", "esp32", "3pi_2040", "zumo_2040", "microbit", "cutebot", "maqueen", "relay")
 TURNS = {
     "left": "left wheel ahead",
     "right": "right wheel ahead",
@@ -40,8 +41,8 @@ class UsbSetupOptions:
     )
     password: bool = flag("with setup: ask for the password of the Wi-Fi again")
     board: str | None = option(
-        "with setup: the board, if it is not recognised, or what a micro:bit is plugged into; relay: the one that "
-        "stays at the computer; its file board.py becomes ours again",
+        "with setup: the board, if it is not recognised, or what it is part of: kit is the robot of docs/kit.md; "
+        "relay: the micro:bit that stays at the computer; its file board.py becomes ours again",
         choices=BOARDS,
     )
     on_blocks: bool = flag("with setup: then turn the wheels of the robot, which stands on blocks, over the cable")
@@ -77,24 +78,42 @@ def set_up(options: Any, words: Sequence[str]) -> int:
         if options.on_blocks and kind != "relay":
             millivolts = board_setup.try_on_blocks(port, board, lambda name: print(f"  {TURNS[name]}", flush=True))
             print(f"  battery {f'{millivolts / 1000:.1f} V' if millivolts else 'not measured'}")
+    if kind != "relay":
+        with refused(NotSaved):
+            save_kind(options.robot, kind)
     _print_next(options, kind)
     return 0
+
+
+def save_kind(robot: int, board: str) -> None:
+    """Save the kind of a robot (1 to 4) whose board was set up. Raises NotSaved."""
+    from pigaming_app.hardware.commissioning.board_setup import kind_for_settings
+
+    settings, _ = Settings.load(folders().config)
+    before = settings.kinds[robot - 1]
+    settings.kinds = [*settings.kinds]
+    settings.kinds[robot - 1] = kind_for_settings(board, before)
+    settings.save(folders().config)
 
 
 def _print_next(options: Any, kind: str) -> None:
     """Print what comes next for a board of this kind. Raises Refusal if it is not in the network."""
     from pigaming_app.hardware.commissioning.board_setup import KINDS
     from pigaming_app.hardware.commissioning.boards.kind import MICROBIT, WIFI, XBEE
+    from pigaming_app.hardware.radio.xbee_protocol import XBeeMode
 
-    radio = {WIFI: "udp", XBEE: "xbee", MICROBIT: "relay"}[KINDS[kind].radio]
-    if radio == "udp" and not options.no_wait:
+    chosen = Settings.load(folders().config)[0].radio
+    xbee = chosen if chosen in [*XBeeMode] else XBeeMode.API2
+    radio = {WIFI: UDP, XBEE: str(xbee), MICROBIT: RELAY}[KINDS[kind].radio]
+    if radio == UDP and not options.no_wait:
         print(f"and in the network: {_address(options.robot)}")
-    if radio == "xbee":
-        print(f"Next, with its XBee at this computer: main.py robots --radio-setup {options.robot}")
+    if radio in [*XBeeMode]:
+        command = f"python3 main.py robots --radio {radio} --radio-setup {options.robot}"
+        print(f"Next, with its XBee at this computer: {command}")
     if kind == "relay":
-        print("Next, the micro:bits of the robots: main.py robots setup --robot 1")
+        print("Next, the micro:bits of the robots: python3 main.py robots setup --robot 1")
     else:
-        print(f"Then, on blocks: main.py robots --radio {radio} --wheels {options.robot}")
+        print(f"Then, on blocks: python3 main.py robots --radio {radio} --wheels {options.robot}")
 
 
 def _wifi(options: Any) -> tuple[str, str]:

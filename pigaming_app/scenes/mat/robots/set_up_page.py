@@ -125,6 +125,7 @@ class SetUpPage(SettingsPage):
                 self.context.sounds.play("ready")
                 self.show_message(self._told(work.result))
                 if work.row == "begin" and work.result != "relay":
+                    self._save_kind(str(work.result))
                     self.robot = self.robot % ROBOTS + 1
             self.rewarm()
         return None
@@ -159,6 +160,13 @@ class SetUpPage(SettingsPage):
             return board_setup.files_of(kind, robot, arena, key, settings.phones_wifi, password)
 
         return lambda note: board_setup.set_up(board_setup.only_port(), board, files, lambda name, new: note(name))
+
+    def _save_kind(self, board: str) -> None:
+        """Keep the kind of the robot that this board has become."""
+        kinds = [*self.context.settings.kinds]
+        kinds[self.robot - 1] = board_setup.kind_for_settings(board, kinds[self.robot - 1])
+        self.context.settings.kinds = kinds
+        self.save()
 
     def _try_on_blocks(self) -> Callable[[Note], int]:
         """The test of the board; its value is the battery's voltage, mV."""

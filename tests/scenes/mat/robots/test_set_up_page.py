@@ -18,7 +18,7 @@ from pigaming_app.scenes.mat.robots.menu import RobotsMenu
 from pigaming_app.scenes.mat.robots.set_up_page import SetUpPage
 from pigaming_app.scenes.pages.text_page import TextPage
 from pigaming_app.storage.messages import OperatorMessage
-from pigaming_app.storage.settings import folders
+from pigaming_app.storage.settings import Settings, folders
 from pigaming_app.ui.input.events import Button
 from pigaming_app.ui.web import wifi
 from tests.scenes.arcade import Arcade
@@ -130,6 +130,7 @@ def test_a_board_becomes_robot_two_and_the_next_one_three(
     waited(arcade, page)
     assert page.message == arcade.context.words("board.done", robot=2)
     assert page.robot == 3
+    assert Settings.load(folders().config)[0].kinds == ["", "pico_w", "", ""]
     usb.plug()
     with BoardOnUsb(usb.port) as board:
         assert board.ask("import config\nprint(config.ROBOT, config.NETWORK, config.PASSWORD)") == "2 Hof geheim"
@@ -151,6 +152,7 @@ def test_a_microbit_becomes_robot_one_and_is_tried_on_blocks_without_a_choice(
         monkeypatch.setattr("serial.tools.list_ports.comports", lambda: found)
         waited(arcade, page)
         assert page.message == words("board.done", robot=1)
+        assert Settings.load(folders().config)[0].kinds[0] == "microbit"
         waited(arcade, page, "blocks")
         assert page.message == words("board.tried", volts=words("board.unmeasured"))
         assert len([turn for turn in usb.motors if turn != (0.0, 0.0)]) == 3

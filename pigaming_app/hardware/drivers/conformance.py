@@ -43,7 +43,8 @@ class Conformance:
     def __init__(self, driver: RobotDriver, stand: RobotStand, seed: int = 1) -> None:
         self.driver, self.stand, self._random = driver, stand, Random(f"conformance {seed}")
         self._everybody = range(stand.robots)
-        self._due = stand.clock()
+        self._beat = 1.0 / driver.rate
+        stand.link.pace(driver.rate)
 
     def run(self) -> Iterator[Finding]:
         """Try each promise in turn. The stand is of no use afterwards: the last one closes the link."""
@@ -53,6 +54,10 @@ class Conformance:
             return
         yield from (self._dead_time(), self._steps(), self._stop(), self._silence(), self._loss())
         yield from (self._restart(), self._other_arcade(), self._end())
+
+    def falls_silent(self) -> bool:
+        """Whether all robots report, drive, and stop by themselves as declared, and in time for matches."""
+        return self._reports().holds is True and self._silence().holds is True
 
     def _reports(self) -> Finding:
         """Telemetry of every robot."""
@@ -66,8 +71,9 @@ class Conformance:
     def _dead_time(self) -> Finding:
         times = [time for _ in range(TRIES) for time in self._reaction(AHEAD, True)]
         found, declared = median(times), self.driver.dead_time
-        fits = abs(found - declared) <= TOLERANCE and max(times) < declared + BEAT + 2.0 * TOLERANCE
-        return Finding("dead time", _ms(declared), f"{_ms(found)}, at most {_ms(max(times))}", fits)
+        told = f"{_ms(declared)}, at {self.driver.rate:g} commands a second"
+        fits = abs(found - self.driver.delay) <= TOLERANCE and max(times) < declared + self._beat + 2.0 * TOLERANCE
+        return Finding("dead time", told, f"{_ms(found)}, at most {_ms(max(times))}", fits)
 
     def _steps(self) -> Finding:
         """Speeds ahead, back and in turns follow the command."""
@@ -83,18 +89,19 @@ class Conformance:
     def _stop(self) -> Finding:
         """A commanded stop."""
         latest = max(time for _ in range(TRIES) for time in self._reaction(REST, False))
-        longest = self.driver.dead_time + BEAT + 2.0 * TOLERANCE
+        longest = self.driver.dead_time + self._beat + 2.0 * TOLERANCE
         return Finding("stop", f"within {_ms(longest)}", _ms(latest), latest <= longest)
 
     def _silence(self) -> Finding:
         """The robots stop by themselves when the computer falls silent."""
-        latest = 0.0
-        for _ in range(TRIES):
-            self._drive(SETTLE + self._random.random() * BEAT, self._random.choice((AHEAD, TURN)))
-            latest = max(latest, *self._until_off(pumped=False))
-        own = self.driver.silence
-        promised = LONGEST_SILENCE if own is None else own + self.driver.dead_time + BEAT
+        own, latest = self.driver.silence, 0.0
         declared = f"{_ms(own) if own else 'never'}, by {self.driver.stopped_by}"
+        for _ in range(TRIES):
+            self._drive(SETTLE + self._random.random() * self._beat, self._random.choice((AHEAD, TURN)))
+            if not all(map(self.stand.powered, self._everybody)):
+                return Finding("silence", declared, "not tried: they do not drive", False)
+            latest = max(latest, *self._until_off(pumped=False))
+        promised = LONGEST_SILENCE if own is None else own + self.driver.dead_time + self._beat
         holds = own is not None and latest <= min(promised, LONGEST_SILENCE)
         return Finding("silence", declared, _ms(latest) if latest < NEVER else "never", holds)
 
@@ -152,7 +159,7 @@ class Conformance:
 
     def _reaction(self, wheels: WheelCommand, on: bool) -> list[float]:
         """Seconds until each robot obeys a command for all, sent at a random phase of the link's beat."""
-        self._drive(SETTLE + self._random.random() * BEAT, REST if on else AHEAD)
+        self._drive(SETTLE + self._random.random() * self._beat, REST if on else AHEAD)
         began, times = self.stand.clock(), [inf] * self.stand.robots
         for _ in self._passing(0.5 * SETTLE, wheels):
             for robot in self._everybody:
