@@ -6,7 +6,7 @@ from math import nan
 from typing import Any
 
 from pigaming_app.ai.brain import kind
-from pigaming_app.ai.brain.driving import Driving, point_where_to_go, turn_and_drive
+from pigaming_app.ai.brain.driving import Driving, SteeringHelp, point_where_to_go, turn_and_drive
 from pigaming_app.ai.brain.kind import BrainKind, Traits
 from pigaming_app.sim.kernel import kernel
 
@@ -55,6 +55,7 @@ class GameAI:
     lead: Callable[[Any, int], float] | None = None  # kernel: points by which a seat is ahead; default: of the match
     person: Callable[[Traits], BrainKind] | None = None  # what a person sees and wants; `ai/people` adds the hands
     gun: Gun = NO_GUN  # of the mind of `person`
+    help: SteeringHelp | None = None  # of the model of people who presses keys at random
 
     def __post_init__(self) -> None:
         missing = [name for name in LEVELS if name not in self.kinds]

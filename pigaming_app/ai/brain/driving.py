@@ -5,6 +5,7 @@ the direction of the stick, as seen on the screen. Both depend on the present st
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from math import atan2, cos
 from typing import Any, Protocol
 
@@ -36,6 +37,14 @@ Driving = Callable[[Any, int, Controller], tuple[float, float]]
 """(match state, seat, device) to (linear, angular)."""
 Help = Callable[[Any, int, float, float], tuple[float, float]]
 """(match state, seat, linear, angular) to (linear, angular), with steering help."""
+
+
+@dataclass(frozen=True)
+class SteeringHelp:
+    """Steering help for models of people. `steer`: a kernel, a Help with a record `memory` of the seat besides."""
+
+    memory: type
+    steer: Callable[[Any, int, float, float, Any], tuple[float, float]]
 
 
 def helped(driving: Driving, help_steer: Help) -> Driving:

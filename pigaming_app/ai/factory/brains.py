@@ -15,7 +15,7 @@ from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.factory import foreman
 from pigaming_app.ai.factory.job_choice import PlannerMind
 from pigaming_app.ai.factory.planner import make_reset, think
-from pigaming_app.ai.factory.steering_help import Guide
+from pigaming_app.ai.factory.steering_help import HELP, Guide
 from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT, TURN, GameAI
 from pigaming_app.ai.game_ai import LEVELS as NAMES
 from pigaming_app.ai.networks.files import shipped_brain
@@ -47,5 +47,6 @@ AI = GameAI(
     },
     auto=(BrainKind("easiest", PlannerMind, think, EASIEST), BrainKind("hardest", PlannerMind, think, HARDEST)),
     person=foreman.person,
+    help=HELP,
     chauffeur="planner",
 )

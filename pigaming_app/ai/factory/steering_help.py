@@ -8,10 +8,13 @@ points off the way. At the slot the robot waits for FIRE. A released stick stays
 
 from math import atan2, cos, sin, sqrt
 
-from pigaming_app.ai.factory.navigation import Ways, find_way
+from pigaming_app.ai.brain.driving import SteeringHelp
+from pigaming_app.ai.factory.navigation import FAR, Ways, find_way
 from pigaming_app.games.factory.observation import FactoryObservation, FactorySenses, SlotView, observe
 from pigaming_app.games.factory.state import DAMAGED, DONE, ENTRY, EXIT, INPUT, OUTPUT, RAW, SHARED, A, B, Factory
 from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
 
 PERIOD = 5  # ticks between two choices of a slot
 LEAN = 0.5  # rad by which a full turn of the stick moves the direction that counts as ahead
@@ -28,6 +31,16 @@ AT = 26.0  # px between fork and slot within which it waits
 WAITING, LEAVING = 0.1, 0.4  # share of forward stick and turn, and of reverse, at the slot
 
 
+@record
+class View:
+    """Where the help leads one seat."""
+
+    target: int  # 1 + the slot, 0: none is useful
+    observation: FactoryObservation
+    senses: FactorySenses
+    ways: Ways
+
+
 class Guide:
     """Steering help of all seats. Reads matches only."""
 
@@ -39,54 +52,61 @@ class Guide:
         """The stick of `seat`, both axes in [-1, 1], after the help in this tick."""
         if match is not self._match:
             self._match, self._views = match, {}
-        if not linear and not angular:
-            return 0.0, 0.0
-        view = self._views.setdefault(seat, View())
-        if match.tick % PERIOD == 0 or view.target < 0:
-            view.look(match, seat, angular)
-        return view.lead(match, seat, linear, angular) if view.target >= 0 else (linear, angular)
+        return steer(match, seat, linear, angular, self._views.setdefault(seat, View()))
 
 
-class View:
-    """Where the help leads one seat."""
-
-    def __init__(self) -> None:
-        self.target = -1  # slot, -1: none is useful
-        self._observation, self._senses, self._ways = FactoryObservation(), FactorySenses(), Ways()
-
-    def look(self, match: Factory, seat: int, angular: float) -> None:
-        """Choose the slot, and find the way to it."""
-        obs = self._observation
-        observe(match, seat, self._senses, obs)
-        useful = [s for s in range(obs.slot_count) if _is_useful(obs, obs.slots[s])]
-        keep = {self.target: KEEP * (1.0 - abs(angular))}
-        self.target = min(useful, key=lambda s: _cost(obs, obs.slots[s], angular) - keep.get(s, 0.0), default=-1)
-        if self.target >= 0:
-            slot = obs.slots[self.target]
-            find_way(match, match.robots[seat], obs, self._ways, slot.x, slot.y)
-
-    def lead(self, match: Factory, seat: int, linear: float, angular: float) -> tuple[float, float]:
-        """The stick on the way to the slot."""
-        robot, obs = match.robots[seat], self._observation
-        slot = obs.slots[self.target]
-        dx, dy = slot.x - robot.x, slot.y - robot.y
-        fork_x, fork_y = dx - obs.fork * cos(robot.heading), dy - obs.fork * sin(robot.heading)
-        if fork_x * fork_x + fork_y * fork_y < AT * AT:
-            return linear * (WAITING if linear > 0.0 else LEAVING), angular * WAITING
-        off = turn_to(atan2(obs.waypoint_y - robot.y, obs.waypoint_x - robot.x) - robot.heading)
-        distance = sqrt(dx * dx + dy * dy)
-        if abs(off) < ALONG and not (obs.straight and distance - obs.fork < CLOSE):
-            linear = linear if linear > 0.0 else -COAST * linear if linear else abs(angular)
-        if linear > 0.0:
-            linear = min(linear, _speed(obs, off, distance))
-        share = _share(off, angular)
-        return linear, angular + share * (max(-1.0, min(1.0, TURN * off)) - angular)
+@kernel
+def steer(match: Factory, seat: int, linear: float, angular: float, view: View) -> tuple[float, float]:
+    """The same as a kernel, with the view of the seat."""
+    if linear == 0.0 and angular == 0.0:
+        return 0.0, 0.0
+    if match.tick % PERIOD == 0 or not view.target:
+        _look(match, seat, angular, view)
+    return _lead(match, seat, linear, angular, view) if view.target else (linear, angular)
 
 
+@kernel
+def _look(match: Factory, seat: int, angular: float, view: View) -> None:
+    """Choose the slot, and find the way to it."""
+    obs = view.observation
+    observe(match, seat, view.senses, obs)
+    target, least = 0, FAR
+    for s in range(obs.slot_count):
+        slot = obs.slots[s]
+        if _is_useful(obs, slot):
+            cost = _cost(obs, slot, angular) - (KEEP * (1.0 - abs(angular)) if view.target == s + 1 else 0.0)
+            if cost < least:
+                target, least = s + 1, cost
+    view.target = target
+    if target:
+        slot = obs.slots[target - 1]
+        find_way(match, match.robots[seat], obs, view.ways, slot.x, slot.y)
+
+
+@kernel
+def _lead(match: Factory, seat: int, linear: float, angular: float, view: View) -> tuple[float, float]:
+    """The stick on the way to the slot."""
+    robot, obs = match.robots[seat], view.observation
+    slot = obs.slots[view.target - 1]
+    dx, dy = slot.x - robot.x, slot.y - robot.y
+    fork_x, fork_y = dx - obs.fork * cos(robot.heading), dy - obs.fork * sin(robot.heading)
+    if fork_x * fork_x + fork_y * fork_y < AT * AT:
+        return linear * (WAITING if linear > 0.0 else LEAVING), angular * WAITING
+    off = turn_to(atan2(obs.waypoint_y - robot.y, obs.waypoint_x - robot.x) - robot.heading)
+    distance = sqrt(dx * dx + dy * dy)
+    if abs(off) < ALONG and not (obs.straight and distance - obs.fork < CLOSE):
+        linear = linear if linear > 0.0 else -COAST * linear if linear < 0.0 else abs(angular)
+    if linear > 0.0:
+        linear = min(linear, _speed(obs, off, distance))
+    share = _share(off, angular)
+    return linear, angular + share * (max(-1.0, min(1.0, TURN * off)) - angular)
+
+
+@kernel
 def _is_useful(obs: FactoryObservation, slot: SlotView) -> bool:
     """True if the robot has a job there: to lift a pallet, or to set its own down where it gets on."""
     if not obs.carries:
-        return bool(slot.lift and 0 < slot.holds <= DAMAGED and slot.kind in (ENTRY, OUTPUT, SHARED))
+        return bool(slot.lift != 0 and 0 < slot.holds <= DAMAGED and slot.kind in (ENTRY, OUTPUT, SHARED))
     state = obs.carries - 1
     if not slot.put:
         return False
@@ -95,6 +115,7 @@ def _is_useful(obs: FactoryObservation, slot: SlotView) -> bool:
     return slot.kind == INPUT and slot.makes == (A if state == RAW else B)
 
 
+@kernel
 def _cost(obs: FactoryObservation, slot: SlotView, angular: float) -> float:
     """Distance of a slot, and more for one that is not ahead, px."""
     dx, dy = slot.x - obs.x, slot.y - obs.y
@@ -102,6 +123,7 @@ def _cost(obs: FactoryObservation, slot: SlotView, angular: float) -> float:
     return sqrt(dx * dx + dy * dy) + PER_RAD * abs(off)
 
 
+@kernel
 def _speed(obs: FactoryObservation, off: float, distance: float) -> float:
     """Highest forward stick: less for a turn, and short of the slot."""
     speed = max(0.1, 1.0 - 0.9 * max(0.0, abs(off) - STRAIGHT))
@@ -113,8 +135,12 @@ def _speed(obs: FactoryObservation, off: float, distance: float) -> float:
     return min(speed, short / 40.0) if short < 20.0 else speed
 
 
+@kernel
 def _share(off: float, angular: float) -> float:
     """Share of the way's turn in the stick."""
     if angular * off < 0.0:
         return LEAD * min(1.0, abs(off) / STRAY[1]) if abs(off) > STRAY[0] else 0.0
     return LEAD * (1.0 - abs(angular)) if abs(off) < ALONG else 0.0
+
+
+HELP = SteeringHelp(View, steer)

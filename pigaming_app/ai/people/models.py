@@ -1,7 +1,7 @@
 """People by name, for every game whose AIs say what a person wants: `beginner`, `player`, `expert`, and `masher`.
 
-`masher` presses keys at random. The others are a brain of the game, which sees and wants, and hands between its wish
-and the robot.
+`masher` presses keys at random, with steering help where a game has it. The others are a brain of the game, which sees
+and wants, and hands between its wish and the robot.
 """
 
 from collections.abc import Callable, Mapping
@@ -10,6 +10,7 @@ from functools import cache
 from math import exp
 from typing import Any
 
+from pigaming_app.ai.brain.driving import SteeringHelp
 from pigaming_app.ai.brain.kind import BrainKind, NoWeights, Traits
 from pigaming_app.ai.game_ai import POINT, TURN, GameAI
 from pigaming_app.ai.people.hands import Hands, move
@@ -54,7 +55,7 @@ PEOPLE: Mapping[str, PersonModel] = {
 
 def people(ai: GameAI) -> dict[str, BrainKind]:
     """The people of a game by name; `masher` alone if its AIs do not say what a person wants."""
-    found = {MASHER.name: MASHER}
+    found = {MASHER.name: helped_masher(ai.help) if ai.help else MASHER}
     if ai.person:
         found |= {name: person_brain(name, ai.person, person) for name, person in PEOPLE.items()}
     return found
@@ -173,3 +174,31 @@ def think(match: MatchState, seat: int, mind: MasherMind, weights: NoWeights) ->
 
 
 MASHER = BrainKind("masher", MasherMind, think)
+
+
+def helped_masher(steering: SteeringHelp) -> BrainKind:
+    """Keys at random with steering help."""
+
+    def reset(mind: Any, seed: int) -> None:
+        MASHER.begin(mind.inner, seed)
+
+    return BrainKind(MASHER.name, _helped_record(steering.memory), _make_helped(steering.steer), reset)
+
+
+@cache
+def _helped_record(memory: type) -> type:
+    hints = {"inner": MasherMind, "memory": memory}
+    return record(type("HelpedMind", (), {"__annotations__": hints, "__module__": __name__}))
+
+
+@cache
+def _make_helped(steer: Callable[[Any, int, float, float, Any], tuple[float, float]]) -> Any:
+    """The decision function of keys at random with this help."""
+
+    def press_with_help(match: MatchState, seat: int, mind: Any, weights: NoWeights) -> None:
+        think(match, seat, mind.inner, weights)
+        action = match.actions[seat]
+        linear, angular = steer(match, seat, action.linear, action.angular, mind.memory)
+        set_action(action, linear, angular, action.fire, action.turbo)
+
+    return kernel(press_with_help)

@@ -13,7 +13,7 @@ from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, ONE_BUTTON, POINT
 from pigaming_app.ai.game_ai import LEVELS as NAMES
 from pigaming_app.ai.networks.files import shipped_brain
 from pigaming_app.ai.race.racer import HAND1, HAND2, HAND3, Driver, lead, person, racer
-from pigaming_app.ai.race.steering_help import helped_stick
+from pigaming_app.ai.race.steering_help import HELP, helped_stick
 
 NETWORK = "race"  # in assets/brains
 driver = partial(Driver, form=0.15, spell=0.45, boost=0.15, reaction=(5, 30), care=0.03)
@@ -24,7 +24,7 @@ DRIVERS = (
     driver(speed=0.875, line=1.0, spread=6.0, delay=0.1, mistakes=0.0, foresight=290.0, alert=0.35),
     driver(speed=1.0, line=1.0, spread=4.0, delay=0.05, mistakes=0.0, foresight=380.0, alert=1.0),
 )
-EASIEST = driver(speed=0.46, line=0.85, spread=14.0, delay=0.3, mistakes=0.01, foresight=180.0, alert=0.05)
+EASIEST = driver(speed=0.28, line=0.85, spread=14.0, delay=0.3, mistakes=0.01, foresight=180.0, alert=0.05)
 HARDEST = driver(
     form=0.005, spell=0.01, care=0.02, line=1.0, spread=2.0, delay=0.05, mistakes=0.0, foresight=400.0, alert=1.0
 )
@@ -45,5 +45,6 @@ AI = GameAI(
     auto=(racer("easiest", EASIEST), racer("hardest", HARDEST)),
     lead=lead,
     person=person,
+    help=HELP,
     chauffeur="hand3",
 )

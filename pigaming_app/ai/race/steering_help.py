@@ -9,10 +9,13 @@ to a missed line is never changed.
 
 from math import atan2, cos, sin, sqrt
 
+from pigaming_app.ai.brain.driving import SteeringHelp
 from pigaming_app.games.race.course import CoursePosition, locate
 from pigaming_app.games.race.observation import TrackPoint, observe_mark
 from pigaming_app.games.race.state import Race
 from pigaming_app.sim.angles import turn_to
+from pigaming_app.sim.kernel import kernel
+from pigaming_app.sim.record import record
 
 LOOK = 130.0  # px along the course to the point of the line that is steered for
 SOON = 0.3  # s, prediction of where a robot comes near the edge
@@ -29,22 +32,35 @@ BACK = 0.3  # share of the reverse stick of a robot that stands there
 TURNED = 1.75  # rad between robot and course above which a person is turning round and is left alone
 
 
+@record
+class Sight:
+    """What the help looks at in a tick; nothing of it lasts."""
+
+    here: CoursePosition
+    soon: CoursePosition
+    mark: TrackPoint
+
+
 def helped_stick(match: Race, seat: int, linear: float, angular: float) -> tuple[float, float]:
     """The stick of `seat`, both axes in [-1, 1], after the help in this tick. Reads the match only."""
-    robot, racer = match.robots[seat], match.racers[seat]
+    return steer(match, seat, linear, angular, Sight())
+
+
+@kernel
+def steer(match: Race, seat: int, linear: float, angular: float, sight: Sight) -> tuple[float, float]:
+    """The same as a kernel, with a record to look with."""
+    robot, racer, place, soon = match.robots[seat], match.racers[seat], sight.here, sight.soon
     if racer.missed or racer.finished:
         return linear, angular
-    place = CoursePosition()
     locate(match.course, robot.x, robot.y, place)
     turned = turn_to(robot.heading - atan2(place.tangent_y, place.tangent_x))
     off = abs(turned)
     if off < ALONG and linear <= 0.0:
         back = -COAST if robot.linear > ROLLING * match.rules.speed else BACK
-        linear = back * linear if linear else ROLL * abs(angular)
+        linear = back * linear if linear < 0.0 else ROLL * abs(angular)
     if linear <= 0.0 or off > TURNED:
         return linear, angular
-    ideal_linear, ideal_angular = _stick_to_line(match, seat, place)
-    soon = CoursePosition()
+    ideal_linear, ideal_angular = _stick_to_line(match, seat, place, sight.mark)
     locate(
         match.course,
         robot.x + SOON * robot.linear * cos(robot.heading),
@@ -57,6 +73,7 @@ def helped_stick(match: Race, seat: int, linear: float, angular: float) -> tuple
     return linear + share * (ahead - linear), angular + share * (ideal_angular - angular)
 
 
+@kernel
 def _share(place: CoursePosition) -> float:
     """Share of the line's stick at full forward stick, by the distance to the edge."""
     inside = place.half - abs(place.aside)
@@ -64,12 +81,13 @@ def _share(place: CoursePosition) -> float:
     return CENTRE_SHARE + near * (EDGE_SHARE - CENTRE_SHARE)
 
 
-def _stick_to_line(match: Race, seat: int, place: CoursePosition) -> tuple[float, float]:
+@kernel
+def _stick_to_line(match: Race, seat: int, place: CoursePosition, mark: TrackPoint) -> tuple[float, float]:
     """The stick for the arc to the fastest line LOOK px ahead: highest forward stick and turn.
 
     Source of pure pursuit: Coulter, CMU-RI-TR-92-01, 1992.
     """
-    robot, rules, mark = match.robots[seat], match.rules, TrackPoint()
+    robot, rules = match.robots[seat], match.rules
     observe_mark(match, place.along + LOOK, mark)
     heading = robot.heading + LATE * robot.angular
     room = max(0.0, mark.half - INSIDE)
@@ -87,3 +105,6 @@ def _stick_to_line(match: Race, seat: int, place: CoursePosition) -> tuple[float
     permitted = rules.turn_rate / (abs(bend) * full + 1e-9)
     ahead = max(SLOWEST, min(1.0, permitted))
     return ahead, max(-1.0, min(1.0, bend * ahead * full / rules.turn_rate))
+
+
+HELP = SteeringHelp(Sight, steer)

@@ -5,14 +5,16 @@ from statistics import mean
 
 import pytest
 
-from pigaming_app.ai.brain.kind import HumanPlayer
+from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer
 from pigaming_app.ai.factory.steering_help import Guide
 from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, POINT, TURN
+from pigaming_app.ai.people.models import MASHER
 from pigaming_app.ai.registry import AIS
 from pigaming_app.games.arenas import arenas
 from pigaming_app.games.factory.state import DONE, ENTRY, EXIT, HALF, ICE, INPUT, OUTPUT, RAW
 from pigaming_app.sim.action import quantise, set_action
 from pigaming_app.sim.record import digest
+from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.input.events import StickState
 from tests.cases import one_in
 from tests.games.factory.shop import Shop
@@ -41,8 +43,8 @@ def alone(player, floor):
 
 @pytest.mark.parametrize("floor", one_in(2, FLOORS))
 def test_keys_at_random_deliver_a_pallet_with_help(floor):
-    match = alone("masher", floor)
-    match.sit(0, Helped(match.brains[0]))
+    match = alone("human", floor)
+    match.sit(0, Helped(BrainPlayer(MASHER, ROBOTS)))
     while not match.over and not match.state.delivered[ICE]:
         match.tick()
     assert match.state.delivered[ICE] == 1
@@ -66,7 +68,7 @@ def test_keys_at_random_deliver_half_as_much_as_a_beginner_without_help(mates):
 def delivered(floor, seed, mates, name, helped):
     """Deliveries in three minutes, of the robot alone."""
     match = match_of("factory", [name, *["level1"] * mates], floor, 5.0, seed, "together", 12)
-    match.sit(0, Helped(match.brains[0], helped))
+    match.sit(0, Helped(BrainPlayer(MASHER, ROBOTS * seed) if name == MASHER.name else match.brains[0], helped))
     while not match.over and match.seconds < 180.0:
         match.tick()
     return match.state.loads[0].delivered * 180.0 / match.seconds

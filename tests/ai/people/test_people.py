@@ -6,11 +6,11 @@ from itertools import pairwise
 import pytest
 
 from pigaming_app.ai.brain.effort import AUTO
-from pigaming_app.ai.brain.kind import NUMBERS
-from pigaming_app.ai.game_ai import LEVELS
+from pigaming_app.ai.brain.kind import NUMBERS, BrainPlayer, HumanPlayer
+from pigaming_app.ai.game_ai import HELPED_TURN, LEVELS, TURN
 from pigaming_app.ai.learning.rollout import Batch
 from pigaming_app.ai.people.matches import Trial, places
-from pigaming_app.ai.people.models import PEOPLE
+from pigaming_app.ai.people.models import MASHER, PEOPLE
 from pigaming_app.ai.people.series import series
 from pigaming_app.ai.registry import AIS, BRAINS, find_brain, make_brain
 from pigaming_app.games.match import victory
@@ -18,7 +18,8 @@ from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.sim.kernel import can_compile
 from pigaming_app.sim.record import digest
-from pigaming_app.sim.world import HZ
+from pigaming_app.sim.world import HZ, ROBOTS
+from pigaming_app.ui.input.events import StickState
 from tests.matches import match_of
 
 EVERYBODY = ("masher", *PEOPLE)
@@ -59,6 +60,32 @@ def test_a_masher_presses_three_to_four_keys_a_second():
     seen = sum(starts(rows, column) for column in (0, 1, 2)) / (len(rows) / HZ)
     assert 1.6 < seen < 4.0
     assert {row[:2] for row in rows} <= {(x, y) for x in (-1.0, 0.0, 1.0) for y in (-1.0, 0.0, 1.0)}
+
+
+class Masher:
+    """Keys at random, as a person presses them who drives in the first style with help that a game offers."""
+
+    def __init__(self, game, seed):
+        styles = AIS[game].driving
+        self.keys = BrainPlayer(MASHER, seed)
+        self.person = HumanPlayer(lambda: self.pressed, styles.get(HELPED_TURN, styles[TURN]))
+
+    def think(self, state, seat):
+        self.keys.think(state, seat)
+        action = state.actions[seat]
+        self.pressed = StickState(action.linear, action.angular, bool(action.fire), bool(action.turbo))
+        self.person.think(state, seat)
+
+
+@pytest.mark.parametrize("game", games())
+def test_a_masher_has_the_steering_help_of_a_game(game):
+    """Its help is a kernel; that of people is the lobby's driving style."""
+    matches = [match_of(game, ["masher", *["level2"] * 3], minutes=2.0, seed=3) for _ in range(2)]
+    matches[1].sit(0, Masher(game, 3 * ROBOTS))
+    while matches[0].seconds < 15.0 and not matches[0].over:
+        for match in matches:
+            match.tick()
+    assert len({digest(match.state) for match in matches}) == 1
 
 
 def test_a_beginner_has_keys_and_no_turbo():
@@ -165,7 +192,6 @@ def test_every_trait_can_be_scaled():
 @pytest.mark.parametrize("game", games())
 def test_auto_suits_everybody_after_three_matches(game):
     """A short form of the table in docs/people.md: 20 series, hence wider bounds than the 30 to 50 % of the tuning."""
-    names = EVERYBODY if game in ("pitanks", "football") else EVERYBODY[1:]
-    for one in series(Trial(game, 160), names, (0, len(AUTO) - 1)):
+    for one in series(Trial(game, 160), EVERYBODY, (0, len(AUTO) - 1)):
         assert 0.2 < one.share < 0.6, (one.person, one.first, one.wins)
         assert one.interval[0] < one.share < one.interval[1]

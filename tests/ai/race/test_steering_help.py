@@ -6,8 +6,9 @@ from statistics import mean
 
 import pytest
 
-from pigaming_app.ai.brain.kind import HumanPlayer
+from pigaming_app.ai.brain.kind import BrainPlayer, HumanPlayer
 from pigaming_app.ai.game_ai import HELPED_POINT, HELPED_TURN, POINT, TURN
+from pigaming_app.ai.people.models import MASHER
 from pigaming_app.ai.race.steering_help import helped_stick
 from pigaming_app.ai.registry import AIS
 from pigaming_app.games.arenas import arenas
@@ -15,6 +16,7 @@ from pigaming_app.games.race.course import locate, point_at, segment_at
 from pigaming_app.sim.action import quantise, set_action
 from pigaming_app.sim.angles import turn_to
 from pigaming_app.sim.record import digest
+from pigaming_app.sim.world import ROBOTS
 from pigaming_app.ui.input.events import StickState
 from tests.cases import one_in
 from tests.matches import match_of
@@ -139,7 +141,7 @@ class Helped:
 
 def driven(track, name, helped, seed):
     match = match_of("race", [name, *["level1"] * 3], track, 10.0, seed, "standard", 9)
-    match.sit(0, Helped(match.brains[0], helped))
+    match.sit(0, Helped(BrainPlayer(MASHER, ROBOTS * seed) if name == MASHER.name else match.brains[0], helped))
     racer = match.state.racers[0]
     while match.seconds < 120.0 and not racer.finished:
         match.tick()
