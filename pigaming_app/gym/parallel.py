@@ -67,7 +67,8 @@ class MatchEnv(ParallelEnv[str, Any, Any]):
 
         Raises ValueError for actions outside the action space, or missing, and ResetNeeded before `reset`.
         """
-        if self.matches.seeded and not self.agents:
+        self.matches.require_begun("step")
+        if not self.agents:
             return {}, {}, {}, {}, {}
         if missing := [agent for agent in self.agents if agent not in actions]:
             raise ValueError(f"no action for {', '.join(missing)}")

@@ -39,7 +39,7 @@ class SeatVectorEnv(VectorEnv[Any, Any, Any]):
     - DISABLED: whoever ended needs `reset(options={"reset_mask": ended})`, a mask (num_envs,).
 
     `max_episode_steps` truncates episodes. With `stagger` the first episode of each match after a reset of all is
-    truncated after a number of decisions, drawn by its seed from 1 to a whole match, so that ends spread over time.
+    truncated after a number of decisions, drawn by its seed from 1 to a whole episode, so that ends spread over time.
     """
 
     metadata: ClassVar[dict[str, Any]] = {
@@ -96,7 +96,7 @@ class SeatVectorEnv(VectorEnv[Any, Any, Any]):
         self.matches.begin(self._seeds(seed), which)
         self._steps[which], self._limit[which], self._ended[which] = 0, self.max_episode_steps or ENDLESS, False
         if self.stagger and mask is None:
-            self._limit = np.minimum(self._limit, self.matches.phases(self.task.decisions))
+            self._limit = self.matches.phases(min(self.task.decisions, self.max_episode_steps or ENDLESS))
         self._seen = self._seen.copy()
         self.matches.observe(self._seen)
         return self._handed_out(), {}

@@ -245,6 +245,52 @@ def test_actions_outside_the_space_are_refused_by_every_face(face, continuous, a
         step(np.array([2, 6, 1, 1], np.uint8))
 
 
+@pytest.mark.parametrize("compiled", [False, None])
+@pytest.mark.parametrize("face", FACES)
+def test_everything_about_a_match_needs_a_reset(face, compiled):
+    env = FACES[face](**{**SHORT, "compiled": compiled, "render_mode": "rgb_array"})
+    for name, call in {"step": lambda: env.step({}), "action_masks": env.action_masks, "render": env.render}.items():
+        with pytest.raises(ResetNeeded, match=f"^{name} before reset: an episode begins with reset$"):
+            call()
+
+
+SAMPLE = np.array([[1, 2, 0, 1], [0, 1, 0, 0]])
+
+
+@pytest.mark.parametrize(
+    ("agents", "good", "bad"),
+    [
+        (1, [SAMPLE, SAMPLE[:, None]], [SAMPLE.T, SAMPLE.ravel(), SAMPLE[None], SAMPLE[0], [[1, 2, 0, 1], [0]]]),
+        (2, [SAMPLE, SAMPLE[None]], [SAMPLE.T, SAMPLE.ravel(), SAMPLE[:, None]]),
+    ],
+)
+def test_actions_have_the_shape_of_the_agents(agents, good, bad):
+    first, *others = (gymnasium.make_vec("PiTanks-v0", 2, agents=agents, **SHORT) for _ in good)
+    for env in (first, *others):
+        env.reset(seed=1)
+    for wrong in bad:
+        with pytest.raises(ValueError, match=r"^actions .* 4 numbers are needed for each agent$"):
+            first.step(wrong)
+    seen = first.step(good[0])[0]
+    assert all(np.array_equal(env.step(form)[0], seen) for env, form in zip(others, good[1:], strict=True))
+    one = gymnasium.make("PiTanks-v0", **SHORT).unwrapped
+    one.reset(seed=1)
+    one.step(SAMPLE[0])
+    with pytest.raises(ValueError, match="4 numbers are needed"):
+        one.step(SAMPLE[0][:, None])
+
+
+@pytest.mark.parametrize("kind", [bool, complex, object, str])
+def test_sticks_are_numbers(kind):
+    env = gymnasium.make_vec("PiTanks-v0", 2, continuous=True, **SHORT)
+    env.reset(seed=1)
+    sticks = np.array([[0, 1, 0, 1], [1, 0, 1, 0]])
+    with pytest.raises(ValueError, match=r"^actions are numbers: two sticks, fire and turbo; not "):
+        env.step(sticks.astype(kind))
+    for good in (int, np.uint8, np.float16, np.float32):
+        env.step(sticks.astype(good))
+
+
 def test_every_agent_of_a_match_needs_an_action():
     match = parallel_env("pitanks", **SHORT)
     match.reset(seed=1)
