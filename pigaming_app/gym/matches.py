@@ -204,9 +204,9 @@ class Matches:
         fresh, before = self.fresh.copy(), self.totals.copy()
         self._run(actions, observations, rewards, over, False)
         if self.task.reward:
-            gains, task = self.totals - before, self.task
-            rewards = self.task.reward(rows_of(task.game, gains, self._seen, actions, task.continuous))
-            rewards[fresh] = 0.0
+            task, played = self.task, ~fresh
+            rows = rows_of(task.game, self.totals - before, self._seen, actions, task.continuous)
+            rewards[fresh], rewards[played] = 0.0, self.task.reward(rows[played])
             self._seen[:] = observations
         return observations, rewards, over
 

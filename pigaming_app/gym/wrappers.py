@@ -19,6 +19,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.games.simple import MatchState
 from pigaming_app.gym.matches import Matches
 from pigaming_app.gym.options import number
+from pigaming_app.gym.rewards import require_finite
 from pigaming_app.sim.sweep import bounds_contact, disc_contact, wall_contact
 from pigaming_app.sim.world import HEIGHT, RADIUS, ROBOTS, WIDTH
 
@@ -38,7 +39,7 @@ Reward = Callable[[RewardView, RewardView], float]
 
 
 class FunctionReward(gymnasium.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
-    """The reward is `reward(before, after)`, of the views before and after the decision."""
+    """The reward is `reward(before, after)`, of the views before and after the decision: a finite number."""
 
     def __init__(self, env: Any, reward: Reward) -> None:
         RecordConstructorArgs.__init__(self, reward=reward)
@@ -54,7 +55,9 @@ class FunctionReward(gymnasium.Wrapper[Any, Any, Any, Any], RecordConstructorArg
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         observation, _, terminated, truncated, info = self.env.step(action)
         before, self._before = self._before, view_of(self.env.unwrapped.matches)
-        return observation, float(self.reward_of(before, self._before)), terminated, truncated, info
+        reward = np.float64(self.reward_of(before, self._before))  # None becomes NaN
+        require_finite(self.reward_of, reward)
+        return observation, float(reward), terminated, truncated, info
 
 
 class Lidar(gymnasium.ObservationWrapper[Any, Any, Any], RecordConstructorArgs):
