@@ -71,10 +71,9 @@ class Lidar(gymnasium.ObservationWrapper[Any, Any, Any], RecordConstructorArgs):
         """Raises OptionError."""
         RecordConstructorArgs.__init__(self, rays=rays, reach=reach)
         gymnasium.ObservationWrapper.__init__(self, env)
-        number("rays", rays, least=1)
-        number("reach", reach, (int, float), least=RADIUS)
-        self.rays, self.reach = rays, float(reach)
-        self.observation_space = Box(0.0, 1.0, (2, rays), np.float32)
+        self.rays = number("rays", rays, least=1)
+        self.reach = float(number("reach", reach, (int, float), least=RADIUS))
+        self.observation_space = Box(0.0, 1.0, (2, self.rays), np.float32)
 
     def observation(self, observation: Any) -> Any:
         return scan(self.env.unwrapped.matches.state(0), 0, self.rays, self.reach)
@@ -91,10 +90,9 @@ class OwnPicture(gymnasium.ObservationWrapper[Any, Any, Any], RecordConstructorA
         """Raises OptionError."""
         RecordConstructorArgs.__init__(self, pixels=pixels, scale=scale)
         gymnasium.ObservationWrapper.__init__(self, env)
-        number("pixels", pixels, least=2)
-        number("scale", scale, (int, float), least=1)
-        self.pixels, self.scale = pixels, float(scale)
-        self.observation_space = Box(0, 255, (4, pixels, pixels), np.uint8)
+        self.pixels = number("pixels", pixels, least=2)
+        self.scale = float(number("scale", scale, (int, float), least=1))
+        self.observation_space = Box(0, 255, (4, self.pixels, self.pixels), np.uint8)
 
     def observation(self, observation: Any) -> Any:
         return picture_of(self.env.unwrapped.matches.state(0), 0, self.pixels, self.scale)

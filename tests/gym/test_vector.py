@@ -155,6 +155,8 @@ def test_a_wrong_mask_is_one_line(mask, reason):
         env.reset(options={"reset_mask": mask})
     with pytest.raises(OptionError, match="no autoreset mode 'Always'; there are NextStep, SameStep, Disabled"):
         gymnasium.make_vec("PiTanks-v0", 2, autoreset_mode="Always", **SHORT)
+    with pytest.raises(OptionError, match=r"^stagger: True or False is needed, not 'yes'$"):
+        gymnasium.make_vec("PiTanks-v0", 2, stagger="yes", **SHORT)
 
 
 def test_observations_that_were_handed_out_never_change():
