@@ -15,6 +15,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib import import_module
+from types import FunctionType
 from typing import Annotated, Any, TypeVar
 
 from pigaming_app.sim.kernel import compiled, kernel
@@ -133,18 +134,19 @@ def points_of(program: RewardProgram, rows: Any, fast: bool) -> Any:
 
 
 def elementwise(function: Callable[..., float], count: int, fast: bool) -> Callable[..., Any]:
-    """A function of `count` numbers as one of arrays; `fast`: compiled, if numba can."""
+    """A function of `count` numbers as one of arrays; `fast`: compiled, if it is a plain function that numba can."""
     import numpy as np
 
-    if fast:
+    if fast and isinstance(function, FunctionType):
         numba: Any = import_module("numba")
-        quick: Callable[..., Any] = numba.vectorize(function)
         try:
-            quick(*np.zeros((count, 1)))
-        except numba.core.errors.NumbaError as error:
+            quick: Callable[..., Any] = numba.vectorize(function)
+            given = quick(*np.zeros((count, 0))).dtype
+        except Exception as error:  # whatever numba's stages raise
             log.info("%s is not compiled: %s", function, error)
         else:
-            return quick
+            if np.can_cast(given, float):
+                return quick
     return np.vectorize(function, otypes=[float])
 
 

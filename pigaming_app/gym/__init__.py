@@ -21,8 +21,8 @@ is the game's `Encoding` (see ai/networks) in [-1, 1]; an action is a choice for
   default PiTanks has hits 1, taken -1, win 5; Robot Race progress 10 (a lap), win 5; Robot Factory progress 4 (a step
   of a pallet of the team), errand 2 (1000 px towards the next target), bumps -0.5, win 5. A win is 1, a defeat -1, at
   the end; the last `info` has all tallies.
-- reward: code instead of weights: a line such as "hits - 0.01*turned" over these tallies (see ai/reward_line.py), or a
-  function whose parameters are such names. PiTanks has those of the Lab, too (see ai/reward_quantities.py).
+- reward: code instead of weights: a line such as "hit - 0.01*turned" (see ai/reward_line.py), or a function of numbers
+  with such names. They are these tallies, and in PiTanks also those of the Lab (see ai/reward_quantities.py).
 - starts: number of different matches that are played; 128 by default.
 - compiled: False to run as plain Python. By default compiled if numba is installed; both give the same bits.
 - robots: the path of a file with measured robots; those of an episode are drawn within their range (see robots.py).

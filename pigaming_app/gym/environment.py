@@ -1,5 +1,6 @@
 """One seat of a match as a Gymnasium environment."""
 
+from operator import index
 from typing import Any, ClassVar
 
 import gymnasium
@@ -10,6 +11,17 @@ from pigaming_app.gym.options import action_space, observation_space, task_of
 from pigaming_app.gym.picture import MatchCamera, checked_mode
 
 SEEDS = 2**63  # seeds that are drawn lie below
+
+
+def seed_of(seed: Any) -> int | None:
+    """The seed of a match, a whole number from 0, as Python's; None stays. Raises ValueError."""
+    try:
+        found = None if seed is None else index(seed)
+    except TypeError:
+        found = -1
+    if found is not None and found < 0:
+        raise ValueError(f"seed: a whole number from 0 is needed, not {seed!r}")
+    return found
 
 
 class SeatEnv(gymnasium.Env[Any, Any]):
@@ -32,7 +44,11 @@ class SeatEnv(gymnasium.Env[Any, Any]):
         self._camera = MatchCamera(self.matches, 0)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Begin the next episode. `seed` determines it and all that follow; `options` is not used."""
+        """Begin the next episode. `seed` determines it and all that follow; `options` is not used.
+
+        Raises ValueError for a seed that is no whole number from 0.
+        """
+        seed = seed_of(seed)
         super().reset(seed=seed)
         if seed is None and not self.matches.seeded:
             seed = int(self.np_random.integers(SEEDS))

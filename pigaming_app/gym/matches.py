@@ -204,9 +204,9 @@ class Matches:
         fresh, before = self.fresh.copy(), self.totals.copy()
         self._run(actions, observations, rewards, over, False)
         if self.task.reward:
-            gains, task = self.totals - before, self.task
-            rewards = self.task.reward(rows_of(task.game, gains, self._seen, actions, task.continuous))
-            rewards[fresh] = 0.0
+            task, played = self.task, ~fresh
+            rows = rows_of(task.game, self.totals - before, self._seen, actions, task.continuous)
+            rewards[fresh], rewards[played] = 0.0, self.task.reward(rows[played])
             self._seen[:] = observations
         return observations, rewards, over
 
@@ -246,38 +246,51 @@ class Matches:
         """The tallies of a learner in match i, by name."""
         return dict(zip(TALLIES[self.task.game].names, self.totals[i, seat].tolist(), strict=True))
 
+    def require_begun(self, call: str) -> None:
+        """Raises ResetNeeded, with the name of the call, before the first episode."""
+        if not self.seeded:
+            raise ResetNeeded(f"{call} before reset: an episode begins with reset")
+
     def checked(self, actions: Any) -> Any:
         """Actions as the array that `advance` takes.
 
-        Raises ValueError if they do not lie in the action space, ResetNeeded before the first episode.
+        They are (matches, learners, numbers), (matches * learners, numbers), or (numbers,) for a single learner. Raises
+        ValueError if they do not lie in the action space, ResetNeeded before the first episode.
         """
-        if not self.seeded:
-            raise ResetNeeded("step before reset: an episode begins with reset")
+        self.require_begun("step")
         shape = (self.count, self.task.learners, *action_shape(self.task))
-        found = np.asarray(actions)
-        if found.size != np.prod(shape):
+        try:
+            found = np.asarray(actions)
+        except ValueError:
+            raise ValueError(f"actions differ in length; {shape[2]} numbers are needed for each agent") from None
+        agents = shape[0] * shape[1]
+        if found.shape not in (shape, (agents, shape[2]), shape[2:] if agents == 1 else shape):
             raise ValueError(f"actions have the shape {found.shape}; {shape[2]} numbers are needed for each agent")
         if self.task.continuous:
-            inside = (found.reshape(shape) >= LOWEST) & (found.reshape(shape) <= 1.0)
+            if found.dtype.kind not in "iuf":
+                raise ValueError(f"actions are numbers: two sticks, fire and turbo; not {found.dtype}")
         elif found.dtype.kind not in "iu":
             raise ValueError(f"actions are whole numbers, one for each of the heads {dict(self.encoding.heads)}")
-        else:
-            inside = (found.reshape(shape) >= 0) & (found.reshape(shape) < self._choices)
+        found = found.reshape(shape)
+        least, most = (LOWEST, 1.0) if self.task.continuous else (0, self._choices - 1)
+        inside = (found >= least) & (found <= most)
         if not inside.all():
             agent = int(np.flatnonzero(~inside.all(-1))[0])
             action = found.reshape(-1, shape[2])[agent].tolist()
             space = "sticks in [-1, 1], fire and turbo in [0, 1]"
             space = space if self.task.continuous else f"the heads {dict(self.encoding.heads)}"
             raise ValueError(f"action {action} of agent {agent} lies outside {space}")
-        return np.ascontiguousarray(found, action_type(self.task)).reshape(shape)
+        return np.ascontiguousarray(found, action_type(self.task))
 
     def masks(self) -> Any:
         """Whether each choice of the heads, one head after the other, may have a use: bool (count, learners, choices).
 
-        Only those of FIRE and turbo may have none (see masks.py). Raises ValueError for sticks.
+        Only those of FIRE and turbo may have none (see masks.py). Raises ValueError for sticks, ResetNeeded before the
+        first episode.
         """
         if self.task.continuous:
             raise ValueError("action_masks: sticks have no choices; continuous=True excludes them")
+        self.require_begun("action_masks")
         found = np.ones((self.count, self.task.learners, self.encoding.outputs), np.bool_)
         buttons = np.empty((*found.shape[:2], 2), np.bool_)
         masks_of(self.task.game, self.task.fast)(self.states, buttons, self.task.ticks)

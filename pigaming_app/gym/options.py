@@ -109,19 +109,18 @@ def _task(
     if opponents is None:
         opponents = () if learners > 1 or rules.team_mode == ALLIES else (OPPONENT,)
     names = words("opponents", opponents)
-    number("agents", learners, least=1)
-    number("ticks", ticks, least=1)
-    number("starts", starts, least=1)
+    learners = number("agents", learners, least=1)
+    ticks = number("ticks", ticks, least=1)
+    starts = number("starts", starts, least=1)
     if starts > SEEDS:
         raise OptionError(f"starts: {starts} is more than {SEEDS}")
     if learners + len(names) > ROBOTS:
         raise OptionError(f"{learners} agents and {len(names)} opponents, but there are {ROBOTS} seats")
-    if minutes is not None:
-        number("minutes", minutes, (int, float))
-    if goal is not None:
-        number("goal", goal)
-    for team in teams or ():
-        number("teams", team)
+    minutes = None if minutes is None else number("minutes", minutes, (int, float))
+    goal = None if goal is None else number("goal", goal)
+    if not isinstance(teams, Sequence | np.ndarray | None):
+        raise OptionError(f"teams: a number for each seat is needed, not {teams!r}")
+    teams = None if teams is None else [number("teams", team) for team in teams]
     found = arenas_of(game, arena)
     players = [LEARNER] * learners + list(names)
     try:
@@ -130,12 +129,14 @@ def _task(
     except ChoiceError as error:
         raise OptionError(str(error).removeprefix("--")) from None
     weights = weights_of(game, rewards)
+    continuous = boolean("continuous", continuous)
+    compiled = None if compiled is None else boolean("compiled", compiled)
     may_compile = can_compile() and not any(kind.plain for kind in kinds)
     if compiled and not may_compile:
         reason = "an opponent runs only uncompiled" if can_compile() else f"numba is missing: {installing('train')}"
         raise OptionError(f"compiled: {reason}")
-    fast = may_compile if compiled is None else bool(compiled)
-    play = bool(continuous), weights, coded(game, reward, rewards, fast), starts, fast, measured(robots)
+    fast = may_compile if compiled is None else compiled
+    play = continuous, weights, coded(game, reward, rewards, fast), starts, fast, measured(robots)
     return EnvironmentTask(setup, found, learners, kinds, ticks, *play)
 
 
@@ -157,6 +158,8 @@ def arenas_of(game: str, arena: str | Sequence[str] | None) -> tuple[str, ...]:
 
 def measured(robots: str | Path | None) -> tuple[Drivetrain, ...]:
     """The robots of a file; none without one. Raises OptionError."""
+    if not isinstance(robots, str | Path | None):
+        raise OptionError(f"robots: the path of a file is needed, not {robots!r}")
     try:
         return () if robots is None else read_robots(robots)
     except (OSError, ParseError) as error:
@@ -171,11 +174,10 @@ def weights_of(game: str, rewards: Mapping[str, float] | None) -> tuple[float, .
     named = tallies.weights if rewards is None else rewards
     if not isinstance(named, Mapping):
         raise OptionError(f"rewards: weights by name are needed, not {named!r}")
-    for name, weight in named.items():
+    for name in named:
         if name not in tallies.names:
             raise OptionError(f"no reward '{name}' in {game}; there are {', '.join(tallies.names)}")
-        number(f"rewards, {name}", weight, (int, float))
-    return tuple(float(named.get(name, 0.0)) for name in tallies.names)
+    return tuple(float(number(f"rewards, {name}", named.get(name, 0.0), (int, float))) for name in tallies.names)
 
 
 def coded(game: str, reward: Any, rewards: Any, fast: bool) -> CodedReward | None:
@@ -200,11 +202,20 @@ def words(name: str, value: Any) -> tuple[str, ...]:
     return found
 
 
-def number(name: str, value: Any, kinds: Any = int, least: float = -inf) -> None:
-    """Raises OptionError unless a value is a finite number, by default a whole one, of at least `least`."""
-    if isinstance(value, bool) or not isinstance(value, kinds) or not isfinite(value) or value < least:
+def number(name: str, value: Any, kinds: Any = int, least: float = -inf) -> Any:
+    """A finite number, by default a whole one, of at least `least`; those of NumPy as Python's. Raises OptionError."""
+    found = value.item() if isinstance(value, np.generic) else value
+    if isinstance(found, bool) or not isinstance(found, kinds) or not isfinite(found) or found < least:
         noun = "whole number" if kinds is int else "number"
-        raise OptionError(f"{name}: a {noun}{f' from {least:g}' if least > -inf else ''} is needed, not {value!r}")
+        raise OptionError(f"{name}: a {noun}{f' from {least:g}' if least > -inf else ''} is needed, not {found!r}")
+    return found
+
+
+def boolean(name: str, value: Any) -> bool:
+    """True or False. Raises OptionError."""
+    if not isinstance(value, bool | np.bool_):
+        raise OptionError(f"{name}: True or False is needed, not {value!r}")
+    return bool(value)
 
 
 def observation_space(task: EnvironmentTask) -> Box:

@@ -6,7 +6,7 @@ import numpy as np
 from gymnasium.spaces import Box
 from pettingzoo import ParallelEnv
 
-from pigaming_app.gym.environment import SEEDS
+from pigaming_app.gym.environment import SEEDS, seed_of
 from pigaming_app.gym.matches import Matches
 from pigaming_app.gym.options import action_space, number, observation_space, task_of
 from pigaming_app.gym.picture import MatchCamera, checked_mode
@@ -31,8 +31,9 @@ class MatchEnv(ParallelEnv[str, Any, Any]):
         """Raises OptionError."""
         self.render_mode = checked_mode(render_mode)
         self.task = task_of(game, agents, **options)
+        agents = self.task.learners
         if max_episode_steps is not None:
-            number("max_episode_steps", max_episode_steps, least=1)
+            max_episode_steps = number("max_episode_steps", max_episode_steps, least=1)
         self.max_episode_steps, self._steps = max_episode_steps, 0
         self.metadata = {**self.metadata, "name": f"{game}_v0", "render_fps": self.task.decisions_a_second}  # type: ignore[misc]
         self.possible_agents = [f"player_{seat}" for seat in range(agents)]
@@ -53,7 +54,11 @@ class MatchEnv(ParallelEnv[str, Any, Any]):
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Begin the next episode. `seed` determines it and all that follow; `options` is not used."""
+        """Begin the next episode. `seed` determines it and all that follow; `options` is not used.
+
+        Raises ValueError for a seed that is no whole number from 0.
+        """
+        seed = seed_of(seed)
         if seed is None and not self.matches.seeded:
             seed = int(np.random.default_rng().integers(SEEDS))
         self.matches.begin([seed], np.ones(1, np.bool_))
@@ -67,7 +72,8 @@ class MatchEnv(ParallelEnv[str, Any, Any]):
 
         Raises ValueError for actions outside the action space, or missing, and ResetNeeded before `reset`.
         """
-        if self.matches.seeded and not self.agents:
+        self.matches.require_begun("step")
+        if not self.agents:
             return {}, {}, {}, {}, {}
         if missing := [agent for agent in self.agents if agent not in actions]:
             raise ValueError(f"no action for {', '.join(missing)}")

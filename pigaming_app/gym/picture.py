@@ -39,7 +39,8 @@ class MatchCamera:
             self._shot.view.watch(self._shot.match.state)
 
     def picture(self) -> Any:
-        """The present picture, (1080, 1920, 3) uint8."""
+        """The present picture, (1080, 1920, 3) uint8. Raises ResetNeeded before the first episode."""
+        self.matches.require_begun("render")
         if self._shot is None or self._episode != self.matches.episodes[self.i]:
             self._shot = self._new_shot()
             self._shot.match.state = self.matches.state(self.i)

@@ -60,6 +60,14 @@ def rows_of(game: str, gains: Any, inputs: Any, actions: Any, sticks: bool) -> A
     return np.concatenate([gains, seen[..., [name not in tallies for name in QUANTITIES]]], axis=-1)
 
 
+def require_finite(code: Any, rewards: Any) -> None:
+    """Raises ValueError, which names the code, unless all its rewards (...) are finite numbers."""
+    if not (finite := np.isfinite(rewards)).all():
+        wrong = np.asarray(rewards)[~finite].flat[0]
+        name = getattr(code, "__name__", type(code).__name__)
+        raise ValueError(f"reward {name}: a finite number is needed, not {wrong}")
+
+
 @dataclass(frozen=True)
 class CodedReward:
     """A reward as code: a line, or a function whose parameters are names of quantities."""
@@ -74,14 +82,21 @@ class CodedReward:
         if isinstance(self.code, str):
             program_of(self.code or " ", names)
             return
-        unknown = [name for name in signature(self.code).parameters if name not in names]
-        if unknown or not signature(self.code).parameters:
+        parameters = list(signature(self.code).parameters.values())
+        for one in parameters:
+            if one.kind not in (one.POSITIONAL_ONLY, one.POSITIONAL_OR_KEYWORD):
+                raise ValueError(f"parameter '{one.name}' must be positional")
+        unknown = [one.name for one in parameters if one.name not in names]
+        if unknown or not parameters:
             found = f"parameter '{unknown[0]}'" if unknown else "function without parameters"
             raise ValueError(f"{found}; there are {', '.join(names)}")
 
     def __call__(self, rows: Any) -> Any:
-        """The rewards (...) for the quantities of rows (..., k)."""
-        return self._judge(rows)
+        """The rewards (...) for the quantities of rows (..., k). Raises ValueError unless all are finite numbers."""
+        with np.errstate(all="ignore"):
+            found = np.asarray(self._judge(rows), float)
+        require_finite(self.code, found)
+        return found
 
     @cached_property
     def _judge(self) -> Callable[[Any], Any]:

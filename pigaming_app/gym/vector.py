@@ -8,9 +8,9 @@ from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from pigaming_app.gym.environment import SEEDS
+from pigaming_app.gym.environment import SEEDS, seed_of
 from pigaming_app.gym.matches import Matches
-from pigaming_app.gym.options import OptionError, action_space, number, observation_space, task_of
+from pigaming_app.gym.options import OptionError, action_space, boolean, number, observation_space, task_of
 from pigaming_app.gym.picture import MatchCamera, checked_mode
 from pigaming_app.gym.rewards import TALLIES
 
@@ -39,7 +39,7 @@ class SeatVectorEnv(VectorEnv[Any, Any, Any]):
     - DISABLED: whoever ended needs `reset(options={"reset_mask": ended})`, a mask (num_envs,).
 
     `max_episode_steps` truncates episodes. With `stagger` the first episode of each match after a reset of all is
-    truncated after a number of decisions, drawn by its seed from 1 to a whole match, so that ends spread over time.
+    truncated after a number of decisions, drawn by its seed from 1 to a whole episode, so that ends spread over time.
     """
 
     metadata: ClassVar[dict[str, Any]] = {
@@ -65,12 +65,13 @@ class SeatVectorEnv(VectorEnv[Any, Any, Any]):
         self.autoreset_mode = mode_of(autoreset_mode)
         described = {"render_fps": self.task.decisions_a_second, "autoreset_mode": self.autoreset_mode}
         self.metadata = {**self.metadata, **described}  # type: ignore[misc]
-        number("num_envs", num_envs, least=1)
+        num_envs, agents = number("num_envs", num_envs, least=1), self.task.learners
         if max_episode_steps is not None:
-            number("max_episode_steps", max_episode_steps, least=1)
+            max_episode_steps = number("max_episode_steps", max_episode_steps, least=1)
         if num_envs % agents:
             raise OptionError(f"num_envs: {num_envs} is no multiple of {agents} agents a match")
-        self.num_envs, self.max_episode_steps, self.stagger = num_envs, max_episode_steps, stagger
+        self.num_envs, self.max_episode_steps = num_envs, max_episode_steps
+        self.stagger = boolean("stagger", stagger)
         self.single_observation_space, self.single_action_space = observation_space(self.task), action_space(self.task)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
@@ -90,13 +91,14 @@ class SeatVectorEnv(VectorEnv[Any, Any, Any]):
         `seed` determines it and all that follow: of the first match, the others count on from it; or a list with one
         for each match, None where it goes on with its own. Raises ValueError.
         """
+        seed = seed if np.ndim(seed) else seed_of(seed)  # type: ignore[arg-type]
         super().reset(seed=seed if isinstance(seed, int) else None)
         mask = (options or {}).get("reset_mask")
         which = np.ones(self.matches.count, np.bool_) if mask is None else self._matches_of(mask)
         self.matches.begin(self._seeds(seed), which)
         self._steps[which], self._limit[which], self._ended[which] = 0, self.max_episode_steps or ENDLESS, False
         if self.stagger and mask is None:
-            self._limit = np.minimum(self._limit, self.matches.phases(self.task.decisions))
+            self._limit = self.matches.phases(min(self.task.decisions, self.max_episode_steps or ENDLESS))
         self._seen = self._seen.copy()
         self.matches.observe(self._seen)
         return self._handed_out(), {}
@@ -106,7 +108,7 @@ class SeatVectorEnv(VectorEnv[Any, Any, Any]):
         count = self.matches.count
         if isinstance(seed, int):
             return range(seed, seed + count)
-        seeds = [None] * count if seed is None else list(seed)
+        seeds = [None] * count if seed is None else [seed_of(one) for one in seed]
         if len(seeds) != count:
             raise ValueError(f"{len(seeds)} seeds, but there are {count} matches")
         if self.matches.seeded:

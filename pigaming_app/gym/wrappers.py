@@ -19,6 +19,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.games.simple import MatchState
 from pigaming_app.gym.matches import Matches
 from pigaming_app.gym.options import number
+from pigaming_app.gym.rewards import require_finite
 from pigaming_app.sim.sweep import bounds_contact, disc_contact, wall_contact
 from pigaming_app.sim.world import HEIGHT, RADIUS, ROBOTS, WIDTH
 
@@ -38,7 +39,7 @@ Reward = Callable[[RewardView, RewardView], float]
 
 
 class FunctionReward(gymnasium.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
-    """The reward is `reward(before, after)`, of the views before and after the decision."""
+    """The reward is `reward(before, after)`, of the views before and after the decision: a finite number."""
 
     def __init__(self, env: Any, reward: Reward) -> None:
         RecordConstructorArgs.__init__(self, reward=reward)
@@ -54,7 +55,9 @@ class FunctionReward(gymnasium.Wrapper[Any, Any, Any, Any], RecordConstructorArg
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         observation, _, terminated, truncated, info = self.env.step(action)
         before, self._before = self._before, view_of(self.env.unwrapped.matches)
-        return observation, float(self.reward_of(before, self._before)), terminated, truncated, info
+        reward = np.float64(self.reward_of(before, self._before))  # None becomes NaN
+        require_finite(self.reward_of, reward)
+        return observation, float(reward), terminated, truncated, info
 
 
 class Lidar(gymnasium.ObservationWrapper[Any, Any, Any], RecordConstructorArgs):
@@ -68,10 +71,9 @@ class Lidar(gymnasium.ObservationWrapper[Any, Any, Any], RecordConstructorArgs):
         """Raises OptionError."""
         RecordConstructorArgs.__init__(self, rays=rays, reach=reach)
         gymnasium.ObservationWrapper.__init__(self, env)
-        number("rays", rays, least=1)
-        number("reach", reach, (int, float), least=RADIUS)
-        self.rays, self.reach = rays, float(reach)
-        self.observation_space = Box(0.0, 1.0, (2, rays), np.float32)
+        self.rays = number("rays", rays, least=1)
+        self.reach = float(number("reach", reach, (int, float), least=RADIUS))
+        self.observation_space = Box(0.0, 1.0, (2, self.rays), np.float32)
 
     def observation(self, observation: Any) -> Any:
         return scan(self.env.unwrapped.matches.state(0), 0, self.rays, self.reach)
@@ -88,10 +90,9 @@ class OwnPicture(gymnasium.ObservationWrapper[Any, Any, Any], RecordConstructorA
         """Raises OptionError."""
         RecordConstructorArgs.__init__(self, pixels=pixels, scale=scale)
         gymnasium.ObservationWrapper.__init__(self, env)
-        number("pixels", pixels, least=2)
-        number("scale", scale, (int, float), least=1)
-        self.pixels, self.scale = pixels, float(scale)
-        self.observation_space = Box(0, 255, (4, pixels, pixels), np.uint8)
+        self.pixels = number("pixels", pixels, least=2)
+        self.scale = float(number("scale", scale, (int, float), least=1))
+        self.observation_space = Box(0, 255, (4, self.pixels, self.pixels), np.uint8)
 
     def observation(self, observation: Any) -> Any:
         return picture_of(self.env.unwrapped.matches.state(0), 0, self.pixels, self.scale)

@@ -182,6 +182,10 @@ def test_pictures_are_drawn_by_the_view_of_the_game(name, game):
         ({"variant": "quiet"}, "no variant 'quiet'"),
         ({"minutes": 0}, "0 minutes; possible are"),
         ({"minutes": "two"}, "minutes: a number is needed, not 'two'"),
+        ({"teams": 3}, "teams: a number for each seat is needed, not 3"),
+        ({"continuous": "no"}, "continuous: True or False is needed, not 'no'"),
+        ({"compiled": "no"}, "compiled: True or False is needed, not 'no'"),
+        ({"robots": 3}, "robots: the path of a file is needed, not 3"),
         ({"goal": 3}, "a goal of 3; pitanks is played for time alone"),
         ({"teams": (0, 0, 0, 0)}, "there must be at least two teams"),
         ({"ticks": 2.5}, "ticks: a whole number from 1 is needed, not 2.5"),
@@ -243,6 +247,74 @@ def test_actions_outside_the_space_are_refused_by_every_face(face, continuous, a
         step(np.array([-1.0, 1.0, 0.0, 1.0], np.float32))
     else:
         step(np.array([2, 6, 1, 1], np.uint8))
+
+
+@pytest.mark.parametrize("face", FACES)
+def test_numbers_may_be_those_of_numpy(face):
+    options = {"minutes": 0.05, "ticks": 4, "starts": 9, "teams": [0, 1, 1, 1], "compiled": False, "continuous": False}
+    numpy = {name: np.array(value)[()] for name, value in options.items()}
+    envs = [FACES[face](**options), FACES[face](**numpy)]
+    seen = [str(env.reset(seed=seed)[0]) for env, seed in zip(envs, (5, np.uint32(5)), strict=True)]
+    assert seen[0] == seen[1]
+    assert envs[0].metadata["render_fps"] == envs[1].metadata["render_fps"] == 12.5
+    many = [np.arange(5, 7), list(np.arange(5, 7)), (5, 6)]
+    assert face != "vector" or all(str(envs[0].reset(seed=seeds)[0]) == seen[0] for seeds in many)
+
+
+@pytest.mark.parametrize("face", FACES)
+def test_a_seed_is_a_whole_number_from_0(face):
+    env = FACES[face](**SHORT)
+    wrong = [-1, np.int64(-1), 1.5, "3", np.float32(2.0)]
+    for seed in [*wrong, *([one, 2] for one in wrong if face == "vector")]:
+        with pytest.raises(ValueError, match=r"^seed: a whole number from 0 is needed, not "):
+            env.reset(seed=seed)
+    assert not env.matches.seeded
+
+
+@pytest.mark.parametrize("compiled", [False, None])
+@pytest.mark.parametrize("face", FACES)
+def test_everything_about_a_match_needs_a_reset(face, compiled):
+    env = FACES[face](**{**SHORT, "compiled": compiled, "render_mode": "rgb_array"})
+    for name, call in {"step": lambda: env.step({}), "action_masks": env.action_masks, "render": env.render}.items():
+        with pytest.raises(ResetNeeded, match=f"^{name} before reset: an episode begins with reset$"):
+            call()
+
+
+SAMPLE = np.array([[1, 2, 0, 1], [0, 1, 0, 0]])
+
+
+@pytest.mark.parametrize(
+    ("agents", "good", "bad"),
+    [
+        (1, [SAMPLE, SAMPLE[:, None]], [SAMPLE.T, SAMPLE.ravel(), SAMPLE[None], SAMPLE[0], [[1, 2, 0, 1], [0]]]),
+        (2, [SAMPLE, SAMPLE[None]], [SAMPLE.T, SAMPLE.ravel(), SAMPLE[:, None]]),
+    ],
+)
+def test_actions_have_the_shape_of_the_agents(agents, good, bad):
+    first, *others = (gymnasium.make_vec("PiTanks-v0", 2, agents=agents, **SHORT) for _ in good)
+    for env in (first, *others):
+        env.reset(seed=1)
+    for wrong in bad:
+        with pytest.raises(ValueError, match=r"^actions .* 4 numbers are needed for each agent$"):
+            first.step(wrong)
+    seen = first.step(good[0])[0]
+    assert all(np.array_equal(env.step(form)[0], seen) for env, form in zip(others, good[1:], strict=True))
+    one = gymnasium.make("PiTanks-v0", **SHORT).unwrapped
+    one.reset(seed=1)
+    one.step(SAMPLE[0])
+    with pytest.raises(ValueError, match="4 numbers are needed"):
+        one.step(SAMPLE[0][:, None])
+
+
+@pytest.mark.parametrize("kind", [bool, complex, object, str])
+def test_sticks_are_numbers(kind):
+    env = gymnasium.make_vec("PiTanks-v0", 2, continuous=True, **SHORT)
+    env.reset(seed=1)
+    sticks = np.array([[0, 1, 0, 1], [1, 0, 1, 0]])
+    with pytest.raises(ValueError, match=r"^actions are numbers: two sticks, fire and turbo; not "):
+        env.step(sticks.astype(kind))
+    for good in (int, np.uint8, np.float16, np.float32):
+        env.step(sticks.astype(good))
 
 
 def test_every_agent_of_a_match_needs_an_action():

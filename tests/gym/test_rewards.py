@@ -1,8 +1,11 @@
 """Rewards as code: a line means what the weights mean, a function what the line means, and each quantity its event."""
 
 import pickle
+import re
 from collections.abc import Callable
+from functools import partial
 from math import atan2, cos, hypot
+from pathlib import Path
 from typing import Any
 
 import gymnasium
@@ -11,9 +14,11 @@ import pytest
 
 import pigaming_app.gym
 from pigaming_app.ai.networks.encoding import UNIT
-from pigaming_app.ai.reward_line import parsed
+from pigaming_app.ai.reward_line import parsed, with_line
+from pigaming_app.ai.reward_quantities import QUANTITIES as LAB_NAMES
+from pigaming_app.ai.reward_quantities import WEIGHTED
 from pigaming_app.gym.options import OptionError
-from pigaming_app.gym.rewards import TALLIES, names_of
+from pigaming_app.gym.rewards import TALLIES, CodedReward, names_of
 from pigaming_app.scenes.lab.scene import FIRST
 from pigaming_app.scenes.lab.trainer import Trainer
 from pigaming_app.sim.kernel import can_compile
@@ -69,6 +74,74 @@ def test_a_function_that_numba_cannot_compile_runs_as_python() -> None:
 
     found = rewards_of("pitanks", 3, reward=reward, minutes=0.5)
     assert seen[-2:] == pytest.approx(found[-1].tolist())
+
+
+class Bonus:
+    def __call__(self, hits: float, taken: float) -> float:
+        return 2.0 * hits - taken
+
+
+def scaled(factor: float, hits: float) -> float:
+    return factor * hits
+
+
+FORMS: dict[str, tuple[Any, Callable[[float, float], float]]] = {  # with what they give for hits and hits taken
+    "plain": (lambda hits, taken: hits if hits > taken else 0.25, lambda hits, taken: hits if hits > taken else 0.25),
+    "whole": (lambda hits: 1, lambda hits, taken: 1.0),
+    "dict": (lambda hits: {0.0: 0.5}.get(hits, 1.0), lambda hits, taken: 1.0 if hits else 0.5),
+    "object": (Bonus(), lambda hits, taken: 2.0 * hits - taken),
+    "partial": (partial(scaled, 3.0), lambda hits, taken: 3.0 * hits),
+}
+
+
+@pytest.mark.parametrize("fast", [False, pytest.param(True, marks=needs_numba)])
+@pytest.mark.parametrize("form", FORMS)
+def test_whatever_can_be_called_is_a_reward(form: str, fast: bool) -> None:
+    code, expected = FORMS[form]
+    counts = [(0.0, 0.0), (1.0, 0.0), (2.0, 3.0)]
+    rows = np.zeros((len(counts), 2, len(names_of("pitanks"))))
+    rows[:, 0, :2] = rows[:, 1, :2] = counts
+    found = CodedReward("pitanks", code, fast)(rows)
+    assert found.dtype == float
+    assert found.tolist() == [[expected(*pair)] * 2 for pair in counts]
+
+
+@pytest.mark.parametrize("fast", [False, pytest.param(True, marks=needs_numba)])
+@pytest.mark.parametrize(
+    ("code", "wrong"),
+    [(lambda hits: float("inf") if hits else 0.0, "inf"), (lambda hits: None, "nan"), (Bonus(), "nan")],
+)
+def test_a_reward_that_is_no_finite_number_is_refused_by_name(code: Any, wrong: str, fast: bool) -> None:
+    rows = np.zeros((2, 1, len(names_of("pitanks"))))
+    rows[1, 0, 0] = np.nan if wrong == "nan" else 1.0
+    name = "Bonus" if isinstance(code, Bonus) else "<lambda>"
+    with pytest.raises(ValueError, match=f"^reward {name}: a finite number is needed, not {wrong}$"):
+        CodedReward("pitanks", code, fast)(rows)
+
+
+@needs_numba
+def test_a_division_by_zero_never_becomes_a_reward() -> None:
+    rows = np.zeros((2, 1, len(names_of("pitanks"))))
+    with pytest.raises(ZeroDivisionError):
+        CodedReward("pitanks", lambda hits: hits / hits, False)(rows)
+    with pytest.raises(ValueError, match="finite"):
+        CodedReward("pitanks", lambda hits: hits / hits, True)(rows)
+    assert not CodedReward("pitanks", "hits / hits", True)(rows).any()
+
+
+def test_the_first_step_of_an_episode_asks_for_no_reward() -> None:
+    """Its tallies fall back to zero, by changes that no decision has."""
+    seen: list[float] = []
+
+    def reward(shots: float) -> float:
+        seen.append(shots)
+        return shots
+
+    found = rewards_of("pitanks", 36, reward=reward, max_episode_steps=8)
+    assert min(seen) == 0.0
+    assert sum(seen) == found.sum() > 0.0
+    assert len(seen) >= 2 * 32  # four of 36 steps begin an episode
+    assert not found[8::9].any()
 
 
 QUANTITIES = ("still", "turned", "fired", "miss", "behind", "distance", "hit", "taken")
@@ -130,6 +203,13 @@ def test_the_lines_of_the_lab_are_rewards_of_the_environment() -> None:
     assert rewards_of("pitanks", 20, reward=line).any()
 
 
+def test_the_line_of_the_page_runs_in_the_lab_too() -> None:
+    page = Path(__file__).resolve().parents[2] / "docs" / "gym.md"
+    (line,) = re.findall(r'reward="(.*)"', page.read_text(encoding="utf-8"))
+    assert Trainer(with_line(FIRST, line, LAB_NAMES, WEIGHTED), 1, fast=False).line == line
+    assert parsed(line, names_of("pitanks"))
+
+
 def test_a_pickled_environment_goes_on_with_its_reward() -> None:
     envs = gymnasium.make_vec(GAMES["pitanks"], num_envs=2, reward="distance + behind", **SHORT)
     envs.reset(seed=1)
@@ -152,6 +232,9 @@ def test_a_pickled_environment_goes_on_with_its_reward() -> None:
         ({"reward": 5}, "a line of code or a function"),
         ({"reward": lambda hit, foe: 0.0}, "parameter 'foe'"),
         ({"reward": lambda: 0.0}, "without parameters"),
+        ({"reward": lambda *, hits: hits}, "parameter 'hits' must be positional"),
+        ({"reward": lambda *hits: 0.0}, "parameter 'hits' must be positional"),
+        ({"reward": partial(scaled, factor=2.0)}, "parameter 'factor' must be positional"),
     ],
 )
 def test_what_is_no_reward_is_refused_in_one_line(options: dict[str, Any], message: str) -> None:

@@ -155,6 +155,8 @@ def test_a_wrong_mask_is_one_line(mask, reason):
         env.reset(options={"reset_mask": mask})
     with pytest.raises(OptionError, match="no autoreset mode 'Always'; there are NextStep, SameStep, Disabled"):
         gymnasium.make_vec("PiTanks-v0", 2, autoreset_mode="Always", **SHORT)
+    with pytest.raises(OptionError, match=r"^stagger: True or False is needed, not 'yes'$"):
+        gymnasium.make_vec("PiTanks-v0", 2, stagger="yes", **SHORT)
 
 
 def test_observations_that_were_handed_out_never_change():
@@ -172,9 +174,9 @@ def test_observations_that_were_handed_out_never_change():
         assert not any(np.shares_memory(one, other) for i, one in enumerate(seen) for other in seen[:i])
 
 
-def ends_of(stagger, seed, steps=65, count=16):
+def ends_of(stagger, seed, steps=65, count=16, limit=None):
     """Of truncation and termination, by step and match."""
-    options = {**SHORT, "variant": "pickups", "opponents": ("idle",)}
+    options = {**SHORT, "variant": "pickups", "opponents": ("idle",), "max_episode_steps": limit}
     env = gymnasium.make_vec("PiTanks-v0", count, stagger=stagger, **options)
     env.reset(seed=seed)
     env.action_space.seed(1)
@@ -198,6 +200,17 @@ def test_staggered_matches_do_not_all_end_in_one_step():
     again, other = ends_of(True, 3, 32), ends_of(True, 4, 32)
     assert np.array_equal(again[3], truncated[:32])
     assert not np.array_equal(other[3], truncated[:32])
+
+
+def test_staggered_matches_spread_over_episodes_that_are_shorter_than_a_match():
+    limit = 12
+    truncated = ends_of(True, 3, 3 * limit, 24, limit)[3]
+    assert truncated.sum(1).max() <= 6  # 24 matches over 12 steps
+    for match in truncated.T:
+        first, second, *_ = np.flatnonzero(match)
+        assert first < limit
+        assert second == first + 1 + limit  # one step is the first observation
+    assert len({*truncated.argmax(0)}) > limit / 2
 
 
 def went_on(env, step, count):

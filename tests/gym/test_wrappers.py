@@ -148,3 +148,11 @@ def test_a_function_is_a_reward():
             assert reward == pytest.approx(hypot(robot.x - x, robot.y - y) - 3.0 * fired + 100.0 * over)
             shots += fired
         assert shots
+
+
+@pytest.mark.parametrize(("given", "wrong"), [(None, "nan"), (float("-inf"), "-inf")])
+def test_a_reward_of_a_wrapper_is_a_finite_number(given, wrong):
+    env = FunctionReward(gymnasium.make("PiTanks-v0", **SHORT), lambda before, after: given)
+    env.reset(seed=1)
+    with pytest.raises(ValueError, match=f"^reward <lambda>: a finite number is needed, not {wrong}$"):
+        env.step([0, 0, 0, 0])

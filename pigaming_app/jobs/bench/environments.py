@@ -34,11 +34,14 @@ def measure(game: str) -> dict[str, float | None]:
     - `against_level3`: the same against that brain.
     - `by_network`: the same, and the seat's actions are those of a network of 64 by 64 units in NumPy.
     - `with_pictures`: a single match against that brain, with a picture for each decision.
+    - `with_lidar`, `with_own_picture`: a single match as plain Python, seen through these wrappers.
     """
-    names = "stepped", "observed", "alone", "against_level3", "by_network", "with_pictures"
+    names: tuple[str, ...] = "stepped", "observed", "alone", "against_level3", "by_network"
+    names += "with_pictures", "with_lidar", "with_own_picture"
     if not (can_compile() and find_spec("gymnasium") and find_spec("pettingzoo")):
         return dict.fromkeys(names)
     from pigaming_app.gym import ENVIRONMENTS
+    from pigaming_app.gym.wrappers import Lidar, OwnPicture
 
     if game not in ENVIRONMENTS.values():
         return dict.fromkeys(names)
@@ -48,7 +51,9 @@ def measure(game: str) -> dict[str, float | None]:
         "alone": _environment(game, agents=1, ticks=5, opponents=("idle",)),
         "against_level3": _environment(game, agents=1, ticks=5, opponents=(OPPONENT,)),
         "by_network": _by_network(game),
-        "with_pictures": _with_pictures(game),
+        "with_pictures": _single(game, lambda env: env, render_mode="rgb_array"),
+        "with_lidar": _single(game, Lidar, compiled=False),
+        "with_own_picture": _single(game, OwnPicture, compiled=False),
     }
 
 
@@ -105,10 +110,10 @@ def _by_network(game: str) -> float:
     return float(env.num_envs / _seconds(step))
 
 
-def _with_pictures(game: str) -> float:
+def _single(game: str, wrapped: Callable[[Any], Any], **options: Any) -> float:
     from pigaming_app.gym.environment import SeatEnv
 
-    env = SeatEnv(game, render_mode="rgb_array", opponents=(OPPONENT,))
+    env = wrapped(SeatEnv(game, opponents=(OPPONENT,), **options))
     env.action_space.seed(1)
     env.reset(seed=1)
     env.render()
