@@ -206,7 +206,7 @@ BOARDS = {  # chosen board, battery in mV, pin of the lamp
     "microbit": ("", 0, "display"),
     "board_pico_w": ("pico_w", 5000, "LED"),
     "cutebot": ("cutebot", 0, "display"),
-    "board_pololu_2040": ("pololu_2040", 5000, "25"),
+    "board_pololu_2040": ("3pi_2040", 5000, "25"),
     "board_esp32": ("esp32", 5000, "2"),
 }
 
