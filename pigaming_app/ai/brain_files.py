@@ -4,6 +4,7 @@ A process reads a file once: a league never mixes two versions of it, and a rema
 """
 
 import os
+from dataclasses import replace
 from functools import cache
 from pathlib import Path, PureWindowsPath
 
@@ -65,7 +66,7 @@ def _read(game: str, path: str) -> BrainKind:
     parts = names(raw)
     if parts == network_files.PARTS.keys():
         network = network_files.decode(raw, file.name)
-        played, kind = network.game, network_files.brain_of(network)
+        played, kind = network.game, replace(network_files.brain_of(network), file=file)
     elif parts == table_files.PARTS.keys():
         played, kind = TABLE_GAME, table_files.brain_of(table_files.decode(raw, file.name))
     else:

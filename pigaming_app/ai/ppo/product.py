@@ -10,6 +10,7 @@ from pigaming_app.ai.brain.archive import HEAD, BrainFileError, pack, read, unpa
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.files import MAX_BYTES, TrainedNetwork, TrainingCurve, decode
 from pigaming_app.ai.networks.policy import Handicap
+from pigaming_app.ai.ppo.history import PPO, recipe_of
 from pigaming_app.ai.ppo.task import Length
 from pigaming_app.ai.ppo.task_file import TaskFile, file_of, text_of
 from pigaming_app.ai.ppo.training import POOL, Training, columns
@@ -37,7 +38,8 @@ def trained_network(training: Training, name: str) -> TrainedNetwork:
 
 def recipe(training: Training) -> dict[str, Any]:
     """By what it was trained: the task file that makes the same network, and the one from which it was continued."""
-    return {"learner": "ppo", "start": training.start and training.start.name, "task": text_of(task_file(training))}
+    start = recipe_of(training.start.name, training.start.history) if training.start else {"start": None}
+    return {"learner": PPO, **start, "task": text_of(task_file(training))}
 
 
 def recorded_task(path: Path) -> str:

@@ -12,12 +12,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from pigaming_app.ai.brain.archive import BrainFileError, read
 from pigaming_app.ai.brain.kind import BrainKind
 from pigaming_app.ai.brain_files import stem_of
 from pigaming_app.ai.learning.team_critic import team_views
 from pigaming_app.ai.networks.encoding import UNIT
+from pigaming_app.ai.networks.files import MAX_BYTES, decode
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
+from pigaming_app.ai.ppo.history import History, history_of
 from pigaming_app.ai.ppo.learner import Hyper, Learner, LearnerFigures, PolicyNetwork, advantages
 from pigaming_app.ai.ppo.population import SELF_EVERY, Pool, Population, restored
 from pigaming_app.ai.ppo.shard import LEARNING, PLAYED, Experience, Shard, ShardState
@@ -42,14 +45,20 @@ class Origin(NamedTuple):
 
     name: str
     layers: Layers
+    history: History = History()
 
 
 def start_of(game: str, name: str) -> Origin:
     """The network of a brain's name, or of the path of a file. Raises ChoiceError."""
-    layers = find_brain(game, name).weights(False)[0]
+    kind = find_brain(game, name)
+    layers, file = kind.weights(False)[0], kind.file
     if not isinstance(layers, Layers):
         raise ChoiceError(f"{stem_of(name)} is not a network, which has weights to start from")
-    return Origin(stem_of(name), layers)
+    try:
+        history = history_of(decode(read(file, MAX_BYTES), file.name), file.parent) if file else History()
+    except BrainFileError as error:
+        raise ChoiceError(str(error)) from None
+    return Origin(stem_of(name), layers, history)
 
 
 class Training:

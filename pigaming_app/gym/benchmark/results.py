@@ -18,7 +18,7 @@ from pigaming_app.ai.brain.archive import names
 from pigaming_app.ai.brain_files import is_path, stem_of
 from pigaming_app.ai.learning.league import wilson
 from pigaming_app.ai.networks import files as networks
-from pigaming_app.ai.ppo.task_file import parse_task_file
+from pigaming_app.ai.ppo.history import history_of
 from pigaming_app.ai.qlearning import table_files as tables
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.engine_hash import engine_hash
@@ -112,8 +112,13 @@ def _compare(found: Mapping[str, Any], claimed: Mapping[str, Any], place: str) -
             if extra := [name for name in told if name not in value]:
                 raise ResultsError(f"{place}{key}.{extra[0]}: nothing of that name is played")
             _compare(value, told, f"{place}{key}.")
-        elif told != value and not (value is None and key in AUTHORS):
+        elif told != value and not (value is None and key in AUTHORS) and not _is_more(key, told, value):
             raise ResultsError(f"{place}{key}: {quote(told)}, but it is {quote(value)}")
+
+
+def _is_more(key: str, told: Any, value: Any) -> bool:
+    """True for decisions of which the file does not know, such as those of a demonstrator."""
+    return key == "decisions" and isinstance(told, int) and told > value
 
 
 def _identified(task: str, folder: Path, agent: str) -> dict[str, Any]:
@@ -124,7 +129,7 @@ def _identified(task: str, folder: Path, agent: str) -> dict[str, Any]:
         find_brain(game, _brain(folder, agent))
         if is_path(agent):
             raw = (folder / agent).read_bytes()
-            found |= {"sha256": hashlib.sha256(raw).hexdigest(), **_training(task, raw, agent)}
+            found |= {"sha256": hashlib.sha256(raw).hexdigest(), **_training(task, raw, folder / agent)}
         if rival := _rival(task, folder, agent):
             raw = Path(rival).read_bytes()
             _check_rival(networks.decode(raw, Path(rival).name), agent)
@@ -146,20 +151,27 @@ def _rival(task: str, folder: Path, agent: str) -> str:
     return str(folder / f"rival_{stem_of(agent)}.npz") if RIVAL in seats else ""
 
 
-def _training(task: str, raw: bytes, agent: str) -> dict[str, int]:
-    """Seed and length of a training, from a file that has them. Raises ValueError if it used what it must not."""
-    parts = names(raw)
+def _training(task: str, raw: bytes, path: Path) -> dict[str, int]:
+    """Seed and length of a training, from a file that has them, those of the networks that it continues included.
+
+    Raises ValueError if it used what it must not.
+    """
+    agent, parts = path.name, names(raw)
     if parts == tables.PARTS.keys():
         table = tables.decode(raw, agent)
         return {"seed": table.seed, "decisions": int(table.rows["experiences"][0])}
     if parts != networks.PARTS.keys():
         return {}
     network = networks.decode(raw, agent)
-    if isinstance(by := network.recipe.get("task"), str):
-        met = {name for line_up in parse_task_file(by).line_ups for name in line_up.seats}
-        if "partner" in task and (used := sorted(met & {*PARTNERS})):
-            raise ValueError(f"{agent}: it was trained with {used[0]}, whom this task holds back")
-    return {"seed": network.seed, "decisions": network.decisions}
+    decisions, met, recorded = history_of(network, path.parent)
+    if "partner" in task and (used := sorted(met & {*PARTNERS})):
+        raise ValueError(f"{agent}: it was trained with {used[0]}, whom this task holds back")
+    if "partner" in task and not recorded:
+        raise ValueError(f"{agent}: nothing records with whom it was trained, or the network that it continues")
+    if decisions is None:
+        start = network.recipe["start"]
+        raise ValueError(f"{agent}: it continues {start}, whose training is not known; {start}.npz belongs beside it")
+    return {"seed": network.seed, "decisions": decisions}
 
 
 def _check_rival(rival: networks.TrainedNetwork, agent: str) -> None:
