@@ -38,6 +38,11 @@ def stem_of(name: str) -> str:
     return "".join(char if char.isprintable() else "?" for char in PureWindowsPath(name).stem) or "?"
 
 
+def bare_name(name: str) -> str:
+    """Name of a brain; of a path the file's, without folders."""
+    return PureWindowsPath(name).name if is_path(name) else name
+
+
 def read_brain(game: str, path: str) -> BrainKind:
     """The brain of a file, as it was when this process first read it. Raises BrainFileError."""
     try:

@@ -14,7 +14,7 @@ matches = 160
 """
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from pathlib import Path
@@ -22,6 +22,7 @@ from typing import Annotated, Any
 
 from msgspec import Meta
 
+from pigaming_app.ai.brain_files import is_path
 from pigaming_app.ai.networks.policy import HIDDEN, SIZES
 from pigaming_app.ai.ppo.learner import STANDARD, Hyper
 from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, LEARNERS, OFF, POOL, Length, LineUp, Task, no_habits
@@ -30,7 +31,7 @@ from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.sim.rng import SEEDS
 from pigaming_app.sim.world import ROBOTS
-from pigaming_app.storage.parsing import ParseError, describe_error, parse_toml, quote, read_text
+from pigaming_app.storage.parsing import ParseError, describe_error, name_of, parse_toml, quote, read_text
 from pigaming_app.storage.schema import Line, Share, between, one_of, typed
 
 SUFFIX = ".task.toml"
@@ -72,7 +73,7 @@ class TaskFile:
     updates: Annotated[int, between(1, 1_000_000)] | None = None
     decisions: Annotated[int, between(1, 10**12)] | None = None
     minutes: Annotated[float, between(0.01, 10_000.0)] | None = None
-    units: Annotated[int, between(SIZES.start, SIZES[-1]), Meta(multiple_of=SIZES.step)] = HIDDEN
+    units: int = HIDDEN
     arenas: Names
     surprises: Annotated[int, between(0, MOST_SURPRISES)] = 0  # arenas made from seeds, for half of the matches
     variants: Names
@@ -91,6 +92,9 @@ class TaskFile:
     def __post_init__(self) -> None:
         if sum(length is not None for length in (self.updates, self.decisions, self.minutes)) > 1:
             raise ValueError("updates, decisions, minutes: one of them at most")
+        if self.units not in SIZES:
+            wanted = f"a multiple of {SIZES.step} from {SIZES.start} to {SIZES[-1]}"
+            raise ValueError(f"units: expected {wanted}, got {self.units}")
         if not any(LEARNER in line_up.seats for line_up in self.line_ups):
             raise ValueError(f"line_ups: nobody is {LEARNER}")
         others = [{*line_up.seats} - {OFF} for line_up in self.line_ups]
@@ -101,15 +105,17 @@ class TaskFile:
 def read_task(path: Path, code: Task, check: bool = True) -> Task:
     """The task of a game with the content of a file. Raises TaskFileError.
 
+    Brains that are files lie beside it unless it has their whole path.
     `check`: whether all that it names exists.
     """
     try:
-        task = with_file(code, parse_task_file(read_text(path)))
+        file = parse_task_file(read_text(path))
+        task = with_file(code, with_brains(file, lambda name: str(path.parent / name) if is_path(name) else name))
         if check:
             check_names(task)
         return task
     except (OSError, ParseError, ChoiceError) as error:
-        raise TaskFileError(f"{path.name}: {describe_error(error)}") from None
+        raise TaskFileError(f"{name_of(path)}: {describe_error(error)}") from None
 
 
 def parse_task_file(text: str) -> TaskFile:
@@ -167,6 +173,12 @@ def with_file(code: Task, file: TaskFile) -> Task:
         hyper=file.training,
         length=Length(file.seed, file.updates, file.decisions, file.minutes),
     )
+
+
+def with_brains(file: TaskFile, named: Callable[[str], str]) -> TaskFile:
+    """The same with another name of each brain."""
+    line_ups = tuple(replace(one, seats=tuple(map(named, one.seats))) for one in file.line_ups)
+    return replace(file, rivals=tuple(map(named, file.rivals)), line_ups=line_ups)
 
 
 def file_of(task: Task) -> TaskFile:

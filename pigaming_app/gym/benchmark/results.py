@@ -25,7 +25,7 @@ from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.gym.benchmark.protocol import Digest, MatchCounts, evaluate, score_of
 from pigaming_app.gym.benchmark.tasks import BUDGETS, FORMAT, PARTNERS, RIVAL, RIVAL_DECISIONS, RIVAL_SEED, TASKS
-from pigaming_app.storage.parsing import ParseError, describe_error, quote, read_text
+from pigaming_app.storage.parsing import ParseError, describe_error, name_of, parse_json, quote, read_text
 from pigaming_app.storage.schema import Count, Line, Share, from_json, to_plain
 
 AUTHORS = ("seed", "decisions")  # theirs to fill in, for an agent whose file does not have them
@@ -81,15 +81,36 @@ def text_of(results: BenchmarkResults) -> str:
 def verify(path: Path, note: Note) -> BenchmarkResults:
     """Read results, play all their matches again, and compare every number. Raises ResultsError."""
     try:
-        results = from_json(read_text(path), BenchmarkResults, FORMAT)
+        results = _read(read_text(path))
         _compare({"engine": engine_hash()}, {"engine": results.engine}, "")
         for place, run in _placed(results):
             _compare(_identified(results.task, path.parent, run.agent), to_plain(run), place)
         for place, run in _placed(results):
             _compare(_evaluated(results.task, path.parent, run.agent, note), to_plain(run), place)
     except (OSError, ParseError, ResultsError) as error:
-        raise ResultsError(f"{path.name}: {describe_error(error)}") from None
+        raise ResultsError(f"{name_of(path)}: {describe_error(error)}") from None
     return results
+
+
+def _read(text: str) -> BenchmarkResults:
+    """The results in a file. Raises ParseError, or ResultsError for a key that there is not and for an empty method."""
+    results = from_json(text, BenchmarkResults, FORMAT)
+    _require_known(parse_json(text), {"format": FORMAT, **to_plain(results)})
+    if not results.method.strip():
+        raise ResultsError("method: it is empty; tell how the agents learned, in a few words")
+    return results
+
+
+def _require_known(told: Any, known: Any, place: str = "") -> None:
+    """Raises ResultsError for a key of the file that results do not have."""
+    if isinstance(known, dict):
+        for key, value in told.items():
+            if key not in known:
+                raise ResultsError(f"{place}{key} is not a key here; there are {', '.join(known)}")
+            _require_known(value, known[key], f"{place}{key}.")
+    elif isinstance(known, list | tuple):
+        for k, value in enumerate(told):
+            _require_known(value, known[k], f"{place.removesuffix('.')}[{k}].")
 
 
 def _placed(results: BenchmarkResults) -> Iterator[tuple[str, BenchmarkRun]]:
@@ -131,9 +152,7 @@ def _identified(task: str, folder: Path, agent: str) -> dict[str, Any]:
             raw = (folder / agent).read_bytes()
             found |= {"sha256": hashlib.sha256(raw).hexdigest(), **_training(task, raw, folder / agent)}
         if rival := _rival(task, folder, agent):
-            raw = Path(rival).read_bytes()
-            _check_rival(networks.decode(raw, Path(rival).name), agent)
-            found["rival"] = hashlib.sha256(raw).hexdigest()
+            found["rival"] = hashlib.sha256(_rival_file(Path(rival), agent)).hexdigest()
     except OSError as error:
         raise ResultsError(f"{Path(error.filename or agent).name}: {describe_error(error)}") from None
     except ValueError as error:
@@ -174,10 +193,17 @@ def _training(task: str, raw: bytes, path: Path) -> dict[str, int]:
     return {"seed": network.seed, "decisions": decisions}
 
 
-def _check_rival(rival: networks.TrainedNetwork, agent: str) -> None:
-    """Raises ValueError unless a network says that it is the best response that the protocol asks for."""
+def _rival_file(path: Path, agent: str) -> bytes:
+    """The content of a rival's file. Raises ValueError unless it says that it is the one that the protocol asks for."""
+    command = f"train it by exploit {agent} --decisions {RIVAL_DECISIONS}"
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        raise ValueError(f"{path.name}: {describe_error(error)}; {command}") from None
+    rival = networks.decode(raw, path.name)
     if rival.seed != RIVAL_SEED or rival.decisions < RIVAL_DECISIONS:
-        raise ValueError(f"{rival.name}.npz: train it by exploit {agent} --decisions {RIVAL_DECISIONS}")
+        raise ValueError(f"{path.name}: {command}")
+    return raw
 
 
 def _evaluated(task: str, folder: Path, agent: str, note: Note) -> dict[str, Any]:

@@ -124,6 +124,39 @@ def test_a_refusal_names_the_place(played):
         verify(path, print)
 
 
+@pytest.mark.parametrize(
+    ("place", "refusal"),
+    [
+        ((), "extra is not a key here; there are format, task, method, version, engine, runs"),
+        (("runs", 1), r"runs\[1\].extra is not a key here; there are agent, sha256"),
+        (("runs", 0, "conditions", "level2"), r"runs\[0\].conditions.level2.extra is not a key here; there are wins"),
+    ],
+)
+def test_a_key_that_there_is_not_is_refused(played, place, refusal):
+    path, content = filed(played)
+    node = content
+    for key in place:
+        node = node[key]
+    node["extra"] = 3
+    path.write_text(json.dumps(content))
+    with pytest.raises(ResultsError, match=rf"^results.json: {refusal}"):
+        verify(path, print)
+
+
+@pytest.mark.parametrize("method", ["", "  "])
+def test_a_method_has_words(played, method):
+    path, content = filed(played)
+    path.write_text(json.dumps({**content, "method": method}))
+    with pytest.raises(ResultsError, match=r"^results.json: method: it is empty"):
+        verify(path, print)
+
+
+def test_a_folder_without_a_name_is_named_as_it_was_given(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ResultsError, match=r"^\.: "):
+        verify(Path("."), print)
+
+
 def test_another_engine_is_refused_before_anything_is_played(played, monkeypatch):
     path, _ = filed(played)
     monkeypatch.setattr(results, "engine_hash", lambda *_: "f" * 64)
@@ -143,7 +176,9 @@ def test_another_network_is_refused(played):
 
 
 def test_a_rival_is_the_one_that_the_protocol_asks_for(played):
-    with pytest.raises(ResultsError, match=r"rival_one.npz: No such file"):
+    with pytest.raises(
+        ResultsError, match=r"rival_one.npz: No such file.+; train it by exploit one\.npz --decisions 1000000\Z"
+    ):
         filed(played, "pitanks-exploit", ["one.npz"])
     write(played, "rival_one", random_network(1, name="rival_one"))
     with pytest.raises(ResultsError, match=r"train it by exploit one\.npz --decisions 1000000"):

@@ -19,7 +19,7 @@ from pigaming_app.jobs.cli import main
 from pigaming_app.jobs.learning.train import copies, ppo_training
 from pigaming_app.jobs.learning.train.copies import FrozenCopies, RatedCopy, strongest
 from pigaming_app.jobs.learning.train.tensorboard import TensorboardFile
-from pigaming_app.storage.safe_files import NotSaved, write_atomic
+from pigaming_app.storage.safe_files import NotSaved, write_all_atomic, write_atomic
 from tests.ai.ppo.plain import SET, TASK, TINY, play_plain
 
 
@@ -81,7 +81,7 @@ def test_a_folder_that_vanishes_keeps_neither_a_copy_nor_the_result_from_being_s
     """TensorBoard's folder goes after the first update. The checkpoint is written after each, and so is the copy."""
     monkeypatch.setattr(ppo_training, "SAVED_EVERY", 0.0)
     runs, saved = tmp_path / "runs", []
-    add, write_all = TensorboardFile.add, ppo_training.write_all_atomic
+    add = TensorboardFile.add
 
     def lost(events, step, numbers):
         if step == 2:
@@ -90,7 +90,7 @@ def test_a_folder_that_vanishes_keeps_neither_a_copy_nor_the_result_from_being_s
 
     def noted(files):
         saved.append([file.name for file in files])
-        write_all(files)
+        write_all_atomic(files)
 
     monkeypatch.setattr(TensorboardFile, "add", lost)
     monkeypatch.setattr(ppo_training, "write_all_atomic", noted)

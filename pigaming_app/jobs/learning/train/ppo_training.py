@@ -99,7 +99,8 @@ def _begin(options: PpoOptions, beside: Path) -> Training:
         task = replace(task, hyper=changed(task.hyper, options.set))
         training = Training(task, length.seed, length.updates or 0, None, length.minutes, start)
     except ValueError as wrong:
-        raise Refusal(f"--set: {wrong}" if options.set else str(wrong)) from None
+        place = "--set: " if options.set else f"{options.task.name}: training." if options.task else ""
+        raise Refusal(f"{place}{wrong}") from None
     if length.decisions is not None:
         training.planned = -(-length.decisions // training.decisions_of_update)
     if options.resume:
