@@ -11,9 +11,8 @@ from pigaming_app.ai.brain_files import bare_name
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.files import MAX_BYTES, TrainedNetwork, TrainingCurve, decode
 from pigaming_app.ai.networks.policy import Handicap
-from pigaming_app.ai.ppo.history import PPO, recipe_of
 from pigaming_app.ai.ppo.task import Length
-from pigaming_app.ai.ppo.task_file import TaskFile, file_of, text_of, with_brains
+from pigaming_app.ai.ppo.task_file import PPO, TaskFile, file_of, recipe_of, text_of, with_brains
 from pigaming_app.ai.ppo.training import POOL, Training, columns
 from pigaming_app.games.engine_hash import engine_hash
 

@@ -18,11 +18,13 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 from msgspec import Meta
 
+from pigaming_app.ai.brain.archive import BrainFileError, read
 from pigaming_app.ai.brain_files import is_path
+from pigaming_app.ai.networks.files import MAX_BYTES, TrainedNetwork, decode
 from pigaming_app.ai.networks.policy import HIDDEN, SIZES
 from pigaming_app.ai.ppo.learner import STANDARD, Hyper
 from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, LEARNERS, OFF, POOL, Length, LineUp, Task, no_habits
@@ -38,6 +40,8 @@ SUFFIX = ".task.toml"
 TEAM = "team"  # critic
 UNIFORM, PRIORITISED = "uniform", "pfsp"  # how members of the pool are drawn
 MOST_SURPRISES, MOST_RIVALS = 1_000, 5  # each rival has columns in the curve of a network's file
+PPO = "ppo"  # the learner of networks that record their task; those of other libraries have none
+MOST_STARTS = 20  # networks in a row, each continued from the next
 HELD_BACK = 900_000_000  # arenas from this seed on are for measurements only
 
 Names = Annotated[tuple[Line, ...], Meta(min_length=1, max_length=1_000)]
@@ -270,6 +274,44 @@ def _named(task: Task) -> Iterator[tuple[str, str, tuple[str, ...]]]:
         yield f"line_ups[{k}].variants", "variant", line_up.variants
         brains = tuple(name for name in line_up.seats if name not in (*LEARNERS, POOL, OFF))
         yield f"line_ups[{k}].seats", "brain", brains
+
+
+class TrainingHistory(NamedTuple):
+    """The trainings of a network as one, those of the networks that it was continued from included."""
+
+    decisions: int | None = None  # of its robots; None: not known
+    met: frozenset[str] = frozenset()  # AIs on the seats of its matches, as far as recorded
+    recorded: bool = False  # whether these are all
+
+
+def history_of(network: TrainedNetwork, folder: Path, deeper: int = MOST_STARTS) -> TrainingHistory:
+    """The history of a network. One that does not tell that of its start needs its file beside it, in `folder`."""
+    recipe = network.recipe
+    before = _before(recipe, folder, deeper) if recipe.get("start") else TrainingHistory(0, recorded=True)
+    decisions = None if before.decisions is None else before.decisions + network.decisions
+    try:
+        seats = {name for line_up in parse_task_file(str(recipe["task"])).line_ups for name in line_up.seats}
+    except (KeyError, ParseError):
+        return TrainingHistory(decisions, before.met, before.recorded and recipe.get("learner") != PPO)
+    return TrainingHistory(decisions, before.met | (seats - {*LEARNERS, POOL, OFF}), before.recorded)
+
+
+def recipe_of(start: str, history: TrainingHistory) -> dict[str, Any]:
+    """What a recipe tells of the network that was continued."""
+    decisions, met, recorded = history
+    return {"start": start, "start_decisions": decisions, "start_met": sorted(met), "start_recorded": recorded}
+
+
+def _before(recipe: Mapping[str, Any], folder: Path, deeper: int) -> TrainingHistory:
+    """The history of the network that was continued."""
+    match recipe:
+        case {"start_decisions": int(decisions), "start_met": list(met), "start_recorded": bool(recorded)}:
+            return TrainingHistory(max(0, decisions), frozenset(map(str, met)), recorded)
+    file = folder / f"{recipe['start']}.npz"
+    try:
+        return history_of(decode(read(file, MAX_BYTES), file.name), folder, deeper - 1) if deeper else TrainingHistory()
+    except BrainFileError:
+        return TrainingHistory()
 
 
 def _surprises(count: int) -> tuple[str, ...]:

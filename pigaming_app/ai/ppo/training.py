@@ -20,11 +20,11 @@ from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.files import MAX_BYTES, decode
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
-from pigaming_app.ai.ppo.history import History, history_of
 from pigaming_app.ai.ppo.learner import LIMITS, Hyper, Learner, LearnerFigures, PolicyNetwork, advantages
 from pigaming_app.ai.ppo.population import SELF_EVERY, Pool, Population, restored
 from pigaming_app.ai.ppo.shard import LEARNING, PLAYED, Experience, Shard, ShardState
 from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
+from pigaming_app.ai.ppo.task_file import TrainingHistory, history_of
 from pigaming_app.ai.ppo.win_rates import DuelScore, win_rates
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.setup import ChoiceError
@@ -45,7 +45,7 @@ class Origin(NamedTuple):
 
     name: str
     layers: Layers
-    history: History = History()
+    history: TrainingHistory = TrainingHistory()
 
 
 def start_of(game: str, name: str) -> Origin:
@@ -55,7 +55,7 @@ def start_of(game: str, name: str) -> Origin:
     if not isinstance(layers, Layers):
         raise ChoiceError(f"{stem_of(name)} is not a network, which has weights to start from")
     try:
-        history = history_of(decode(read(file, MAX_BYTES), file.name), file.parent) if file else History()
+        history = history_of(decode(read(file, MAX_BYTES), file.name), file.parent) if file else TrainingHistory()
     except BrainFileError as error:
         raise ChoiceError(str(error)) from None
     return Origin(stem_of(name), layers, history)

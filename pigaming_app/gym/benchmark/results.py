@@ -18,7 +18,7 @@ from pigaming_app.ai.brain.archive import names
 from pigaming_app.ai.brain_files import is_path, stem_of
 from pigaming_app.ai.learning.league import wilson
 from pigaming_app.ai.networks import files as networks
-from pigaming_app.ai.ppo.history import history_of
+from pigaming_app.ai.ppo.task_file import history_of
 from pigaming_app.ai.qlearning import table_files as tables
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.engine_hash import engine_hash

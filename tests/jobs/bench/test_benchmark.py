@@ -43,7 +43,7 @@ def test_results_are_written_and_verified(tmp_path, capsys):
         (["pitanks-duel", "none.npz"], "none.npz: "),
         (["pitanks-duel", "level3", "--method", "a\nb"], "--method: one line of plain text"),
         (["pitanks-duel", "level3", "--out", "a.json"], "--method: one line of plain text"),
-        (["pitanks-duel", "level3", "level3", "--out", "/nowhere/a.json"], "/nowhere"),
+        (["pitanks-duel", "level3", "level3", "--method", "a", "--out", "/nowhere/a.json"], "/nowhere"),
         (["verify"], "verify: name one file"),
         (["verify", "none.json"], "none.json: "),
     ],
