@@ -4,6 +4,7 @@ A process reads a file once: a league never mixes two versions of it, and a rema
 """
 
 import os
+from dataclasses import replace
 from functools import cache
 from pathlib import Path, PureWindowsPath
 
@@ -37,6 +38,11 @@ def stem_of(name: str) -> str:
     return "".join(char if char.isprintable() else "?" for char in PureWindowsPath(name).stem) or "?"
 
 
+def bare_name(name: str) -> str:
+    """Name of a brain; of a path the file's, without folders."""
+    return PureWindowsPath(name).name if is_path(name) else name
+
+
 def read_brain(game: str, path: str) -> BrainKind:
     """The brain of a file, as it was when this process first read it. Raises BrainFileError."""
     try:
@@ -65,7 +71,7 @@ def _read(game: str, path: str) -> BrainKind:
     parts = names(raw)
     if parts == network_files.PARTS.keys():
         network = network_files.decode(raw, file.name)
-        played, kind = network.game, network_files.brain_of(network)
+        played, kind = network.game, replace(network_files.brain_of(network), file=file)
     elif parts == table_files.PARTS.keys():
         played, kind = TABLE_GAME, table_files.brain_of(table_files.decode(raw, file.name))
     else:

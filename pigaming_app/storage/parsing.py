@@ -91,6 +91,11 @@ def describe_error(error: Exception) -> str:
             return one_line(error.strerror or str(error))
 
 
+def name_of(path: Path) -> str:
+    """The name of a file for a message, also of `.`, which has none."""
+    return path.name or str(path)
+
+
 def quote(value: object) -> str:
     """The literal of a value for a message: one line, shortened."""
     return one_line(repr(value), QUOTE_LENGTH)

@@ -119,6 +119,7 @@ def _reason(message: str) -> str:
     text = re.sub(r"^Object missing required field `(.*)`$", r"\1 is missing", text, flags=re.DOTALL)
     text = re.sub(r"^Object contains unknown field `(.*)`$", r"\1 is not a key here", text, flags=re.DOTALL)
     text = re.sub(r"^Invalid (enum )?value (.*)$", r"\2 is not possible", text, flags=re.DOTALL)
+    text = text.replace(" | null`", "`")
     text = re.sub(r"`(\w+)`", lambda found: _NOUNS.get(found[1], found[1]), text)
     text = re.sub("^Expected", "expected", text)
     return f"{place}: {text}" if place else text

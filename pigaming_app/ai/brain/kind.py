@@ -7,6 +7,7 @@ large, so they live in a separate read-only record that all seats share and no m
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cache
+from pathlib import Path
 from typing import Any, Self
 
 from pigaming_app.ai.brain.driving import Controller, Driving, turn_and_drive
@@ -46,6 +47,7 @@ class BrainKind:
     - `explain`, with the arguments of `think`, returns the brain's present reasoning for display. Read-only. Those of
       our own brains are in `ai/explanations/`.
     - `plain`: it cannot be compiled; `weights` has the same row for both values of `fast`.
+    - `file`: that of its network, if it plays by one.
     """
 
     name: str
@@ -55,6 +57,7 @@ class BrainKind:
     weights: Callable[[bool], Any] = no_weights
     explain: Callable[[Any, int, Any, Any], Thoughts] | None = None
     plain: bool = False
+    file: Path | None = None
 
     def begin(self, mind: Any, seed: int) -> None:
         """Initialise a fresh mind: its generator `random`, if it has one, and what `reset` adds."""

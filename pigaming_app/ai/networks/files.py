@@ -5,7 +5,7 @@ the hash of the engine, and a handicap: a level is a network with a handicap.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -145,7 +145,8 @@ def shipped_brain(
     def policy() -> Policy:
         return policy_of(shipped(file, folder))
 
-    return network_brain(name, ENCODINGS[game], lambda fast: policy()(fast), Handicap(**handicap), units)
+    kind = network_brain(name, ENCODINGS[game], lambda fast: policy()(fast), Handicap(**handicap), units)
+    return replace(kind, file=folder / f"{file}.npz")
 
 
 def _trained(head: Mapping[str, Any], arrays: Mapping[str, Any]) -> TrainedNetwork:

@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from pigaming_app.ai.brain.archive import HEAD, BrainFileError, pack, read, unpack, verify
+from pigaming_app.ai.brain_files import bare_name
 from pigaming_app.ai.networks.encoding import UNIT
 from pigaming_app.ai.networks.files import MAX_BYTES, TrainedNetwork, TrainingCurve, decode
 from pigaming_app.ai.networks.policy import Handicap
 from pigaming_app.ai.ppo.task import Length
-from pigaming_app.ai.ppo.task_file import TaskFile, file_of, text_of
+from pigaming_app.ai.ppo.task_file import PPO, TaskFile, file_of, recipe_of, text_of, with_brains
 from pigaming_app.ai.ppo.training import POOL, Training, columns
 from pigaming_app.games.engine_hash import engine_hash
 
@@ -37,7 +38,8 @@ def trained_network(training: Training, name: str) -> TrainedNetwork:
 
 def recipe(training: Training) -> dict[str, Any]:
     """By what it was trained: the task file that makes the same network, and the one from which it was continued."""
-    return {"learner": "ppo", "start": training.start and training.start.name, "task": text_of(task_file(training))}
+    start = recipe_of(training.start.name, training.start.history) if training.start else {"start": None}
+    return {"learner": PPO, **start, "task": text_of(task_file(training))}
 
 
 def recorded_task(path: Path) -> str:
@@ -50,10 +52,10 @@ def recorded_task(path: Path) -> str:
 
 
 def task_file(training: Training) -> TaskFile:
-    """The task of a training as a file, with its seed and length."""
+    """The task of a training as a file, with its seed and length. Brains that are files lie beside it."""
     updates = training.planned if training.minutes is None else None
     length = Length(training.seed, updates=updates, minutes=training.minutes)
-    return file_of(replace(training.task, hyper=training.filed, length=length))
+    return with_brains(file_of(replace(training.task, hyper=training.filed, length=length)), bare_name)
 
 
 FORMAT = "pigaming-checkpoint-1"

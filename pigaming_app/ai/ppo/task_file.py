@@ -14,14 +14,17 @@ matches = 160
 """
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 from msgspec import Meta
 
+from pigaming_app.ai.brain.archive import BrainFileError, read
+from pigaming_app.ai.brain_files import is_path
+from pigaming_app.ai.networks.files import MAX_BYTES, TrainedNetwork, decode
 from pigaming_app.ai.networks.policy import HIDDEN, SIZES
 from pigaming_app.ai.ppo.learner import STANDARD, Hyper
 from pigaming_app.ai.ppo.task import EXPLOITER, LEARNER, LEARNERS, OFF, POOL, Length, LineUp, Task, no_habits
@@ -30,13 +33,15 @@ from pigaming_app.games.registry import games
 from pigaming_app.games.setup import ChoiceError, require_one_of
 from pigaming_app.sim.rng import SEEDS
 from pigaming_app.sim.world import ROBOTS
-from pigaming_app.storage.parsing import ParseError, describe_error, parse_toml, quote, read_text
+from pigaming_app.storage.parsing import ParseError, describe_error, name_of, parse_toml, quote, read_text
 from pigaming_app.storage.schema import Line, Share, between, one_of, typed
 
 SUFFIX = ".task.toml"
 TEAM = "team"  # critic
 UNIFORM, PRIORITISED = "uniform", "pfsp"  # how members of the pool are drawn
 MOST_SURPRISES, MOST_RIVALS = 1_000, 5  # each rival has columns in the curve of a network's file
+PPO = "ppo"  # the learner of networks that record their task; those of other libraries have none
+MOST_STARTS = 20  # networks in a row, each continued from the next
 HELD_BACK = 900_000_000  # arenas from this seed on are for measurements only
 
 Names = Annotated[tuple[Line, ...], Meta(min_length=1, max_length=1_000)]
@@ -72,7 +77,7 @@ class TaskFile:
     updates: Annotated[int, between(1, 1_000_000)] | None = None
     decisions: Annotated[int, between(1, 10**12)] | None = None
     minutes: Annotated[float, between(0.01, 10_000.0)] | None = None
-    units: Annotated[int, between(SIZES.start, SIZES[-1]), Meta(multiple_of=SIZES.step)] = HIDDEN
+    units: int = HIDDEN
     arenas: Names
     surprises: Annotated[int, between(0, MOST_SURPRISES)] = 0  # arenas made from seeds, for half of the matches
     variants: Names
@@ -91,6 +96,9 @@ class TaskFile:
     def __post_init__(self) -> None:
         if sum(length is not None for length in (self.updates, self.decisions, self.minutes)) > 1:
             raise ValueError("updates, decisions, minutes: one of them at most")
+        if self.units not in SIZES:
+            wanted = f"a multiple of {SIZES.step} from {SIZES.start} to {SIZES[-1]}"
+            raise ValueError(f"units: expected {wanted}, got {self.units}")
         if not any(LEARNER in line_up.seats for line_up in self.line_ups):
             raise ValueError(f"line_ups: nobody is {LEARNER}")
         others = [{*line_up.seats} - {OFF} for line_up in self.line_ups]
@@ -101,15 +109,17 @@ class TaskFile:
 def read_task(path: Path, code: Task, check: bool = True) -> Task:
     """The task of a game with the content of a file. Raises TaskFileError.
 
+    Brains that are files lie beside it unless it has their whole path.
     `check`: whether all that it names exists.
     """
     try:
-        task = with_file(code, parse_task_file(read_text(path)))
+        file = parse_task_file(read_text(path))
+        task = with_file(code, with_brains(file, lambda name: str(path.parent / name) if is_path(name) else name))
         if check:
             check_names(task)
         return task
     except (OSError, ParseError, ChoiceError) as error:
-        raise TaskFileError(f"{path.name}: {describe_error(error)}") from None
+        raise TaskFileError(f"{name_of(path)}: {describe_error(error)}") from None
 
 
 def parse_task_file(text: str) -> TaskFile:
@@ -167,6 +177,12 @@ def with_file(code: Task, file: TaskFile) -> Task:
         hyper=file.training,
         length=Length(file.seed, file.updates, file.decisions, file.minutes),
     )
+
+
+def with_brains(file: TaskFile, named: Callable[[str], str]) -> TaskFile:
+    """The same with another name of each brain."""
+    line_ups = tuple(replace(one, seats=tuple(map(named, one.seats))) for one in file.line_ups)
+    return replace(file, rivals=tuple(map(named, file.rivals)), line_ups=line_ups)
 
 
 def file_of(task: Task) -> TaskFile:
@@ -258,6 +274,44 @@ def _named(task: Task) -> Iterator[tuple[str, str, tuple[str, ...]]]:
         yield f"line_ups[{k}].variants", "variant", line_up.variants
         brains = tuple(name for name in line_up.seats if name not in (*LEARNERS, POOL, OFF))
         yield f"line_ups[{k}].seats", "brain", brains
+
+
+class TrainingHistory(NamedTuple):
+    """The trainings of a network as one, those of the networks that it was continued from included."""
+
+    decisions: int | None = None  # of its robots; None: not known
+    met: frozenset[str] = frozenset()  # AIs on the seats of its matches, as far as recorded
+    recorded: bool = False  # whether these are all
+
+
+def history_of(network: TrainedNetwork, folder: Path, deeper: int = MOST_STARTS) -> TrainingHistory:
+    """The history of a network. One that does not tell that of its start needs its file beside it, in `folder`."""
+    recipe = network.recipe
+    before = _before(recipe, folder, deeper) if recipe.get("start") else TrainingHistory(0, recorded=True)
+    decisions = None if before.decisions is None else before.decisions + network.decisions
+    try:
+        seats = {name for line_up in parse_task_file(str(recipe["task"])).line_ups for name in line_up.seats}
+    except (KeyError, ParseError):
+        return TrainingHistory(decisions, before.met, before.recorded and recipe.get("learner") != PPO)
+    return TrainingHistory(decisions, before.met | (seats - {*LEARNERS, POOL, OFF}), before.recorded)
+
+
+def recipe_of(start: str, history: TrainingHistory) -> dict[str, Any]:
+    """What a recipe tells of the network that was continued."""
+    decisions, met, recorded = history
+    return {"start": start, "start_decisions": decisions, "start_met": sorted(met), "start_recorded": recorded}
+
+
+def _before(recipe: Mapping[str, Any], folder: Path, deeper: int) -> TrainingHistory:
+    """The history of the network that was continued."""
+    match recipe:
+        case {"start_decisions": int(decisions), "start_met": list(met), "start_recorded": bool(recorded)}:
+            return TrainingHistory(max(0, decisions), frozenset(map(str, met)), recorded)
+    file = folder / f"{recipe['start']}.npz"
+    try:
+        return history_of(decode(read(file, MAX_BYTES), file.name), folder, deeper - 1) if deeper else TrainingHistory()
+    except BrainFileError:
+        return TrainingHistory()
 
 
 def _surprises(count: int) -> tuple[str, ...]:

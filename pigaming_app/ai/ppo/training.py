@@ -12,16 +12,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from pigaming_app.ai.brain.archive import BrainFileError, read
 from pigaming_app.ai.brain.kind import BrainKind
-from pigaming_app.ai.brain_files import stem_of
+from pigaming_app.ai.brain_files import bare_name, stem_of
 from pigaming_app.ai.learning.team_critic import team_views
 from pigaming_app.ai.networks.encoding import UNIT
+from pigaming_app.ai.networks.files import MAX_BYTES, decode
 from pigaming_app.ai.networks.layers import EXACT, Layers
 from pigaming_app.ai.networks.policy import Policy, network_brain, packed_layers
-from pigaming_app.ai.ppo.learner import Hyper, Learner, LearnerFigures, PolicyNetwork, advantages
+from pigaming_app.ai.ppo.learner import LIMITS, Hyper, Learner, LearnerFigures, PolicyNetwork, advantages
 from pigaming_app.ai.ppo.population import SELF_EVERY, Pool, Population, restored
 from pigaming_app.ai.ppo.shard import LEARNING, PLAYED, Experience, Shard, ShardState
 from pigaming_app.ai.ppo.task import LEARNER, SHARDS, LineUp, Task
+from pigaming_app.ai.ppo.task_file import TrainingHistory, history_of
 from pigaming_app.ai.ppo.win_rates import DuelScore, win_rates
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.setup import ChoiceError
@@ -42,14 +45,20 @@ class Origin(NamedTuple):
 
     name: str
     layers: Layers
+    history: TrainingHistory = TrainingHistory()
 
 
 def start_of(game: str, name: str) -> Origin:
     """The network of a brain's name, or of the path of a file. Raises ChoiceError."""
-    layers = find_brain(game, name).weights(False)[0]
+    kind = find_brain(game, name)
+    layers, file = kind.weights(False)[0], kind.file
     if not isinstance(layers, Layers):
         raise ChoiceError(f"{stem_of(name)} is not a network, which has weights to start from")
-    return Origin(stem_of(name), layers)
+    try:
+        history = history_of(decode(read(file, MAX_BYTES), file.name), file.parent) if file else TrainingHistory()
+    except BrainFileError as error:
+        raise ChoiceError(str(error)) from None
+    return Origin(stem_of(name), layers, history)
 
 
 class Training:
@@ -249,7 +258,7 @@ class Training:
 
 def columns(task: Task) -> tuple[str, ...]:
     """The numbers of a training's points."""
-    ends = (f"{rival}_{end}" for rival in task.rivals for end in DuelScore._fields)
+    ends = (f"{bare_name(rival)}_{end}" for rival in task.rivals for end in DuelScore._fields)
     return "updates", "decisions", "seconds", "entropy", *ends
 
 
@@ -279,9 +288,19 @@ def whole_layers(weights: Sequence[Any]) -> Layers:
 
 def dealt(task: Task, matches: int) -> list[list[LineUp]]:
     """The line-ups of every shard, each in proportion to its share. Raises ValueError for too few matches."""
+    hands = _hands(task, matches)
+    if not _all_learn(hands):
+        most = int(LIMITS["matches"][1])
+        least = next((more for more in range(matches, most) if _all_learn(_hands(task, more))), most)
+        raise ValueError(f"matches: {matches} are too few for these line-ups; possible are {least} to {most}")
+    return hands
+
+
+def _hands(task: Task, matches: int) -> list[list[LineUp]]:
     total = sum(line_up.share for line_up in task.line_ups)
     every = [line_up for line_up in task.line_ups for _ in range(round(matches * line_up.share / total))]
-    hands = [every[k::SHARDS] for k in range(SHARDS)]
-    if not all(any(LEARNER in line_up.seats for line_up in hand) for hand in hands):
-        raise ValueError(f"matches: {matches} are too few")
-    return hands
+    return [every[k::SHARDS] for k in range(SHARDS)]
+
+
+def _all_learn(hands: Sequence[Sequence[LineUp]]) -> bool:
+    return all(any(LEARNER in line_up.seats for line_up in hand) for hand in hands)

@@ -18,14 +18,14 @@ from pigaming_app.ai.brain.archive import names
 from pigaming_app.ai.brain_files import is_path, stem_of
 from pigaming_app.ai.learning.league import wilson
 from pigaming_app.ai.networks import files as networks
-from pigaming_app.ai.ppo.task_file import parse_task_file
+from pigaming_app.ai.ppo.task_file import history_of
 from pigaming_app.ai.qlearning import table_files as tables
 from pigaming_app.ai.registry import find_brain
 from pigaming_app.games.engine_hash import engine_hash
 from pigaming_app.games.setup import ChoiceError
 from pigaming_app.gym.benchmark.protocol import Digest, MatchCounts, evaluate, score_of
 from pigaming_app.gym.benchmark.tasks import BUDGETS, FORMAT, PARTNERS, RIVAL, RIVAL_DECISIONS, RIVAL_SEED, TASKS
-from pigaming_app.storage.parsing import ParseError, describe_error, quote, read_text
+from pigaming_app.storage.parsing import ParseError, describe_error, name_of, parse_json, quote, read_text
 from pigaming_app.storage.schema import Count, Line, Share, from_json, to_plain
 
 AUTHORS = ("seed", "decisions")  # theirs to fill in, for an agent whose file does not have them
@@ -81,15 +81,36 @@ def text_of(results: BenchmarkResults) -> str:
 def verify(path: Path, note: Note) -> BenchmarkResults:
     """Read results, play all their matches again, and compare every number. Raises ResultsError."""
     try:
-        results = from_json(read_text(path), BenchmarkResults, FORMAT)
+        results = _read(read_text(path))
         _compare({"engine": engine_hash()}, {"engine": results.engine}, "")
         for place, run in _placed(results):
             _compare(_identified(results.task, path.parent, run.agent), to_plain(run), place)
         for place, run in _placed(results):
             _compare(_evaluated(results.task, path.parent, run.agent, note), to_plain(run), place)
     except (OSError, ParseError, ResultsError) as error:
-        raise ResultsError(f"{path.name}: {describe_error(error)}") from None
+        raise ResultsError(f"{name_of(path)}: {describe_error(error)}") from None
     return results
+
+
+def _read(text: str) -> BenchmarkResults:
+    """The results in a file. Raises ParseError, or ResultsError for a key that there is not and for an empty method."""
+    results = from_json(text, BenchmarkResults, FORMAT)
+    _require_known(parse_json(text), {"format": FORMAT, **to_plain(results)})
+    if not results.method.strip():
+        raise ResultsError("method: it is empty; tell how the agents learned, in a few words")
+    return results
+
+
+def _require_known(told: Any, known: Any, place: str = "") -> None:
+    """Raises ResultsError for a key of the file that results do not have."""
+    if isinstance(known, dict):
+        for key, value in told.items():
+            if key not in known:
+                raise ResultsError(f"{place}{key} is not a key here; there are {', '.join(known)}")
+            _require_known(value, known[key], f"{place}{key}.")
+    elif isinstance(known, list | tuple):
+        for k, value in enumerate(told):
+            _require_known(value, known[k], f"{place.removesuffix('.')}[{k}].")
 
 
 def _placed(results: BenchmarkResults) -> Iterator[tuple[str, BenchmarkRun]]:
@@ -112,8 +133,13 @@ def _compare(found: Mapping[str, Any], claimed: Mapping[str, Any], place: str) -
             if extra := [name for name in told if name not in value]:
                 raise ResultsError(f"{place}{key}.{extra[0]}: nothing of that name is played")
             _compare(value, told, f"{place}{key}.")
-        elif told != value and not (value is None and key in AUTHORS):
+        elif told != value and not (value is None and key in AUTHORS) and not _is_more(key, told, value):
             raise ResultsError(f"{place}{key}: {quote(told)}, but it is {quote(value)}")
+
+
+def _is_more(key: str, told: Any, value: Any) -> bool:
+    """True for decisions of which the file does not know, such as those of a demonstrator."""
+    return key == "decisions" and isinstance(told, int) and told > value
 
 
 def _identified(task: str, folder: Path, agent: str) -> dict[str, Any]:
@@ -124,11 +150,9 @@ def _identified(task: str, folder: Path, agent: str) -> dict[str, Any]:
         find_brain(game, _brain(folder, agent))
         if is_path(agent):
             raw = (folder / agent).read_bytes()
-            found |= {"sha256": hashlib.sha256(raw).hexdigest(), **_training(task, raw, agent)}
+            found |= {"sha256": hashlib.sha256(raw).hexdigest(), **_training(task, raw, folder / agent)}
         if rival := _rival(task, folder, agent):
-            raw = Path(rival).read_bytes()
-            _check_rival(networks.decode(raw, Path(rival).name), agent)
-            found["rival"] = hashlib.sha256(raw).hexdigest()
+            found["rival"] = hashlib.sha256(_rival_file(Path(rival), agent)).hexdigest()
     except OSError as error:
         raise ResultsError(f"{Path(error.filename or agent).name}: {describe_error(error)}") from None
     except ValueError as error:
@@ -146,26 +170,40 @@ def _rival(task: str, folder: Path, agent: str) -> str:
     return str(folder / f"rival_{stem_of(agent)}.npz") if RIVAL in seats else ""
 
 
-def _training(task: str, raw: bytes, agent: str) -> dict[str, int]:
-    """Seed and length of a training, from a file that has them. Raises ValueError if it used what it must not."""
-    parts = names(raw)
+def _training(task: str, raw: bytes, path: Path) -> dict[str, int]:
+    """Seed and length of a training, from a file that has them, those of the networks that it continues included.
+
+    Raises ValueError if it used what it must not.
+    """
+    agent, parts = path.name, names(raw)
     if parts == tables.PARTS.keys():
         table = tables.decode(raw, agent)
         return {"seed": table.seed, "decisions": int(table.rows["experiences"][0])}
     if parts != networks.PARTS.keys():
         return {}
     network = networks.decode(raw, agent)
-    if isinstance(by := network.recipe.get("task"), str):
-        met = {name for line_up in parse_task_file(by).line_ups for name in line_up.seats}
-        if "partner" in task and (used := sorted(met & {*PARTNERS})):
-            raise ValueError(f"{agent}: it was trained with {used[0]}, whom this task holds back")
-    return {"seed": network.seed, "decisions": network.decisions}
+    decisions, met, recorded = history_of(network, path.parent)
+    if "partner" in task and (used := sorted(met & {*PARTNERS})):
+        raise ValueError(f"{agent}: it was trained with {used[0]}, whom this task holds back")
+    if "partner" in task and not recorded:
+        raise ValueError(f"{agent}: nothing records with whom it was trained, or the network that it continues")
+    if decisions is None:
+        start = network.recipe["start"]
+        raise ValueError(f"{agent}: it continues {start}, whose training is not known; {start}.npz belongs beside it")
+    return {"seed": network.seed, "decisions": decisions}
 
 
-def _check_rival(rival: networks.TrainedNetwork, agent: str) -> None:
-    """Raises ValueError unless a network says that it is the best response that the protocol asks for."""
+def _rival_file(path: Path, agent: str) -> bytes:
+    """The content of a rival's file. Raises ValueError unless it says that it is the one that the protocol asks for."""
+    command = f"train it by exploit {agent} --decisions {RIVAL_DECISIONS}"
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        raise ValueError(f"{path.name}: {describe_error(error)}; {command}") from None
+    rival = networks.decode(raw, path.name)
     if rival.seed != RIVAL_SEED or rival.decisions < RIVAL_DECISIONS:
-        raise ValueError(f"{rival.name}.npz: train it by exploit {agent} --decisions {RIVAL_DECISIONS}")
+        raise ValueError(f"{path.name}: {command}")
+    return raw
 
 
 def _evaluated(task: str, folder: Path, agent: str, note: Note) -> dict[str, Any]:

@@ -33,7 +33,7 @@ def evaluate(task: str, agents: Sequence[str], method: str, out: Path | None, as
     folder = out.absolute().parent if out else next(iter(folders), Path.cwd())
     if folders - {folder}:
         raise Refusal(f"{task}: agents lie in one folder, and their results beside them")
-    if not is_line(method):
+    if not is_line(method) or (out and not method.strip()):
         raise Refusal("--method: one line of plain text is needed")
     require_for_brains(agents)
     with refused(ResultsError, NotSaved):

@@ -12,10 +12,10 @@ RECIPE: dict[str, Values] = {"rate": 1e-3, "opponents": ["hand1", "hand2"], "ann
 CURVE = TrainingCurve(("updates", "wins"), ((1.0, 0.5), (2.0, 0.75)))
 
 
-def random_network(seed=1, game="pitanks", name="mine", units=HIDDEN, **more):
+def random_network(seed=1, game="pitanks", name="mine", units=HIDDEN, recipe=RECIPE, **more):
     """A network whose hidden units are neither dead nor saturated."""
     rng, encoding = np.random.default_rng(seed), ENCODINGS[game]
     sizes = encoding.size, units, units, encoding.outputs
     matrices = [(rng.normal(size=(n, m)) * 300 / np.sqrt(n)).round().astype("<i2") for n, m in pairwise(sizes)]
     biases = [(rng.normal(size=m) * 20).round().astype("<i2") for m in sizes[1:]]
-    return TrainedNetwork(name, game, matrices, biases, RECIPE, seed, 20, 1000, CURVE, **more)
+    return TrainedNetwork(name, game, matrices, biases, recipe, seed, 20, 1000, CURVE, **more)

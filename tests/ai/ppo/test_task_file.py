@@ -105,17 +105,21 @@ def trained(training, updates=2):
     return training
 
 
-@pytest.mark.parametrize("kind", ["fresh", "population", "wider"])
+@pytest.mark.parametrize("kind", ["fresh", "population", "wider", "rival"])
 def test_the_file_in_a_network_makes_the_same_bits_again(kind, tmp_path, monkeypatch):
     play_plain(monkeypatch)
     task, start = TASK, None if kind == "fresh" else start_of("pitanks", "net")
     if kind == "population":
         task = TASK.populated()
+    if kind == "rival":
+        (tmp_path / "net.npz").write_bytes((BRAINS / "champion.npz").read_bytes())
+        task = TASK.against(str(tmp_path / "net.npz"), "party")
     task = replace(task, hyper=replace(TINY, held=1, rate=0.05), units=72 if kind == "wider" else 64)
     first = trained(Training(task, 5, 2, start=start))
     network = trained_network(first, "mine")
     write_atomic(tmp_path / "mine.npz", encode(network))
     write_atomic(tmp_path / "mine.task.toml", recorded_task(tmp_path / "mine.npz").encode())
+    assert str(tmp_path) not in str(network), "no folder of this machine"
     again = read_task(tmp_path / "mine.task.toml", TASKS["pitanks"])
     assert again.length.updates == 2
     second = trained(Training(again, again.length.seed, again.length.updates, start=start))
@@ -156,7 +160,9 @@ RACE = (BRAINS / "race.task.toml").read_text(encoding="utf-8")
         ("cut = 0.03", "cut = nan", "cut: expected a number"),
         ("updates = 2000", "updates = 2000\nminutes = 1.0", "updates, decisions, minutes: one of them at most"),
         ("updates = 2000", "updates = 0", "updates: expected a whole number >= 1"),
-        ("units = 64", "units = 60", "units: expected a whole number that's a multiple of 8"),
+        ("units = 64", "units = 60", "units: expected a multiple of 8 from 8 to 128, got 60"),
+        ("units = 64", "units = 136", "units: expected a multiple of 8 from 8 to 128, got 136"),
+        ("updates = 2000", 'updates = "many"', "updates: expected a whole number, got a text"),
         ('pool = "uniform"', 'pool = "some"', "pool: expected one of uniform, pfsp"),
         ('pool = "uniform"', 'pool = "pfsp"', "pool: pfsp needs line-ups of learner and exploiter"),
         ("trace = 0.9", "lambda = 0.9", "training.lambda is not a key here; there are matches, decisions, epochs"),

@@ -232,5 +232,6 @@ def test_the_interval_is_where_the_share_is_two_standard_deviations_off(score):
 
 
 def test_too_few_matches_are_refused():
-    with pytest.raises(ValueError, match="too few"):
+    """Four kinds of equal shares, each with a learner, for four shards: one each from 3 on, rounded halves to even."""
+    with pytest.raises(ValueError, match="matches: 2 are too few for these line-ups; possible are 3 to 10000"):
         Training(TASK, 1, 1, type(TINY)(matches=2))

@@ -3,17 +3,20 @@
 import json
 import random
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from pigaming_app.ai.learning.league import wilson
-from pigaming_app.ai.networks.files import encode
+from pigaming_app.ai.networks.files import BRAINS, encode
+from pigaming_app.ai.ppo.training import start_of
 from pigaming_app.gym.benchmark import results
 from pigaming_app.gym.benchmark.protocol import MatchCounts
 from pigaming_app.gym.benchmark.results import ResultsError, by_budget, measured, text_of, verify
 from pigaming_app.gym.benchmark.tasks import RIVAL_DECISIONS
 from tests.ai.networks.random_network import random_network
 
+DOCS = Path(__file__).resolve().parents[3] / "docs"
 FREE = {"method", "version"}  # texts that no match decides
 
 
@@ -98,7 +101,8 @@ def test_no_random_change_passes(played, tries):
             del node[last]
         else:
             content["runs"].append(dice.choice(content["runs"]))
-        if content == original or (last == "rival" and "rival" not in node):
+        more = last == "decisions" and isinstance(node.get(last), int) and node[last] > 1000  # permitted
+        if content == original or (last == "rival" and "rival" not in node) or more:
             continue
         path.write_text(json.dumps(content))
         with pytest.raises(ResultsError, match=r"^results.json: [^\n]+\Z"):
@@ -120,6 +124,39 @@ def test_a_refusal_names_the_place(played):
         verify(path, print)
 
 
+@pytest.mark.parametrize(
+    ("place", "refusal"),
+    [
+        ((), "extra is not a key here; there are format, task, method, version, engine, runs"),
+        (("runs", 1), r"runs\[1\].extra is not a key here; there are agent, sha256"),
+        (("runs", 0, "conditions", "level2"), r"runs\[0\].conditions.level2.extra is not a key here; there are wins"),
+    ],
+)
+def test_a_key_that_there_is_not_is_refused(played, place, refusal):
+    path, content = filed(played)
+    node = content
+    for key in place:
+        node = node[key]
+    node["extra"] = 3
+    path.write_text(json.dumps(content))
+    with pytest.raises(ResultsError, match=rf"^results.json: {refusal}"):
+        verify(path, print)
+
+
+@pytest.mark.parametrize("method", ["", "  "])
+def test_a_method_has_words(played, method):
+    path, content = filed(played)
+    path.write_text(json.dumps({**content, "method": method}))
+    with pytest.raises(ResultsError, match=r"^results.json: method: it is empty"):
+        verify(path, print)
+
+
+def test_a_folder_without_a_name_is_named_as_it_was_given(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ResultsError, match=r"^\.: "):
+        verify(Path("."), print)
+
+
 def test_another_engine_is_refused_before_anything_is_played(played, monkeypatch):
     path, _ = filed(played)
     monkeypatch.setattr(results, "engine_hash", lambda *_: "f" * 64)
@@ -139,7 +176,9 @@ def test_another_network_is_refused(played):
 
 
 def test_a_rival_is_the_one_that_the_protocol_asks_for(played):
-    with pytest.raises(ResultsError, match=r"rival_one.npz: No such file"):
+    with pytest.raises(
+        ResultsError, match=r"rival_one.npz: No such file.+; train it by exploit one\.npz --decisions 1000000\Z"
+    ):
         filed(played, "pitanks-exploit", ["one.npz"])
     write(played, "rival_one", random_network(1, name="rival_one"))
     with pytest.raises(ResultsError, match=r"train it by exploit one\.npz --decisions 1000000"):
@@ -164,6 +203,61 @@ def test_whom_a_network_trained_with_is_no_unknown_partner(played):
     filed(played, "pitanks-duel", ["one.npz"])
     with pytest.raises(ResultsError, match=r"one.npz: it was trained with classic, whom this task holds back"):
         filed(played, "pitanks-partner", ["one.npz"])
+
+
+def test_a_network_counts_the_decisions_and_partners_of_those_that_it_continues(played):
+    """1000 decisions each. The start of an older file lies beside it; a newer one has both in its recipe."""
+    task, fair = (BRAINS / "champion.task.toml").read_text(), (DOCS / "benchmark/ppo.task.toml").read_text()
+    old = {"learner": "ppo", "start": "first", "task": fair}
+    write(played, "one", random_network(1, name="one", recipe=old))
+    with pytest.raises(ResultsError, match=r"one.npz: it continues first, whose .+; first.npz belongs beside it\Z"):
+        filed(played, agents=["one.npz"])
+    write(played, "first", random_network(3, recipe={"learner": "ppo", "start": None, "task": task}))
+    assert filed(played, agents=["one.npz"])[1]["runs"][0]["decisions"] == 2000
+    with pytest.raises(ResultsError, match=r"one.npz: it was trained with classic, whom"):
+        filed(played, "pitanks-partner", ["one.npz"])
+    new = {**old, "start_decisions": 5, "start_met": ["q2"], "start_recorded": True}
+    write(played, "one", random_network(1, name="one", recipe=new))
+    assert filed(played, agents=["one.npz"])[1]["runs"][0]["decisions"] == 1005
+    with pytest.raises(ResultsError, match=r"one.npz: it was trained with q2, whom"):
+        filed(played, "pitanks-partner", ["one.npz"])
+    write(played, "one", random_network(1, name="one", recipe={**new, "start_met": ["level1"]}))
+    filed(played, "pitanks-partner", ["one.npz"])
+
+
+@pytest.mark.parametrize("unknown", [{"task": None}, {"start_recorded": False}])
+def test_a_network_of_which_nothing_records_whom_it_met_plays_with_no_unknown_partner(played, unknown):
+    """Those of other libraries cannot, and it is their author's word."""
+    known = {"learner": "ppo", "start": "x", "start_decisions": 5, "start_met": [], "start_recorded": True}
+    known["task"] = (DOCS / "benchmark/ppo.task.toml").read_text()
+    recipe = {**known, **unknown}
+    write(played, "one", random_network(1, name="one", recipe=recipe))
+    filed(played, agents=["one.npz"])
+    with pytest.raises(ResultsError, match=r"one.npz: nothing records with whom it was trained"):
+        filed(played, "pitanks-partner", ["one.npz"])
+    write(played, "one", random_network(1, name="one", recipe=known))
+    filed(played, "pitanks-partner", ["one.npz"])
+    write(played, "one", random_network(1, name="one", recipe={"learner": "sb3"}))
+    filed(played, "pitanks-partner", ["one.npz"])
+
+
+def test_an_author_may_know_of_more_decisions_than_the_file_but_not_of_fewer(played):
+    path, content = filed(played)
+    for decisions, good in ((1001, True), (999, False)):
+        content["runs"][0]["decisions"] = decisions
+        path.write_text(json.dumps(content))
+        if good:
+            assert verify(path, print).runs[0].decisions == decisions
+            continue
+        with pytest.raises(ResultsError, match=r"runs\[0\].decisions: 999, but it is 1000\Z"):
+            verify(path, print)
+
+
+def test_the_network_of_a_name_has_its_history_too():
+    """Of the files of the arcade: 155,344,502 decisions on top of 77,334,103, of which nobody recorded the partners."""
+    history = start_of("pitanks", "net").history
+    assert (history.decisions, history.recorded) == (155_344_502 + 77_334_103, False)
+    assert history.met >= {"hand3", "classic", "q1", "q2", "idle"}
 
 
 def test_an_ai_of_the_program_needs_no_file(played):

@@ -6,13 +6,15 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from pigaming_app.ai.networks.files import BRAINS, decode
+from pigaming_app.ai.ppo.learner import Hyper
 from pigaming_app.ai.ppo.registry import TASKS
-from pigaming_app.ai.ppo.task_file import parse_task_file
+from pigaming_app.ai.ppo.task_file import file_of, parse_task_file, text_of
 from pigaming_app.ai.ppo.training import Training
 from pigaming_app.jobs.cli import main
 from tests.ai.ppo.plain import SET, play_plain
@@ -165,6 +167,8 @@ def test_a_full_disk_leaves_the_network_and_the_checkpoint_before(tmp_path, caps
         (["--workers", "2"], "only with --ray"),
         (["--task", "none.toml"], "none.toml: "),
         (["--task", "wrong.toml"], "wrong.toml: speed is not a key here"),
+        (["--task", "few.toml"], "few.toml: training.matches: 2 are too few for these line-ups; possible are "),
+        (["--task", "."], ".: it is not a file"),
         (["--from", "nobody"], "no brain 'nobody'"),
         (["--from", "hand3"], "hand3 is not a network"),
         (["--from", str(BRAINS / "race.npz")], "race.npz: it plays race, not pitanks"),
@@ -179,6 +183,7 @@ def test_a_wrong_option_is_one_line_and_exit_code_2(tmp_path, refused, monkeypat
     monkeypatch.chdir(tmp_path)
     Path("foreign.checkpoint.npz").write_text("text")
     Path("wrong.toml").write_text("speed = 1")
+    Path("few.toml").write_text(text_of(file_of(replace(TASKS["pitanks"], hyper=Hyper(matches=2)))))
     length = [] if "--minutes" in more and "nan" in more else ["--updates", "1"]
     assert word in refused("train", "ppo", *length, "--out", "a.npz", *more)
     assert not (tmp_path / "a.npz").exists()

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from pigaming_app.ai.brain.archive import read
 from pigaming_app.ai.learning.ratings import Rating, ratings
-from pigaming_app.ai.networks.files import MAX_BYTES, brain_of, decode, encode
+from pigaming_app.ai.networks.files import MAX_BYTES, TrainedNetwork, brain_of, decode, encode
 from pigaming_app.ai.ppo.product import trained_network
 from pigaming_app.ai.ppo.training import Training
 from pigaming_app.ai.ppo.win_rates import SEED, points_between
@@ -35,33 +35,42 @@ class FrozenCopies:
     """The copies of a training, in a folder."""
 
     def __init__(self, training: Training, folder: Path, name: str) -> None:
-        """Continues with those of the same name that are not newer than the training. Raises NotSaved."""
+        """Continues with those of the same name that are not newer than the training.
+
+        Raises NotSaved or BrainFileError.
+        """
         self._training, self._folder, self._name = training, folder, name
         try:
             folder.mkdir(parents=True, exist_ok=True)
             there = sorted(folder.glob(f"{name}_{'[0-9]' * 7}.npz")) if training.updates else []
         except OSError as error:
             raise NotSaved(f"{folder} was not made: {describe_error(error)}.") from None
-        self._files = [file for file in there if int(file.stem[-7:]) <= training.updates]
-        self._done = self._tenths() if self._files else -1
+        files = [file for file in there if int(file.stem[-7:]) <= training.updates]
+        networks = [decode(read(file, MAX_BYTES), file.name) for file in files]
+        self._networks = {network.updates: network for network in networks}
+        self._done = self._tenths() if self._networks else -1
         self._points: dict[tuple[int, int], list[tuple[float, float]]] = {}
 
     def add(self) -> bool:
         """Write a copy if one is due; returns whether it was. Raises NotSaved."""
         if self._tenths() <= self._done:
             return False
+        copy = self._present()
+        write_atomic(self._folder / f"{copy.name}.npz", encode(copy))
         self._done = self._tenths()
-        name = f"{self._name}_{self._training.updates:07}"
-        file = self._folder / f"{name}.npz"
-        write_atomic(file, encode(trained_network(self._training, name)))
-        self._files = [*(other for other in self._files if other != file), file]
+        self._networks[copy.updates] = copy
         return True
 
     def rated(self, threads: Executor) -> list[RatedCopy]:
-        """All copies with their ratings, the oldest first. Plays the pairs that have not met. Raises BrainFileError."""
-        if len(self._files) < 2:
+        """All copies with their ratings, the oldest first; the result of the training is one, written or not.
+
+        Plays the pairs that have not met.
+        """
+        if self._training.finished:
+            self._networks.setdefault(self._training.updates, self._present())
+        networks = list(self._networks.values())
+        if len(networks) < 2:
             return []
-        networks = [decode(read(file, MAX_BYTES), file.name) for file in self._files]
         rows, shares = [brain_of(network).weights(True) for network in networks], {}
         for one, other in combinations(range(len(rows)), 2):
             pair = networks[one].updates, networks[other].updates
@@ -73,9 +82,11 @@ class FrozenCopies:
         return [RatedCopy(network.updates, network.decisions, rating) for network, rating in rated]
 
     def copied(self, chosen: RatedCopy, out: Path) -> None:
-        """Write a copy as the result of the training. Raises BrainFileError, NotSaved."""
-        file = self._folder / f"{self._name}_{chosen.updates:07}.npz"
-        write_atomic(out, encode(replace(decode(read(file, MAX_BYTES), file.name), name=out.stem)))
+        """Write a copy as the result of the training. Raises NotSaved."""
+        write_atomic(out, encode(replace(self._networks[chosen.updates], name=out.stem)))
+
+    def _present(self) -> TrainedNetwork:
+        return trained_network(self._training, f"{self._name}_{self._training.updates:07}")
 
     def _tenths(self) -> int:
         return int(COPIES * min(1.0, self._training.share) + 1e-9)

@@ -54,8 +54,8 @@ def train_and_save(options: PpoOptions, beside: Path) -> int:
     """Train, save and print the result; 130 after Ctrl-C. `beside`: the checkpoint. Raises Refusal or NotSaved."""
     with refused(ChoiceError, BrainFileError):
         training = _begin(options, beside)
+        copies = FrozenCopies(training, options.copies, options.out.stem) if options.copies else None
     events = TensorboardFile(options.tensorboard, training.updates) if options.tensorboard else None
-    copies = FrozenCopies(training, options.copies, options.out.stem) if options.copies else None
     if copies:
         copies.add()
     if not is_compiled(training.task):
@@ -99,7 +99,8 @@ def _begin(options: PpoOptions, beside: Path) -> Training:
         task = replace(task, hyper=changed(task.hyper, options.set))
         training = Training(task, length.seed, length.updates or 0, None, length.minutes, start)
     except ValueError as wrong:
-        raise Refusal(f"--set: {wrong}" if options.set else str(wrong)) from None
+        place = "--set: " if options.set else f"{options.task.name}: training." if options.task else ""
+        raise Refusal(f"{place}{wrong}") from None
     if length.decisions is not None:
         training.planned = -(-length.decisions // training.decisions_of_update)
     if options.resume:
@@ -183,25 +184,35 @@ def _train(
         if measured:
             scores = training.measure(measures.matches, threads)
         show(_line(training, scores), milestone=measured)
-        try:
-            follow()
-            if monotonic() - saved > SAVED_EVERY:
-                saved = monotonic()
+        follow()
+        if monotonic() - saved > SAVED_EVERY:
+            saved = monotonic()
+            with _saved_later():
                 save()
-        except NotSaved as error:  # there may be room later
-            end_line()
-            note(str(error))
     end_line()
+
+
+@contextmanager
+def _saved_later() -> Iterator[None]:
+    """Tells that a file was not written, and goes on: there may be room later."""
+    try:
+        yield
+    except NotSaved as error:
+        end_line()
+        note(str(error))
 
 
 def _follow(
     table: TrainingTable, events: TensorboardFile | None, copies: FrozenCopies | None, threads: Executor
 ) -> None:
-    """Tell of an update, freeze a copy and rate it. Raises NotSaved."""
+    """Tell of an update, freeze a copy and rate it."""
     if events:
-        events.add(table.training.updates, table.numbers())
-    if copies and copies.add():
-        table.copies = copies.rated(threads)
+        with _saved_later():
+            events.add(table.training.updates, table.numbers())
+    if copies:
+        with _saved_later():
+            if copies.add():
+                table.copies = copies.rated(threads)
 
 
 def _save(table: TrainingTable, sync: Callable[[], None], options: PpoOptions, beside: Path) -> None:
