@@ -107,7 +107,7 @@ ELSEWHERE = (
     Elsewhere(r".* --ray .*|ray start .*|.*ray_speedup", "it needs Ray", "tests/ai/ppo/test_ray_workers.py"),
     Elsewhere(r"python3 main\.py kiosk pin", "a PIN is typed", "tests/jobs/kiosk/test_pin.py"),
     Elsewhere(r".*--radio udp\b.*", "boards run MicroPython", "tests/hardware/emulator/test_boards.py"),
-    Elsewhere(r".*robots check udp\b.*", "boards run MicroPython", "tests/hardware/proof/test_conformance.py"),
+    Elsewhere(r".*robots check udp\b.*", "boards run MicroPython", "tests/hardware/drivers/test_conformance.py"),
     Elsewhere(r".*(games on|robots check) lines", "a plug-in is copied first", "tests/storage/plugins/test_drivers.py"),
     Elsewhere(r".*robots --radio-setup .*", "a radio on a cable", "tests/jobs/mat/test_robots.py"),
     Elsewhere(

@@ -33,7 +33,7 @@ TURNED = 1.75  # rad between robot and course above which a person is turning ro
 
 
 @record
-class Sight:
+class CourseAhead:
     """What the help looks at in a tick; nothing of it lasts."""
 
     here: CoursePosition
@@ -43,13 +43,13 @@ class Sight:
 
 def helped_stick(match: Race, seat: int, linear: float, angular: float) -> tuple[float, float]:
     """The stick of `seat`, both axes in [-1, 1], after the help in this tick. Reads the match only."""
-    return steer(match, seat, linear, angular, Sight())
+    return steer(match, seat, linear, angular, CourseAhead())
 
 
 @kernel
-def steer(match: Race, seat: int, linear: float, angular: float, sight: Sight) -> tuple[float, float]:
+def steer(match: Race, seat: int, linear: float, angular: float, course: CourseAhead) -> tuple[float, float]:
     """The same as a kernel, with a record to look with."""
-    robot, racer, place, soon = match.robots[seat], match.racers[seat], sight.here, sight.soon
+    robot, racer, place, soon = match.robots[seat], match.racers[seat], course.here, course.soon
     if racer.missed or racer.finished:
         return linear, angular
     locate(match.course, robot.x, robot.y, place)
@@ -60,7 +60,7 @@ def steer(match: Race, seat: int, linear: float, angular: float, sight: Sight) -
         linear = back * linear if linear < 0.0 else ROLL * abs(angular)
     if linear <= 0.0 or off > TURNED:
         return linear, angular
-    ideal_linear, ideal_angular = _stick_to_line(match, seat, place, sight.mark)
+    ideal_linear, ideal_angular = _stick_to_line(match, seat, place, course.mark)
     locate(
         match.course,
         robot.x + SOON * robot.linear * cos(robot.heading),
@@ -107,4 +107,4 @@ def _stick_to_line(match: Race, seat: int, place: CoursePosition, mark: TrackPoi
     return ahead, max(-1.0, min(1.0, bend * ahead * full / rules.turn_rate))
 
 
-HELP = SteeringHelp(Sight, steer)
+HELP = SteeringHelp(CourseAhead, steer)
