@@ -285,6 +285,7 @@ def overlap_of_walls(football):
     return max(wall.half + BALL - from_wall(wall, football.ball.x, football.ball.y) for wall in walls)
 
 
+@pytest.mark.again
 @pytest.mark.long
 def test_both_bodies_move_any_ball_alike():
     chance, every = Random(3), list[Football]()

@@ -101,6 +101,7 @@ def test_robots_lie_between_the_measured_ones_and_follow_from_the_seed(tmp_path)
         assert not np.array_equal(found, other.step(action)[0])
 
 
+@pytest.mark.again
 @pytest.mark.long
 def test_both_bodies_have_the_same_robots(tmp_path):
     options = {"agents": 2, "opponents": ("random",), "arena": "all"}  # compiled once, with test_environments.py

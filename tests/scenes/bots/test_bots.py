@@ -135,6 +135,7 @@ def test_matches_wait_once_for_a_bot_that_is_gone_and_for_its_return(
     match = match_of("race", ["bot:ada", "idle"])
     run(match, 5)
     program.leave()
+    until(lambda: not brains.line_of("ada").connected)
     began = time.monotonic()
     for _ in range(20):
         run(match, 1)
