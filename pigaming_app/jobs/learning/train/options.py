@@ -89,7 +89,7 @@ class PpoOptions(OutputOptions, JsonOption, GameOption):
     updates: int | None = option(
         "length; the same seed gives the same network", integer(high=1_000_000), metavar="NUMBER"
     )
-    decisions: int | None = option("length, in decisions of the network", integer(high=10**12), metavar="NUMBER")
+    decisions: int | None = option("length, in decisions, approximately", integer(high=10**12), metavar="NUMBER")
     minutes: float | None = option("length; default: that of the task file", decimal(0.01, 10_000.0), metavar="NUMBER")
     base: str | None = option("network to continue, a name or a file", name=("--from",), metavar="AI")
     population: bool = flag("against exploiters that start from its present weights, and members of a pool that win")
